@@ -6,8 +6,9 @@
 #include <map>
 #include <string>
 
-#include "compile/find_printer.h"
-#include "compile/load.h"
+#include "jobs/slice/plan.h"
+#include "load/find_printer.h"
+#include "load/load.h"
 #include "voxel/layers.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "import/result_source.h"
+#include "import/fields/result_source.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "base/stopwatch.h"
-#include "solids/evaluate.h"
+#include "base/system/stopwatch.h"
+#include "solids/evaluate_tree.h"
 #include "solids/kernel.h"
 
 namespace {

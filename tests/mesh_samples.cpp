@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "export/mesh_file.h"
+#include "formats/packages/package_writers.h"
 
 namespace {
 

@@ -126,7 +126,7 @@ def check_all_used():
     sources = "".join(p.read_text(encoding="utf-8") for top in ("src", "apps/ombre", "bindings/python/core")
                       for p in (program.SOURCE / top).rglob("*") if p.suffix in (".h", ".cpp") and p.stem != "code"
                       and "_test" not in p.name)
-    names = [line.strip(" ,") for line in (program.SOURCE / "src/base/code.h").read_text().split("{")[2].split("}")[0]
+    names = [line.strip(" ,") for line in (program.SOURCE / "src/base/text/code.h").read_text().split("{")[2].split("}")[0]
              .splitlines() if line.strip()]
     unused = [name for name in names if f"Code::{name}" not in sources]
     assert not unused, f"codes that nothing has: {', '.join(unused)}"
@@ -135,8 +135,8 @@ def check_all_used():
 GENERAL = {"machine", "design"}
 # What the operating system refuses without a reason that a program could act on.
 MACHINES = {
-    "apps/studio/guard.cpp", "src/base/point_sets.cpp", "src/base/temporary_folder.cpp", "src/compile/stage_input.cpp",
-    "src/import/closest_point.cpp", "src/lang/openscad/run.cpp", "src/render/ray_cast.cpp",
+    "apps/studio/workspace/guard.cpp", "src/base/math/point_sets.cpp", "src/base/system/temporary_folder.cpp", "src/stages/stage_input.cpp",
+    "src/import/surfaces/closest_point.cpp", "src/lang/openscad/run_script.cpp", "src/render/ray_cast.cpp",
 }
 
 

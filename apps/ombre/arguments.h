@@ -1,7 +1,7 @@
 // Values of options, by the names that commands have for them.
 #pragma once
 
-#include "options/values.h"
+#include "options/option_values.h"
 
 namespace ombre::cli {
 

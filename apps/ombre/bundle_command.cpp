@@ -2,14 +2,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/file_ending.h"
-#include "base/text.h"
-#include "compile/bundle.h"
-#include "compile/bundle_choices.h"
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
+#include "jobs/check/bundle_choices.h"
+#include "load/bundle.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/interrupt.h"
-#include "ombre/options.h"
 #include "ombre/overwrite.h"
 
 namespace ombre::cli {

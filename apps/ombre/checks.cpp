@@ -1,6 +1,6 @@
 #include "ombre/checks.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace ombre::cli {
 

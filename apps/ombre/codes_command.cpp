@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/code.h"
+#include "base/text/code.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 

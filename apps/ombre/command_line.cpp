@@ -9,8 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.h"
-#include "compile/load.h"
+#include "base/text/error.h"
 #include "ombre/commands.h"
 #include "ombre/completion.h"
 #include "ombre/interrupt.h"

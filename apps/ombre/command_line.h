@@ -1,7 +1,7 @@
 // The command line: commands, and what happens when one of them fails.
 #pragma once
 
-#include "base/data.h"
+#include "base/text/data.h"
 #include "ombre/exit_codes.h"
 #include "ombre/host.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "ombre/arguments.h"
 #include "ombre/commands.h"
 #include "ombre/progress_line.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "ombre/console.h"
 #include "ombre/exit_codes.h"
 #include "ombre/host.h"

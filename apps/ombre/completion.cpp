@@ -1,9 +1,9 @@
 #include "ombre/completion.h"
 
-#include "base/error.h"
-#include "base/text.h"
-#include "compile/find_printer.h"
-#include "compile/node_registry.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "load/find_printer.h"
+#include "load/node_registry.h"
 
 namespace ombre::cli {
 namespace {

@@ -1,7 +1,7 @@
 // ombre completion: scripts for shells, which complete commands, options and their values by them.
 #include <memory>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "ombre/checks.h"
 #include "ombre/commands.h"
 #include "ombre/completion.h"

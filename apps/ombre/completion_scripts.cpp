@@ -1,7 +1,7 @@
 // The shells' side of completion: each hands the words typed so far to `ombre completion words`.
 #include <map>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "ombre/completion.h"
 
 namespace ombre::cli {

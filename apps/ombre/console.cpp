@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "base/error.h"
-#include "base/json.h"
+#include "base/text/error.h"
+#include "base/text/json.h"
 #include "ombre/host.h"
 
 namespace ombre::cli {

@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "base/data.h"
-#include "base/diagnostic.h"
-#include "base/progress.h"
+#include "base/system/progress.h"
+#include "base/text/data.h"
+#include "base/text/diagnostic.h"
 
 namespace ombre::cli {
 

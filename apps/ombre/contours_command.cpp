@@ -2,16 +2,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/error.h"
-#include "base/stopwatch.h"
-#include "base/text.h"
-#include "compile/region_choices.h"
+#include "base/system/stopwatch.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
 #include "export/outline_files.h"
+#include "jobs/outline/contour_choices.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
 #include "ombre/job_steps.h"
-#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
 #include "ombre/slice_report.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/file_ending.h"
+#include "base/text/file_ending.h"
 #include "ombre/fea_rounds.h"
 #include "ombre/overwrite.h"
 

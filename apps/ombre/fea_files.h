@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "compile/fea_choices.h"
+#include "jobs/fea/fea_choices.h"
 
 namespace ombre::cli {
 

@@ -1,10 +1,10 @@
 #include "ombre/fea_repeat.h"
 
-#include "base/json.h"
-#include "base/text.h"
-#include "compile/build.h"
-#include "compile/homogenise_job.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "jobs/homogenise/homogenise_job.h"
 #include "ombre/job_arguments.h"
+#include "questions/build.h"
 
 namespace ombre::cli {
 

@@ -1,8 +1,9 @@
 // Cells that repeat, for ombre fea.
 #pragma once
 
-#include "compile/fea_choices.h"
-#include "fea/study.h"
+#include "fea/model/study.h"
+#include "jobs/fea/fea_choices.h"
+#include "load/loaded.h"
 #include "ombre/fea_report.h"
 
 namespace ombre::cli {

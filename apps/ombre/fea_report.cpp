@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "base/json.h"
-#include "base/point_text.h"
-#include "base/text.h"
-#include "fea/mesh_elastic.h"
-#include "fea/node_matrix.h"
+#include "base/math/point_text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "fea/solve/mesh_elastic.h"
+#include "fea/solve/node_matrix.h"
 
 namespace ombre::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <variant>
 
-#include "compile/fea_choices.h"
+#include "jobs/fea/fea_choices.h"
 #include "ombre/command_line.h"
 #include "ombre/console.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/text.h"
-#include "compile/fea_sections.h"
+#include "base/text/text.h"
+#include "jobs/fea/fea_sections.h"
 
 namespace ombre::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "compile/fea_job.h"
+#include "jobs/fea/fea_job.h"
 
 namespace ombre::cli {
 

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
 #include "ombre/slice_report.h"
 
 namespace ombre::cli {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "base/phrase.h"
+#include "base/text/phrase.h"
 
 namespace ombre::cli {
 

@@ -5,8 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "base/data.h"
-#include "base/phrase.h"
+#include "base/text/data.h"
+#include "base/text/phrase.h"
+#include "load/loaded.h"
 
 namespace ombre {
 class Diagnostics;

@@ -3,12 +3,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/file_ending.h"
-#include "base/json.h"
-#include "base/text.h"
-#include "compile/attribute_survey.h"
-#include "compile/mesh_coverage.h"
-#include "formats/file.h"
+#include "base/text/file_ending.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "formats/containers/file.h"
+#include "jobs/mesh/mesh_coverage.h"
 #include "lang/openscad/customizer.h"
 #include "ombre/checks.h"
 #include "ombre/command_line.h"
@@ -16,6 +15,7 @@
 #include "ombre/job_arguments.h"
 #include "ombre/result_files.h"
 #include "ombre/volume_info.h"
+#include "questions/attribute_survey.h"
 
 namespace ombre::cli {
 namespace {

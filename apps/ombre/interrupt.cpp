@@ -7,7 +7,7 @@
 #include <csignal>
 #include <string_view>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 #include "ombre/exit_codes.h"
 
 namespace ombre::cli {

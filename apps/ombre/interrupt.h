@@ -1,7 +1,7 @@
 // Ctrl-C: the first asks a job to stop where it can be resumed, the second ends the program.
 #pragma once
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 
 namespace ombre::cli {
 

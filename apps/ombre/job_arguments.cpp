@@ -1,6 +1,6 @@
 #include "ombre/job_arguments.h"
 
-#include "compile/turned.h"
+#include "load/turned.h"
 #include "ombre/interrupt.h"
 
 namespace ombre::cli {

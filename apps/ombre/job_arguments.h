@@ -3,9 +3,10 @@
 
 #include <optional>
 
-#include "base/diagnostic.h"
-#include "compile/job_options.h"
-#include "compile/load.h"
+#include "base/text/diagnostic.h"
+#include "jobs/common/job_options.h"
+#include "jobs/slice/plan.h"
+#include "load/load.h"
 #include "ombre/commands.h"
 
 namespace ombre::cli {

@@ -5,17 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "base/text.h"
-#include "compile/bundle_choices.h"
-#include "compile/fea_choices.h"
-#include "compile/grid_choices.h"
-#include "compile/homogenise_choices.h"
-#include "compile/optimise_choices.h"
-#include "compile/picture_choices.h"
-#include "compile/probe_choices.h"
-#include "compile/region_choices.h"
-#include "compile/sheet_choices.h"
-#include "compile/slice_choices.h"
+#include "base/text/text.h"
+#include "jobs/check/bundle_choices.h"
+#include "jobs/fea/fea_choices.h"
+#include "jobs/grid/grid_choices.h"
+#include "jobs/homogenise/homogenise_choices.h"
+#include "jobs/mesh/mesh_choices.h"
+#include "jobs/optimise/optimise_choices.h"
+#include "jobs/outline/contour_choices.h"
+#include "jobs/picture/picture_choices.h"
+#include "jobs/probe/probe_choices.h"
+#include "jobs/slice/sheet_choices.h"
+#include "jobs/slice/slice_choices.h"
 #include "ombre/command_line.h"
 
 namespace ombre::cli {

@@ -4,7 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
+#include "jobs/slice/plan.h"
 #include "ombre/commands.h"
 
 namespace ombre::cli {

@@ -3,16 +3,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/text.h"
-#include "compile/layer.h"
-#include "compile/layer_files.h"
-#include "compile/slice_choices.h"
+#include "base/text/text.h"
 #include "export/output_file.h"
+#include "jobs/slice/layer.h"
+#include "jobs/slice/layer_files.h"
+#include "jobs/slice/slice_choices.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
 #include "ombre/job_steps.h"
-#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/slice_report.h"
 

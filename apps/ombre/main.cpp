@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "base/large_array.h"
+#include "base/system/large_array.h"
 #include "ombre/command_line.h"
 #include "ombre/python_designs.h"
 #include "sources/source_cache.h"

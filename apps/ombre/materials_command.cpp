@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/json.h"
-#include "base/text.h"
-#include "compile/load.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "load/load.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 

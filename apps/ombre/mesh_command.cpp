@@ -4,21 +4,22 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/error.h"
-#include "base/stopwatch.h"
-#include "base/text.h"
-#include "compile/beam_document.h"
-#include "compile/region_choices.h"
-#include "compile/vertex_colours.h"
+#include "base/system/stopwatch.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
 #include "export/mesh_file.h"
+#include "formats/packages/package_writers.h"
+#include "jobs/mesh/beam_document.h"
+#include "jobs/mesh/mesh_choices.h"
+#include "jobs/mesh/vertex_colours.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
 #include "ombre/job_steps.h"
-#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
-#include "ombre/slicer_settings.h"
+#include "ombre/setting_arguments.h"
 
 namespace ombre::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <memory>
 
-#include "base/json.h"
-#include "base/text.h"
-#include "compile/node_data.h"
-#include "compile/node_registry.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "load/node_data.h"
+#include "load/node_registry.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 

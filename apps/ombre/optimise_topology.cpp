@@ -4,10 +4,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/text.h"
-#include "compile/optimise_job.h"
-#include "compile/topology_study.h"
+#include "base/text/text.h"
 #include "export/volume_file.h"
+#include "jobs/optimise/optimise_job.h"
+#include "jobs/optimise/topology_study.h"
 #include "ombre/job_arguments.h"
 #include "ombre/job_steps.h"
 #include "ombre/overwrite.h"

@@ -1,8 +1,8 @@
 // ombre optimise with a study of topology.
 #pragma once
 
-#include "base/data.h"
-#include "compile/optimise_choices.h"
+#include "base/text/data.h"
+#include "jobs/optimise/optimise_choices.h"
 #include "ombre/commands.h"
 
 namespace ombre::cli {

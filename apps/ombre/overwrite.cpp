@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "export/output_file.h"
 
 namespace ombre::cli {

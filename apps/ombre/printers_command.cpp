@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/text.h"
-#include "compile/find_printer.h"
+#include "base/text/text.h"
+#include "load/find_printer.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 

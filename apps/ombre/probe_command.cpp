@@ -1,14 +1,14 @@
 // ombre probe: what a design says at single points.
 #include <memory>
 
-#include "base/point_text.h"
-#include "base/text.h"
-#include "compile/probe.h"
-#include "compile/probe_choices.h"
+#include "base/math/point_text.h"
+#include "base/text/text.h"
+#include "jobs/probe/probe.h"
+#include "jobs/probe/probe_choices.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
-#include "ombre/options.h"
 
 namespace ombre::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "ombre/console.h"
 
 namespace ombre::cli {

@@ -2,16 +2,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/file_ending.h"
-#include "base/text.h"
-#include "compile/picture_choices.h"
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
 #include "export/output_file.h"
-#include "formats/png.h"
+#include "formats/images/png.h"
+#include "jobs/picture/picture_choices.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/job_arguments.h"
 #include "ombre/job_steps.h"
-#include "ombre/options.h"
 #include "ombre/overwrite.h"
 #include "ombre/progress_line.h"
 #include "ombre/result_files.h"

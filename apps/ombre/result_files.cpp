@@ -4,12 +4,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/box.h"
-#include "base/json.h"
-#include "base/point_text.h"
-#include "base/text.h"
-#include "formats/file.h"
-#include "formats/results.h"
+#include "base/math/box.h"
+#include "base/math/point_text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "formats/containers/file.h"
+#include "formats/results/results.h"
 #include "ombre/command_line.h"
 #include "sources/result_border.h"
 

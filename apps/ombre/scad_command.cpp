@@ -6,16 +6,16 @@
 #include <memory>
 #include <sstream>
 
-#include "base/error.h"
-#include "base/file_ending.h"
-#include "base/temporary_folder.h"
-#include "base/text.h"
-#include "compile/scad_words_design.h"
+#include "base/system/temporary_folder.h"
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
 #include "export/output_file.h"
-#include "formats/file.h"
+#include "formats/containers/file.h"
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/customizer.h"
-#include "lang/openscad/run.h"
+#include "lang/openscad/run_script.h"
+#include "load/scad_words_design.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #include "ombre/scad_files.h"

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "compile/scad_job.h"
-#include "compile/scad_words_design.h"
+#include "jobs/scad/meshed_parts.h"
+#include "jobs/scad/scad_job.h"
+#include "load/scad_words_design.h"
 #include "ombre/command_line.h"
 #include "ombre/interrupt.h"
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compile/load.h"
-#include "lang/openscad/messages.h"
+#include "lang/openscad/script_messages.h"
 #include "ombre/commands.h"
 #include "solids/tree.h"
 

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "compile/load.h"
 #include "ombre/job_arguments.h"
 
 namespace ombre::cli {

@@ -1,13 +1,13 @@
 // ombre sheet: a contact sheet of a finished job's layers.
 #include <memory>
 
-#include "compile/job_sheet.h"
-#include "compile/sheet_choices.h"
 #include "export/output_file.h"
+#include "jobs/slice/job_sheet.h"
+#include "jobs/slice/sheet_choices.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/interrupt.h"
-#include "ombre/options.h"
 #include "ombre/overwrite.h"
 
 namespace ombre::cli {

@@ -1,16 +1,17 @@
 // ombre slice: a printable slice stack from a design.
 #include <memory>
 
-#include "base/error.h"
-#include "compile/job_folder.h"
-#include "compile/plan_part.h"
-#include "compile/slice_choices.h"
+#include "base/text/error.h"
+#include "jobs/check/emit.h"
+#include "jobs/slice/job_folder.h"
+#include "jobs/slice/plan_part.h"
+#include "jobs/slice/slice_choices.h"
 #include "ombre/command_line.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/free_space.h"
 #include "ombre/job_arguments.h"
 #include "ombre/job_steps.h"
-#include "ombre/options.h"
 #include "ombre/progress_line.h"
 #include "ombre/slice_report.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compile/slice.h"
+#include "jobs/slice/slice.h"
 #include "ombre/console.h"
 
 namespace ombre::cli {

@@ -1,7 +1,7 @@
 #include "ombre/solve_memory.h"
 
-#include "base/error.h"
-#include "base/text.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
 
 namespace ombre::cli {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "base/phrase.h"
+#include "base/text/phrase.h"
 
 namespace ombre::cli {
 

@@ -6,16 +6,16 @@
 #include <memory>
 #include <optional>
 
-#include "base/error.h"
-#include "compile/bundle.h"
-#include "formats/file.h"
+#include "base/text/error.h"
+#include "formats/containers/file.h"
+#include "load/bundle.h"
 #include "ombre/checks.h"
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #ifdef OMBRE_WITH_STUDIO
-#include "studio/child_process.h"
 #include "studio/page.h"
 #include "studio/server.h"
+#include "studio/workspace/child_process.h"
 #endif
 
 namespace ombre::cli {

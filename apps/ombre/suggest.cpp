@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace ombre::cli {
 namespace {

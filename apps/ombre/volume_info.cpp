@@ -7,14 +7,14 @@
 #include <map>
 #include <type_traits>
 
-#include "base/json.h"
-#include "base/point_text.h"
-#include "base/text.h"
+#include "base/math/point_text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
 #include "export/output_file.h"
-#include "formats/png.h"
+#include "formats/images/png.h"
 #include "ombre/overwrite.h"
 #include "ombre/volume_planes.h"
-#include "sources/volume_parts.h"
+#include "sources/volume_file_parts.h"
 
 namespace ombre::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formats/volume.h"
+#include "formats/volumes/volume.h"
 #include "ombre/commands.h"
 
 namespace ombre::cli {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sources/volume_parts.h"
+#include "sources/volume_file_parts.h"
 
 namespace ombre::cli {
 namespace {

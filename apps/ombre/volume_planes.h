@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/volume.h"
+#include "formats/volumes/volume.h"
 
 namespace ombre::cli {
 

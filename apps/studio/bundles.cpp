@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/temporary_folder.h"
-#include "base/text.h"
-#include "compile/bundle.h"
-#include "compile/data_folder.h"
-#include "formats/base64.h"
-#include "formats/file.h"
+#include "base/system/temporary_folder.h"
+#include "base/text/text.h"
+#include "formats/containers/base64.h"
+#include "formats/containers/file.h"
+#include "load/bundle.h"
+#include "load/data_folder.h"
 #include "studio/designs.h"
 
 namespace ombre::studio {

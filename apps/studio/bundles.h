@@ -1,9 +1,9 @@
 // Designs that leave the folder and come into it with their files: bundles, and the examples that come with Ombre.
 #pragma once
 
-#include "base/progress.h"
-#include "studio/messages.h"
-#include "studio/workspace.h"
+#include "base/system/progress.h"
+#include "studio/workspace/studio_messages.h"
+#include "studio/workspace/workspace.h"
 
 namespace ombre::studio {
 

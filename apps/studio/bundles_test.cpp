@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
-#include "base/tasks.h"
+#include "base/system/tasks.h"
+#include "base/text/error.h"
 #include "studio/sampled_design.h"
 #include "studio/views.h"
 

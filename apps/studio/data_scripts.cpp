@@ -7,13 +7,13 @@
 #include <optional>
 #include <set>
 
-#include "base/box.h"
-#include "base/error.h"
-#include "base/json.h"
-#include "base/text.h"
+#include "base/math/box.h"
+#include "base/text/error.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
 #include "design/attributes.h"
-#include "formats/file.h"
-#include "formats/results.h"
+#include "formats/containers/file.h"
+#include "formats/results/results.h"
 #include "sources/result_border.h"
 #include "studio/designs.h"
 #include "studio/scans.h"

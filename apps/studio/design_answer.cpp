@@ -5,11 +5,11 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "base/text.h"
-#include "compile/question.h"
-#include "compile/scene.h"
+#include "base/text/text.h"
 #include "design/outputs.h"
+#include "jobs/picture/design_scene.h"
 #include "lang/openscad/customizer.h"
+#include "questions/question.h"
 
 namespace ombre::studio {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/data.h"
+#include "base/text/data.h"
 #include "studio/designs.h"
 
 namespace ombre::studio {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+
 namespace ombre::studio {
 
 RequestError design_error(const Diagnostics& diagnostics) {

@@ -7,9 +7,9 @@
 #include <mutex>
 #include <string>
 
-#include "base/box.h"
-#include "compile/load.h"
-#include "compile/sub_design_cache.h"
+#include "base/math/box.h"
+#include "jobs/slice/plan.h"
+#include "load/sub_design_cache.h"
 #include "studio/job_choices.h"
 
 namespace ombre::studio {

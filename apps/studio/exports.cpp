@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-#include "base/stopwatch.h"
-#include "compile/slice.h"
+#include "base/system/stopwatch.h"
+#include "base/text/error.h"
+#include "jobs/slice/slice.h"
 
 namespace ombre::studio {
 

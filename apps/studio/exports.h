@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "studio/designs.h"
 
 namespace ombre::studio {

@@ -4,8 +4,8 @@
 #include <csignal>
 #include <filesystem>
 
-#include "base/json.h"
-#include "formats/png.h"
+#include "base/text/json.h"
+#include "formats/images/png.h"
 #include "studio/job_choices.h"
 #include "studio/test_studio.h"
 

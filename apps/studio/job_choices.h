@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "compile/job_options.h"
-#include "studio/messages.h"
+#include "jobs/common/job_options.h"
+#include "studio/workspace/studio_messages.h"
 
 namespace ombre::studio {
 

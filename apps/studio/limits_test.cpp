@@ -1,6 +1,6 @@
 // Scripts without end, designs that are too deep, and requests that are cancelled.
-#include "base/json.h"
-#include "base/stopwatch.h"
+#include "base/system/stopwatch.h"
+#include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "compile/part_labels.h"
+#include "questions/part_labels.h"
 #include "studio/designs.h"
 #include "studio/sampled_design.h"
 #include "studio/views.h"

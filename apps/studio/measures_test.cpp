@@ -1,5 +1,5 @@
 // Volumes of materials, and versions that are compared.
-#include "base/json.h"
+#include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
-#include "compile/sampler.h"
+#include "base/text/error.h"
+#include "questions/sampler.h"
 
 namespace ombre::studio {
 namespace {

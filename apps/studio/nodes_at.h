@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "base/box.h"
-#include "base/progress.h"
+#include "base/math/box.h"
+#include "base/system/progress.h"
 #include "design/design.h"
 
 namespace ombre::studio {

@@ -1,7 +1,8 @@
 #include "studio/python_design.h"
 
-#include "base/text.h"
-#include "studio/child_process.h"
+#include "base/text/text.h"
+#include "load/load.h"
+#include "studio/workspace/child_process.h"
 
 namespace ombre::studio {
 namespace {

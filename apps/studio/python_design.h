@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compile/load.h"
+#include "load/loaded.h"
 
 namespace ombre::studio {
 

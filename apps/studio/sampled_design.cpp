@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compile/find_printer.h"
+#include "load/find_printer.h"
 
 namespace ombre::studio {
 namespace {

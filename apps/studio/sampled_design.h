@@ -1,8 +1,8 @@
 // Samples what a design is made of on a coarse lattice of cubes.
 #pragma once
 
-#include "base/progress.h"
-#include "compile/grid_job.h"
+#include "base/system/progress.h"
+#include "jobs/grid/grid_job.h"
 #include "studio/designs.h"
 
 namespace ombre::studio {

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/json.h"
-#include "base/temporary_folder.h"
-#include "compile/scad_job.h"
-#include "lang/openscad/run.h"
+#include "base/system/temporary_folder.h"
+#include "base/text/error.h"
+#include "base/text/json.h"
+#include "jobs/scad/scad_job.h"
+#include "lang/openscad/run_script.h"
+#include "load/load.h"
 
 namespace ombre::studio {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "compile/load.h"
+#include "load/loaded.h"
 
 namespace ombre::studio {
 

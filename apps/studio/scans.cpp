@@ -4,9 +4,9 @@
 #include <array>
 #include <cstring>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "sources/file_store.h"
-#include "sources/volume_parts.h"
+#include "sources/volume_file_parts.h"
 #include "studio/design_answer.h"
 
 namespace ombre::studio {

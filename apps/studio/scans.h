@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "base/interval.h"
-#include "base/progress.h"
-#include "formats/volume.h"
-#include "studio/messages.h"
-#include "studio/workspace.h"
+#include "base/math/interval.h"
+#include "base/system/progress.h"
+#include "formats/volumes/volume.h"
+#include "studio/workspace/studio_messages.h"
+#include "studio/workspace/workspace.h"
 
 namespace ombre::studio {
 

@@ -14,8 +14,8 @@
 #include <memory>
 #include <optional>
 
-#include "base/error.h"
-#include "studio/guard.h"
+#include "base/text/error.h"
+#include "studio/workspace/guard.h"
 
 namespace ombre::studio {
 namespace {

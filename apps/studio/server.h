@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "studio/assets.h"
 #include "studio/studio.h"
 

@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "base/stopwatch.h"
-#include "studio/test_folder.h"
+#include "base/system/stopwatch.h"
+#include "studio/workspace/test_folder.h"
 
 namespace ombre::studio {
 namespace {

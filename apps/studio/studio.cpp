@@ -5,24 +5,25 @@
 #include <algorithm>
 #include <variant>
 
-#include "base/error.h"
-#include "base/file_ending.h"
-#include "base/tasks.h"
-#include "base/text.h"
-#include "compile/build.h"
-#include "compile/colour_map.h"
-#include "compile/find_printer.h"
-#include "compile/node_data.h"
-#include "compile/node_registry.h"
-#include "compile/turned.h"
-#include "lang/builtins.h"
+#include "base/system/tasks.h"
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
+#include "lang/engine/builtins.h"
+#include "load/find_printer.h"
+#include "load/load.h"
+#include "load/node_data.h"
+#include "load/node_registry.h"
+#include "load/turned.h"
+#include "questions/build.h"
+#include "questions/colour_map.h"
 #include "studio/bundles.h"
-#include "studio/data_files.h"
 #include "studio/data_scripts.h"
 #include "studio/design_answer.h"
 #include "studio/python_design.h"
 #include "studio/scad_design.h"
 #include "studio/views.h"
+#include "studio/workspace/data_files.h"
 
 namespace ombre::studio {
 namespace {

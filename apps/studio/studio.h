@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "base/stopwatch.h"
+#include "base/system/stopwatch.h"
 #include "sources/source_cache.h"
 #include "studio/exports.h"
-#include "studio/messages.h"
-#include "studio/presets.h"
 #include "studio/scans.h"
 #include "studio/work_queue.h"
-#include "studio/workspace.h"
+#include "studio/workspace/presets.h"
+#include "studio/workspace/studio_messages.h"
+#include "studio/workspace/workspace.h"
 
 namespace ombre::studio {
 

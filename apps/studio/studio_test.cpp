@@ -1,5 +1,5 @@
 // The studio answers questions about its folder, about scripts and about their mistakes.
-#include "base/json.h"
+#include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "studio/studio.h"
-#include "studio/test_folder.h"
+#include "studio/workspace/test_folder.h"
 
 namespace ombre::studio {
 

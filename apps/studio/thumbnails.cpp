@@ -1,10 +1,10 @@
 // Small pictures of the nodes of a design: of solids from a corner; of values in colours, over the slice through the
 // middle of the design. They are kept as long as there is room, by the hash of the node and of all
 // below it, so that an edit makes only those again whose nodes it changed.
-#include "compile/node_registry.h"
-#include "compile/picture.h"
 #include "design/outputs.h"
-#include "formats/png.h"
+#include "formats/images/png.h"
+#include "jobs/picture/picture.h"
+#include "load/node_registry.h"
 #include "studio/design_answer.h"
 #include "studio/views.h"
 

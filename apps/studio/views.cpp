@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <array>
 
-#include "base/error.h"
-#include "base/json.h"
-#include "compile/colour_map.h"
-#include "compile/job_description.h"
-#include "compile/layer.h"
-#include "compile/picture.h"
-#include "compile/probe.h"
-#include "compile/slice.h"
-#include "formats/png.h"
+#include "base/text/error.h"
+#include "base/text/json.h"
+#include "formats/images/png.h"
+#include "jobs/picture/picture.h"
+#include "jobs/probe/probe.h"
+#include "jobs/slice/job_description.h"
+#include "jobs/slice/layer.h"
+#include "jobs/slice/slice.h"
+#include "questions/colour_map.h"
 #include "studio/design_answer.h"
 #include "studio/nodes_at.h"
 

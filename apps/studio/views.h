@@ -1,9 +1,9 @@
 // What the page shows of a design: pictures, tiles of layers, points, volumes.
 #pragma once
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "studio/designs.h"
-#include "studio/messages.h"
+#include "studio/workspace/studio_messages.h"
 
 namespace ombre::studio {
 

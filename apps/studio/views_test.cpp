@@ -1,8 +1,8 @@
 // Pictures, tiles, probes and volumes of a design.
 #include <map>
 
-#include "base/json.h"
-#include "formats/png.h"
+#include "base/text/json.h"
+#include "formats/images/png.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {

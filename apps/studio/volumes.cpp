@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "compile/question.h"
-#include "compile/region_survey.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "questions/question.h"
+#include "questions/region_survey.h"
 #include "studio/design_answer.h"
 #include "studio/sampled_design.h"
 #include "studio/views.h"

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 
 namespace ombre::studio {
 

@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 namespace ombre::cad {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <mutex>
 
-#include "base/helper_process.h"
-#include "cad/module.h"
+#include "base/system/helper_process.h"
+#include "cad/occt_calls.h"
 #include "cad/occt_guard.h"
 #include "cad/occt_shapes.h"
 

@@ -7,7 +7,7 @@
 #include <TopoDS_Iterator.hxx>
 #include <sstream>
 
-#include "base/byte_pack.h"
+#include "base/system/byte_pack.h"
 #include "cad/occt_shapes.h"
 
 namespace ombre::cad {

@@ -23,7 +23,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "cad/occt_shapes.h"
 
 namespace ombre::cad {

@@ -16,8 +16,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "base/byte_pack.h"
-#include "base/helper_process.h"
+#include "base/system/byte_pack.h"
+#include "base/system/helper_process.h"
 #include "cad/occt_faces.h"
 #include "cad/occt_guard.h"
 #include "cad/occt_shapes.h"

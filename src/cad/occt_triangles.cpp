@@ -15,7 +15,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <limits>
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 namespace ombre::cad {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/box.h"
-#include "base/progress.h"
+#include "base/math/box.h"
+#include "base/system/progress.h"
 
 namespace ombre::cad {
 

@@ -12,7 +12,7 @@
 #include <random>
 #include <thread>
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 namespace ombre::cad {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "design/outputs.h"
 #include "design/values.h"
 

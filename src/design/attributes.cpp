@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/assert.h"
-#include "base/text.h"
+#include "base/system/assert.h"
+#include "base/text/text.h"
 
 namespace ombre::design {
 namespace {

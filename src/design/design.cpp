@@ -4,8 +4,8 @@
 #include <map>
 #include <unordered_map>
 
-#include "base/json.h"
-#include "base/text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
 
 namespace ombre::design {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/hash.h"
-#include "base/pitch.h"
+#include "base/math/pitch.h"
+#include "base/system/hash.h"
 #include "design/registry.h"
 #include "design/stage.h"
 

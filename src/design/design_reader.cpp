@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "design/design.h"
 
 namespace ombre::design {

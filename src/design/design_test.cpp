@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "design/lowering.h"
 #include "design/spec.h"
 #include "program/evaluate.h"

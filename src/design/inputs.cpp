@@ -1,5 +1,5 @@
 // Inputs of nodes, as the lowering answers for them.
-#include "base/text.h"
+#include "base/text/text.h"
 #include "design/lowering.h"
 #include "design/node.h"
 

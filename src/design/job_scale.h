@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/vec.h"
+#include "base/math/vec.h"
 
 namespace ombre::design {
 

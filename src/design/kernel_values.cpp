@@ -1,7 +1,7 @@
 // Parameters that are weights around a voxel, and lists of texts.
 #include <cmath>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "design/values.h"
 
 namespace ombre::design {

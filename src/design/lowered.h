@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/interval.h"
-#include "base/run.h"
+#include "base/math/interval.h"
+#include "base/math/run.h"
 #include "program/field.h"
 
 namespace ombre::design {

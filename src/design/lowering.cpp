@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 #include "design/many_parts.h"
 #include "design/registry.h"
 

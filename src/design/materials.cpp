@@ -1,6 +1,6 @@
 #include "design/materials.h"
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace ombre::design {
 namespace {

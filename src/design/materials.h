@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base/data.h"
-#include "base/diagnostic.h"
-#include "base/run.h"
+#include "base/math/run.h"
+#include "base/text/data.h"
+#include "base/text/diagnostic.h"
 
 namespace ombre::design {
 

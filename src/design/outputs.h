@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "base/data.h"
+#include "base/text/data.h"
 #include "design/lowered.h"
 #include "expr/expression.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 #include "program/evaluate.h"
 #include "program/passes/passes.h"
 

@@ -1,7 +1,7 @@
 // Tables of many parts: when they pay, and those that are remembered.
 #include <cmath>
 
-#include "base/tasks.h"
+#include "base/system/tasks.h"
 #include "design/design.h"
 #include "design/lowering.h"
 #include "design/part_rows.h"

@@ -1,8 +1,8 @@
 // Values of parameters from plain data.
 #include <algorithm>
 
-#include "base/assert.h"
-#include "base/text.h"
+#include "base/system/assert.h"
+#include "base/text/text.h"
 #include "design/attributes.h"
 #include "design/outputs.h"
 #include "design/values.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "base/assert.h"
-#include "base/text.h"
+#include "base/system/assert.h"
+#include "base/text/text.h"
 
 namespace ombre::design {
 

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/polygons.h"
+#include "base/math/polygons.h"
 #include "design/node.h"
 #include "design/stage.h"
 #include "program/field_source.h"

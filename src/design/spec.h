@@ -18,7 +18,7 @@
 
 #include <algorithm>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 #include "design/registry.h"
 
 namespace ombre::design {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
-#include "base/index_box.h"
-#include "base/interval.h"
-#include "base/pitch.h"
-#include "base/progress.h"
-#include "base/run.h"
+#include "base/math/index_box.h"
+#include "base/math/interval.h"
+#include "base/math/pitch.h"
+#include "base/math/run.h"
+#include "base/system/progress.h"
+#include "base/text/error.h"
 #include "design/node.h"
 #include "program/field_source.h"
 

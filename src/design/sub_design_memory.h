@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "base/hash.h"
+#include "base/system/hash.h"
 
 namespace ombre::design {
 

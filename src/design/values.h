@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/box.h"
-#include "base/hash.h"
+#include "base/math/box.h"
+#include "base/system/hash.h"
 #include "design/lowered.h"
 #include "design/materials.h"
 #include "expr/expression.h"

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "base/helper_process.h"
+#include "base/system/helper_process.h"
+#include "dicom/gdcm_calls.h"
 #include "dicom/gdcm_slices.h"
-#include "dicom/module.h"
 #include "dicom/volume_pack.h"
 
 namespace ombre::dicom {

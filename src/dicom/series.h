@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
-#include "base/vec.h"
+#include "base/math/vec.h"
+#include "base/system/progress.h"
 
 namespace ombre::dicom {
 

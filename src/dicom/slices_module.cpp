@@ -12,8 +12,8 @@
 #include <optional>
 #include <sstream>
 
-#include "base/error.h"
-#include "base/text.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
 
 namespace ombre::dicom {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace ombre::draw {
 namespace {

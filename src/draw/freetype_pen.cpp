@@ -11,8 +11,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "base/error.h"
-#include "base/utf8.h"
+#include "base/text/error.h"
+#include "base/text/utf8.h"
 #include "draw/font_files.h"
 
 namespace ombre::draw {

@@ -3,7 +3,7 @@
 
 #ifndef OMBRE_FREETYPE
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 namespace ombre::draw {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 namespace ombre::draw {
 namespace {

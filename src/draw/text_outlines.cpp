@@ -22,9 +22,9 @@ bool can_outline_text() {
 #include <algorithm>
 #include <memory>
 
-#include "base/curves.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include "base/math/curves.h"
+#include "base/text/text.h"
+#include "base/text/utf8.h"
 
 namespace ombre::draw {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/polygons.h"
+#include "base/math/polygons.h"
 
 namespace ombre::draw {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/assert.h"
-#include "base/math_rows.h"
+#include "base/math/math_rows.h"
+#include "base/system/assert.h"
 
 namespace ombre::eval {
 

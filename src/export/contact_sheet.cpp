@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/assert.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "base/system/assert.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
 #include "export/digits.h"
-#include "formats/file.h"
+#include "formats/containers/file.h"
 
 namespace ombre::exporting {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "export/picture.h"
+#include "export/picture_file.h"
 
 namespace ombre::exporting {
 

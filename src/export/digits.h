@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "export/picture.h"
+#include "export/picture_file.h"
 
 namespace ombre::exporting {
 

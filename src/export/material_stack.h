@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "base/pitch.h"
-#include "base/run.h"
-#include "formats/png.h"
+#include "base/math/pitch.h"
+#include "base/math/run.h"
+#include "formats/images/png.h"
 #include "voxel/printer.h"
 
 namespace ombre::exporting {

@@ -5,10 +5,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/error.h"
-#include "base/file_ending.h"
-#include "base/text.h"
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
 #include "export/output_file.h"
+#include "formats/packages/package_writers.h"
 
 namespace ombre::exporting {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/mesh_writers.h"
+#include "formats/packages/package_writers.h"
 
 namespace ombre::exporting {
 

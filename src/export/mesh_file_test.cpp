@@ -10,8 +10,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
-#include "formats/file.h"
+#include "base/text/error.h"
+#include "formats/containers/file.h"
+#include "formats/packages/package_writers.h"
 
 namespace ombre::exporting {
 namespace {

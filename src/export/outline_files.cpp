@@ -5,12 +5,12 @@
 #include <deque>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/file_ending.h"
-#include "base/text.h"
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
 #include "export/output_file.h"
-#include "formats/cli.h"
-#include "formats/svg.h"
+#include "formats/drawings/cli.h"
+#include "formats/drawings/svg.h"
 
 namespace ombre::exporting {
 namespace {

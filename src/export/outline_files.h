@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "formats/outlines.h"
+#include "formats/drawings/outlines.h"
 
 namespace ombre::exporting {
 

@@ -3,9 +3,9 @@
 #include <bit>
 #include <filesystem>
 
-#include "base/json.h"
-#include "formats/npy.h"
-#include "formats/nrrd.h"
+#include "base/text/json.h"
+#include "formats/volumes/npy.h"
+#include "formats/volumes/nrrd.h"
 
 namespace ombre::exporting {
 namespace {

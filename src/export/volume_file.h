@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/data.h"
-#include "base/vec.h"
+#include "base/math/vec.h"
+#include "base/text/data.h"
 #include "export/output_file.h"
-#include "formats/gzip.h"
+#include "formats/containers/gzip.h"
 
 namespace ombre::exporting {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "export/output_file.h"
-#include "formats/vti.h"
+#include "formats/volumes/vti.h"
 
 namespace ombre::exporting {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/text.h"
+#include "base/text/text.h"
+#include "expr/expression_parser.h"
 #include "expr/functions.h"
-#include "expr/parser.h"
 
 namespace ombre::expr {
 namespace {

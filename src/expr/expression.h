@@ -10,59 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
+#include "expr/expression_tree.h"
 #include "program/field.h"
 
 namespace ombre::expr {
-
-enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional, source, input };
-enum class Binary : uint8_t {
-  add,
-  subtract,
-  multiply,
-  divide,
-  mod,
-  power,
-  less,
-  less_equal,
-  greater,
-  greater_equal,
-  equal,
-  not_equal,
-  logical_and,
-  logical_or,
-  logical_xor,
-  logical_nand,
-  logical_nor,
-};
-
-// A value that a formula gets from elsewhere, such as an output of a node.
-class Input {
- public:
-  virtual ~Input() = default;
-  virtual program::Field field(const program::Point& p) const = 0;
-  virtual std::string name() const = 0;  // for people
-  virtual bool is_same(const Input& other) const = 0;
-};
-using InputPtr = std::shared_ptr<const Input>;
-
-struct Node {
-  Kind kind = Kind::number;
-  Binary binary = Binary::add;
-  double number = 0;
-  std::string name;  // of a variable or function, lower case
-  std::vector<std::shared_ptr<const Node>> operands;
-  program::SourceField source;  // of a value that the host program computes: its channel 0
-  InputPtr input;
-  uint32_t begin = 0, end = 0;  // bytes of the expression's text
-
-  Node() = default;
-  Node(const Node&) = delete;
-  Node& operator=(const Node&) = delete;
-  ~Node();  // without recursion: sums may be long
-};
-
-using NodePtr = std::shared_ptr<const Node>;
 
 // Gives the field of a variable, or nothing if it has no such variable.
 using Variables = std::function<std::optional<program::Field>(std::string_view name)>;

@@ -1,5 +1,10 @@
 #include "nodes/all_nodes.h"
 
+#include "nodes/lattices/lattice_families.h"
+#include "nodes/materials/material_families.h"
+#include "nodes/solids/solid_families.h"
+#include "nodes/values/value_families.h"
+
 namespace ombre::nodes {
 
 const design::Registry& registry() {

@@ -1,5 +1,5 @@
 // Mixtures that show a colour: against the arithmetic of their light.
-#include "nodes/colour_mixer.h"
+#include "nodes/values/colour_mixer.h"
 
 #include <gtest/gtest.h>
 

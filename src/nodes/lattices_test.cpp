@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
+#include "nodes/lattices/unit_cells.h"
 #include "nodes/test_solids.h"
-#include "nodes/unit_cells.h"
 
 namespace ombre::nodes {
 namespace {

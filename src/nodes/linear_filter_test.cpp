@@ -1,4 +1,4 @@
-#include "nodes/linear_filter.h"
+#include "nodes/common/linear_filter.h"
 
 #include <gtest/gtest.h>
 

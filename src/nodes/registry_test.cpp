@@ -1,8 +1,8 @@
 // What must hold for every node of the registry, with random parameters.
 #include <gtest/gtest.h>
 
-#include "base/json.h"
-#include "base/text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
 #include "design/design.h"
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"

@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "base/json.h"
-#include "base/text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
 #include "design/design.h"
 #include "nodes/all_nodes.h"
 #include "nodes/test_sources.h"

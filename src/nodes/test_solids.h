@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "design/design.h"
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "design/attributes.h"
 #include "design/design.h"
 #include "design/lowering.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"
 #include "program/evaluate.h"

@@ -1,7 +1,7 @@
 // How large a job's voxels are in the space of a node.
 #include <gtest/gtest.h>
 
-#include "base/json.h"
+#include "base/text/json.h"
 #include "design/lowering.h"
 #include "nodes/all_nodes.h"
 

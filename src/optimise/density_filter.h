@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fea/brick_operator.h"
+#include "fea/solve/brick_operator.h"
 
 namespace ombre::optimise {
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <memory>
 
-#include "optimise/module.h"
+#include "optimise/search_calls.h"
 
 namespace ombre::optimise {
 namespace {

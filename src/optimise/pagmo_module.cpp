@@ -7,7 +7,7 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 
-#include "optimise/module.h"
+#include "optimise/search_calls.h"
 
 namespace ombre::optimise {
 namespace {

@@ -1,9 +1,9 @@
 // Loads the module of a method when it is first used.
 #include "optimise/search.h"
 
-#include "base/error.h"
-#include "base/module_loader.h"
-#include "optimise/module.h"
+#include "base/system/module_loader.h"
+#include "base/text/error.h"
+#include "optimise/search_calls.h"
 
 namespace ombre::optimise {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "optimise/chart.h"
 #include "optimise/ranking.h"
 

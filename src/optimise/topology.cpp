@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "fea/brick_operator.h"
-#include "fea/multigrid.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "fea/solve/brick_operator.h"
+#include "fea/solve/multigrid.h"
 #include "optimise/density_filter.h"
 
 namespace ombre::optimise {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/progress.h"
-#include "fea/model.h"
+#include "base/system/progress.h"
+#include "fea/model/model.h"
 
 namespace ombre::optimise {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "base/error.h"
-#include "fea/test_models.h"
+#include "base/text/error.h"
+#include "fea/model/test_models.h"
 #include "optimise/density_filter.h"
 
 namespace ombre::optimise {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace ombre::options {
 

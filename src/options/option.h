@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/data.h"
-#include "options/values.h"
+#include "base/text/data.h"
+#include "options/option_values.h"
 
 namespace ombre::options {
 

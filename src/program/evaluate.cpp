@@ -1,6 +1,6 @@
 #include "program/evaluate.h"
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 #include "program/parts.h"
 #include "program/quick_intervals.h"
 #include "program/single.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 
 namespace ombre::program {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "base/box.h"
-#include "base/data.h"
-#include "base/hash.h"
-#include "base/index_box.h"
+#include "base/math/box.h"
+#include "base/math/index_box.h"
+#include "base/system/hash.h"
+#include "base/text/data.h"
 
 namespace ombre::program {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "base/math.h"
+#include "base/math/math.h"
 
 // One row an op: name, operand count. The meaning is math::name.
 // clang-format off

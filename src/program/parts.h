@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/box.h"
+#include "base/math/box.h"
 #include "program/program.h"
 
 namespace ombre::program {

@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "base/assert.h"
-#include "base/text.h"
+#include "base/system/assert.h"
+#include "base/text/text.h"
 #include "program/parts.h"
 #include "program/passes/replay.h"
 

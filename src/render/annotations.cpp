@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/text.h"
+#include "base/text/text.h"
 
 namespace ombre::render {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/box.h"
-#include "base/vec.h"
+#include "base/math/box.h"
+#include "base/math/vec.h"
 
 namespace ombre::render {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "base/large_array.h"
+#include "base/system/large_array.h"
 
 namespace ombre::render {
 

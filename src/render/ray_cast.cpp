@@ -10,8 +10,8 @@
 #include <span>
 #include <utility>
 
-#include "base/error.h"
-#include "base/tasks.h"
+#include "base/system/tasks.h"
+#include "base/text/error.h"
 #include "program/passes/prepare.h"
 #include "render/end_colours.h"
 #include "render/ray_batch.h"

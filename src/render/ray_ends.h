@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/hash.h"
+#include "base/system/hash.h"
 #include "program/program.h"
 
 namespace ombre::render {

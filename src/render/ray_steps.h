@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/math.h"
+#include "base/math/math.h"
 #include "render/film.h"
 #include "render/scene.h"
 

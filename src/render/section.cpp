@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/tasks.h"
+#include "base/system/tasks.h"
 #include "eval/batch/batch.h"
 
 namespace ombre::render {

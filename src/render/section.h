@@ -1,7 +1,7 @@
 // What lies in a plane, seen flat: a ray for each point of the film, which ends there if it is inside.
 #pragma once
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "render/camera.h"
 #include "render/ray_cast.h"
 #include "voxel/fields.h"

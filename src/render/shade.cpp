@@ -5,9 +5,9 @@
 #include <cmath>
 #include <span>
 
-#include "base/math.h"
-#include "base/srgb.h"
-#include "base/tasks.h"
+#include "base/math/math.h"
+#include "base/math/srgb.h"
+#include "base/system/tasks.h"
 
 namespace ombre::render {
 namespace {

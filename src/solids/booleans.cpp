@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/tasks.h"
+#include "base/system/tasks.h"
+#include "base/text/error.h"
 #include "solids/kernel.h"
 
 namespace ombre::solids {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "solids/solid.h"
 
 namespace ombre::solids {

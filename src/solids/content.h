@@ -1,7 +1,7 @@
 // What a tree's content is: equal content gives equal geometry.
 #pragma once
 
-#include "base/hash.h"
+#include "base/system/hash.h"
 #include "solids/tree.h"
 
 namespace ombre::solids {

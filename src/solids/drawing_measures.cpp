@@ -1,8 +1,8 @@
 #include "solids/drawing_measures.h"
 
-#include "base/error.h"
-#include "formats/dxf_measures.h"
-#include "formats/file.h"
+#include "base/text/error.h"
+#include "formats/containers/file.h"
+#include "formats/drawings/dxf_measures.h"
 
 namespace ombre::solids {
 namespace {

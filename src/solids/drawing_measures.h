@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "base/vec.h"
+#include "base/math/vec.h"
 
 namespace ombre::solids {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "base/math.h"
+#include "base/math/math.h"
 #include "solids/fragments.h"
 #include "solids/kernel.h"
 #include "solids/regions.h"

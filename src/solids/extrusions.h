@@ -1,7 +1,7 @@
 // Solids swept by regions, and regions that solids leave in a plane.
 #pragma once
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
 #include "solids/solid.h"
 
 namespace ombre::solids {

@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/error.h"
-#include "base/file_ending.h"
-#include "formats/file.h"
-#include "formats/mesh.h"
-#include "formats/mesh_objects.h"
-#include "formats/plane_files.h"
-#include "formats/uncoloured.h"
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
+#include "formats/containers/file.h"
+#include "formats/drawings/plane_files.h"
+#include "formats/images/uncoloured.h"
+#include "formats/mesh/mesh.h"
+#include "formats/mesh/mesh_objects.h"
+#include "formats/packages/read_mesh.h"
 #include "solids/fragments.h"
 #include "solids/kernel.h"
 #include "solids/regions.h"

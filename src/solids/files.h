@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
 #include "solids/solid.h"
 
 namespace ombre::solids {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "base/math.h"
+#include "base/math/math.h"
 
 namespace ombre::solids {
 namespace {

@@ -1,7 +1,7 @@
 // Into how many edges circles are cut, and angles in degrees.
 #pragma once
 
-#include "base/vec.h"
+#include "base/math/vec.h"
 #include "solids/tree.h"
 
 namespace ombre::solids {

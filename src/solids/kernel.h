@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "solids/solid.h"
+#include "base/math/polygons.h"
+#include "solids/triangle_mesh.h"
 
 namespace ombre::solids {
 

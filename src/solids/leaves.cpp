@@ -1,7 +1,7 @@
 // The geometry of leaves: numbers, texts and files.
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "solids/files.h"
 #include "solids/kernel.h"
 #include "solids/operations.h"

@@ -1,8 +1,8 @@
 // Loads the module with the geometry kernel when it is first needed.
 #include "solids/kernel.h"
 
-#include "base/module_loader.h"
-#include "solids/module.h"
+#include "base/system/module_loader.h"
+#include "solids/kernel_calls.h"
 
 namespace ombre::solids {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
-#include "solids/attributes.h"
+#include "base/text/error.h"
 #include "solids/extrusions.h"
 #include "solids/kernel.h"
+#include "solids/piece_attributes.h"
 #include "solids/regions.h"
 
 namespace ombre::solids {

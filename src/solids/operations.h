@@ -1,7 +1,7 @@
 // One operation of a tree, on what its children gave.
 #pragma once
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
 #include "solids/booleans.h"
 #include "solids/solid.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/polygon.h"
+#include "formats/mesh/polygon.h"
 #include "solids/fragments.h"
 
 namespace ombre::solids {

@@ -2,7 +2,7 @@
 // volume (a side or radius of 0 or less) is empty.
 #pragma once
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
 #include "solids/solid.h"
 
 namespace ombre::solids {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <polyclipping/clipper.hpp>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "solids/fragments.h"
 
 namespace ombre::solids {

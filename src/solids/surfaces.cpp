@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <span>
 
-#include "base/error.h"
-#include "base/file_ending.h"
-#include "formats/file.h"
-#include "formats/png.h"
-#include "formats/text_scanner.h"
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
+#include "formats/containers/file.h"
+#include "formats/containers/text_scanner.h"
+#include "formats/images/png.h"
 #include "solids/files.h"
 #include "solids/kernel.h"
 

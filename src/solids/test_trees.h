@@ -8,8 +8,8 @@
 #include <map>
 #include <string>
 
-#include "base/error.h"
-#include "solids/evaluate.h"
+#include "base/text/error.h"
+#include "solids/evaluate_tree.h"
 
 namespace ombre::solids {
 

@@ -3,10 +3,10 @@
 
 #include <new>
 
-#include "base/byte_pack.h"
-#include "base/error.h"
-#include "base/helper_process.h"
-#include "base/module_loader.h"
+#include "base/system/byte_pack.h"
+#include "base/system/helper_process.h"
+#include "base/system/module_loader.h"
+#include "base/text/error.h"
 
 namespace ombre::solids {
 

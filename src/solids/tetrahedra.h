@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "base/box.h"
-#include "base/progress.h"
+#include "base/math/box.h"
+#include "base/system/progress.h"
 
 namespace ombre::solids {
 

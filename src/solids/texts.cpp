@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "draw/font_search.h"
 #include "draw/text_outlines.h"
-#include "formats/file.h"
+#include "formats/containers/file.h"
 #include "solids/fragments.h"
 #include "solids/regions.h"
 

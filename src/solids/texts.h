@@ -1,7 +1,7 @@
 // Texts as regions of the plane.
 #pragma once
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
 #include "solids/solid.h"
 
 namespace ombre::solids {

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/source_text.h"
-#include "base/vec.h"
+#include "base/math/vec.h"
+#include "base/text/source_text.h"
 
 namespace ombre::solids {
 

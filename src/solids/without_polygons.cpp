@@ -1,7 +1,7 @@
 // What operations on regions are in builds without the polygon library: an error.
 #ifndef OMBRE_POLYGONS
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "solids/regions.h"
 
 namespace ombre::solids {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "base/point_text.h"
-#include "base/text.h"
+#include "base/math/point_text.h"
+#include "base/text/text.h"
 
 namespace ombre::sources {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "design/source_loader.h"
-#include "import/cad_source.h"
+#include "import/surfaces/cad_source.h"
 
 namespace ombre::sources {
 

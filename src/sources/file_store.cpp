@@ -4,9 +4,9 @@
 
 #include <chrono>
 
-#include "base/error.h"
-#include "formats/file.h"
-#include "formats/mapped_file.h"
+#include "base/text/error.h"
+#include "formats/containers/file.h"
+#include "formats/containers/mapped_file.h"
 
 namespace ombre::sources {
 namespace {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/hash.h"
+#include "base/system/hash.h"
 
 namespace ombre::sources {
 

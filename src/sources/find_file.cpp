@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "base/named_files.h"
-#include "base/text.h"
+#include "base/system/named_files.h"
+#include "base/text/text.h"
 
 namespace ombre::sources {
 

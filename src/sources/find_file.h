@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "base/diagnostic.h"
+#include "base/text/diagnostic.h"
 
 namespace ombre::sources {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "base/error.h"
-#include "base/text.h"
-#include "formats/bmp.h"
-#include "formats/png.h"
-#include "formats/volume_parts.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "formats/images/bmp.h"
+#include "formats/images/png.h"
+#include "formats/volumes/volume_parts.h"
 #include "tiff/pages.h"
 
 namespace ombre::sources {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/progress.h"
-#include "formats/volume.h"
+#include "base/system/progress.h"
+#include "formats/volumes/volume.h"
 
 namespace ombre::sources {
 

@@ -1,8 +1,8 @@
 #include "sources/loading.h"
 
-#include "base/assert.h"
-#include "base/error.h"
-#include "base/text.h"
+#include "base/system/assert.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
 #include "sources/find_file.h"
 
 namespace ombre::sources {

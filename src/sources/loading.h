@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "design/source_loader.h"
 #include "sources/source_cache.h"
 

@@ -2,11 +2,11 @@
 
 #include <map>
 
-#include "base/point_text.h"
-#include "base/text.h"
-#include "import/corner_welder.h"
-#include "import/mesh_source.h"
-#include "import/shells.h"
+#include "base/math/point_text.h"
+#include "base/text/text.h"
+#include "import/surfaces/corner_welder.h"
+#include "import/surfaces/mesh_source.h"
+#include "import/surfaces/shells.h"
 
 namespace ombre::sources {
 namespace {

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <set>
 
-#include "base/file_ending.h"
-#include "base/json.h"
-#include "base/text.h"
+#include "base/text/file_ending.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
 #include "design/nearest_material.h"
-#include "formats/mesh_objects.h"
+#include "formats/mesh/mesh_objects.h"
 
 namespace ombre::sources {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "design/source_loader.h"
-#include "formats/mesh.h"
+#include "formats/mesh/mesh.h"
 #include "sources/loading.h"
 
 namespace ombre::sources {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "base/file_ending.h"
-#include "import/result_mesh.h"
+#include "base/text/file_ending.h"
+#include "import/fields/result_mesh.h"
 
 namespace ombre::sources {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/diagnostic.h"
-#include "formats/mesh.h"
-#include "formats/results.h"
+#include "base/text/diagnostic.h"
+#include "formats/mesh/mesh.h"
+#include "formats/results/results.h"
 
 namespace ombre::sources {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 namespace ombre::sources {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "base/diagnostic.h"
-#include "base/hash.h"
+#include "base/system/hash.h"
+#include "base/text/diagnostic.h"
 #include "sources/file_store.h"
 
 namespace ombre::sources {

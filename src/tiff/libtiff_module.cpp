@@ -9,8 +9,8 @@
 #include <cstring>
 #include <memory>
 
-#include "base/error.h"
-#include "tiff/module.h"
+#include "base/text/error.h"
+#include "tiff/libtiff_calls.h"
 
 namespace ombre::tiff {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 
 namespace ombre::tiff {
 

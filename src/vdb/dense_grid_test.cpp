@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 #ifdef OMBRE_OPENVDB
 #include <openvdb/openvdb.h>

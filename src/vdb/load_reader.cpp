@@ -1,7 +1,7 @@
 // Loads the module of sparse grids when the first file is read.
 #include "vdb/dense_grid.h"
 
-#include "base/module_loader.h"
+#include "base/system/module_loader.h"
 #include "vdb/grid_reader.h"
 
 namespace ombre::vdb {

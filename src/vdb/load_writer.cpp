@@ -1,7 +1,7 @@
 // Loads the module of sparse grids when the first are made.
 #include "vdb/sparse_grids.h"
 
-#include "base/module_loader.h"
+#include "base/system/module_loader.h"
 #include "vdb/grid_store.h"
 
 namespace ombre::vdb {

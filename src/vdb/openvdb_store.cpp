@@ -7,7 +7,7 @@
 #include <cmath>
 #include <variant>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "vdb/grid_files.h"
 #include "vdb/grid_store.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/vec.h"
+#include "base/math/vec.h"
 
 namespace ombre::vdb {
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.h"
+#include "base/text/error.h"
 
 #ifdef OMBRE_OPENVDB
 #include <nanovdb/util/IO.h>

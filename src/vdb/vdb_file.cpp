@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "base/hash.h"
+#include "base/system/hash.h"
 #include "vdb/grid_files.h"
 
 namespace ombre::vdb {

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/helper_process.h"
+#include "base/system/helper_process.h"
+#include "base/text/error.h"
 #include "vdb/grid_reader.h"
 
 namespace ombre::vdb {

@@ -8,8 +8,8 @@
 #include "program/evaluate.h"
 #include "program/passes/narrow.h"
 #include "voxel/draws.h"
+#include "voxel/layer_part_rows.h"
 #include "voxel/leaf.h"
-#include "voxel/part_rows.h"
 #include "voxel/row_kernels.h"
 #include "voxel/tile_points.h"
 

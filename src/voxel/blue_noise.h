@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/pitch.h"
+#include "base/math/pitch.h"
 #include "voxel/quantise.h"
 
 namespace ombre::voxel {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 
 namespace ombre::voxel {
 namespace {

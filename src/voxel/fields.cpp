@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "eval/batch/batch.h"
 #include "eval/rows.h"
 #include "program/evaluate.h"

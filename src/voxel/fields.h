@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "voxel/evaluator.h"
 #include "voxel/tile.h"
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "base/box.h"
-#include "base/index_box.h"
-#include "base/pitch.h"
+#include "base/math/box.h"
+#include "base/math/index_box.h"
+#include "base/math/pitch.h"
 
 namespace ombre::voxel {
 

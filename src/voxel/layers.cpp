@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/assert.h"
-#include "base/error.h"
+#include "base/system/assert.h"
+#include "base/text/error.h"
 #include "program/passes/narrow.h"
 #include "voxel/place_sources.h"
 #include "voxel/strip_diffusion.h"

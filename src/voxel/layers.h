@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/system/progress.h"
 #include "voxel/dither.h"
 #include "voxel/evaluator.h"
 #include "voxel/lattice.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/error.h"
+#include "base/text/error.h"
 #include "program/field.h"
 #include "program/program_text.h"
 #include "voxel/layers.h"

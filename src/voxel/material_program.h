@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/run.h"
+#include "base/math/run.h"
 #include "program/program.h"
 
 namespace ombre::voxel {

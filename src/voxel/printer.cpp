@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/json.h"
-#include "base/text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
 
 namespace ombre::voxel {
 namespace {

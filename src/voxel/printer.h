@@ -33,10 +33,10 @@
 #include <string_view>
 #include <vector>
 
-#include "base/diagnostic.h"
-#include "base/image_layout.h"
-#include "base/pitch.h"
-#include "base/vec.h"
+#include "base/math/image_layout.h"
+#include "base/math/pitch.h"
+#include "base/math/vec.h"
+#include "base/text/diagnostic.h"
 
 namespace ombre::voxel {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "base/run.h"
+#include "base/math/run.h"
 #include "eval/batch/batch.h"
 
 namespace ombre::voxel {

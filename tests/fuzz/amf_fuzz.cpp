@@ -2,8 +2,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "formats/mesh.h"
-#include "import/exercise_mesh.h"
+#include "formats/mesh/mesh.h"
+#include "formats/packages/package_readers.h"
+#include "import/surfaces/exercise_mesh.h"
 
 // Repeated objects make large meshes of few bytes.
 constexpr size_t most_exercised = 10'000;

@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base/error.h"
-#include "base/temporary_folder.h"
-#include "compile/bundle.h"
+#include "base/system/temporary_folder.h"
+#include "base/text/error.h"
+#include "load/bundle.h"
 
 namespace {
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "base/json.h"
-#include "compile/build.h"
-#include "compile/node_registry.h"
+#include "base/text/json.h"
 #include "design/design.h"
+#include "load/node_registry.h"
 #include "program/evaluate.h"
 #include "program/passes/passes.h"
+#include "questions/build.h"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "lang/ast_print.h"
-#include "lang/interpret.h"
-#include "lang/parser.h"
+#include "lang/engine/ast_print.h"
+#include "lang/engine/interpret.h"
+#include "lang/engine/parser.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "formats/mesh.h"
-#include "import/exercise_mesh.h"
+#include "formats/mesh/mesh.h"
+#include "import/surfaces/exercise_mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/run.h"
-#include "formats/png.h"
+#include "base/math/run.h"
+#include "formats/images/png.h"
 
 namespace {
 

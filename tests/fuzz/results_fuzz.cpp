@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "import/result_source.h"
+#include "import/fields/result_source.h"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "compile/node_registry.h"
 #include "lang/openscad/csg_text.h"
-#include "lang/openscad/run.h"
-#include "lang/vocabulary/scad_words.h"
+#include "lang/openscad/run_script.h"
+#include "lang/vcad/scad_words.h"
+#include "load/node_registry.h"
 
 namespace {
 

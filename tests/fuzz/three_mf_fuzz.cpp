@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "formats/mesh.h"
-#include "formats/three_mf_model.h"
-#include "formats/three_mf_volumes.h"
-#include "import/beam_source.h"
-#include "import/exercise_mesh.h"
+#include "formats/mesh/mesh.h"
+#include "formats/packages/package_readers.h"
+#include "formats/packages/three_mf_model.h"
+#include "formats/packages/three_mf_volumes.h"
+#include "import/fields/beam_source.h"
+#include "import/surfaces/exercise_mesh.h"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.h"
-#include "import/volume_source.h"
+#include "base/text/error.h"
+#include "import/fields/volume_source.h"
 
 namespace {
 

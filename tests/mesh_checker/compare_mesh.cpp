@@ -13,15 +13,15 @@
 #include <map>
 #include <set>
 
-#include "base/tasks.h"
-#include "compile/build.h"
-#include "compile/load.h"
-#include "compile/partition_program.h"
-#include "compile/region_request.h"
+#include "base/system/tasks.h"
+#include "load/load.h"
 #include "off_soup.h"
 #include "program/evaluate.h"
-#include "surface/point_evaluator.h"
-#include "surface/shortened.h"
+#include "questions/build.h"
+#include "questions/partition_program.h"
+#include "questions/region_request.h"
+#include "surface/cells/point_evaluator.h"
+#include "surface/cells/shortened.h"
 
 namespace {
 

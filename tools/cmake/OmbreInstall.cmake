@@ -1,5 +1,5 @@
 # Where things go when they are installed. The program, the Python package and the modules that both load find what they
-# need from their own places (src/base/own_folders.h), so the whole may be moved.
+# need from their own places (src/base/system/own_folders.h), so the whole may be moved.
 
 # A wheel keeps all of it within the package.
 if(SKBUILD)

@@ -1,4 +1,4 @@
-# One library per folder of src/, its tests beside its sources.
+# One library per room of src/: a folder, or a folder in one; its tests beside its sources.
 
 if(OMBRE_TESTS)
   find_package(GTest REQUIRED)
@@ -23,7 +23,13 @@ function(ombre_optimise_less)
     set(option -O0)
   endif()
   foreach(target ${ARGV})
-    target_compile_options(${target} PRIVATE ${option})
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL "INTERFACE_LIBRARY") # all rooms of a folder
+      get_target_property(rooms ${target} INTERFACE_LINK_LIBRARIES)
+      ombre_optimise_less(${rooms})
+    else()
+      target_compile_options(${target} PRIVATE ${option})
+    endif()
   endforeach()
 endfunction()
 
@@ -33,45 +39,76 @@ function(ombre_test_options target)
   ombre_optimise_less(${target})
 endfunction()
 
-# ombre_folder(<name> [DEPENDS ombre libraries] [LINKS third-party libraries])
-# Every .cpp here belongs to the library, but for every *_test.cpp, which is its test program's, and every *_module.cpp.
-function(ombre_folder name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LINKS" ${ARGN})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
-  set(tests ${sources})
-  list(FILTER sources EXCLUDE REGEX "_(test|module)\\.cpp$")
-  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+# The target of a room: formats/mesh is ombre_formats_mesh.
+function(ombre_targets_of result)
+  string(REPLACE "/" "_" names "${ARGN}")
+  list(TRANSFORM names PREPEND ombre_)
+  set(${result} ${names} PARENT_SCOPE)
+endfunction()
 
-  if(NOT sources) # headers alone
-    add_library(ombre_${name} INTERFACE)
-    foreach(dependency ${ARG_DEPENDS})
-      target_link_libraries(ombre_${name} INTERFACE ombre_${dependency})
-    endforeach()
-    return()
-  endif()
-  add_library(ombre_${name} STATIC ${sources})
-  target_include_directories(ombre_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  foreach(dependency ${ARG_DEPENDS})
-    target_link_libraries(ombre_${name} PUBLIC ombre_${dependency})
+# ombre_room(<path in src> [SUBFOLDERS of sources] [DEPENDS rooms or folders] [LINKS third-party libraries])
+# Every .cpp here belongs to the library, but for every *_test.cpp, which is a test program's, and every *_module.cpp.
+function(ombre_room room)
+  cmake_parse_arguments(ARG "" "" "SUBFOLDERS;DEPENDS;LINKS" ${ARGN})
+  set(patterns ${PROJECT_SOURCE_DIR}/src/${room}/*.cpp)
+  foreach(subfolder ${ARG_SUBFOLDERS})
+    list(APPEND patterns ${PROJECT_SOURCE_DIR}/src/${room}/${subfolder}/*.cpp)
   endforeach()
-  target_link_libraries(ombre_${name} PRIVATE ${ARG_LINKS})
-
-  if(OMBRE_TESTS AND tests)
-    add_executable(test_${name} ${tests})
-    target_link_libraries(test_${name} PRIVATE ombre_${name} GTest::gtest_main)
-    ombre_test_options(test_${name})
-    target_compile_definitions(test_${name} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${OMBRE_TEST_TIMEOUT})
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  list(FILTER sources EXCLUDE REGEX "_(test|module)\\.cpp$")
+  ombre_targets_of(target ${room})
+  ombre_targets_of(dependencies ${ARG_DEPENDS})
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(${target} PUBLIC ${dependencies} PRIVATE ${ARG_LINKS})
+  else() # headers alone
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE ${dependencies})
   endif()
 endfunction()
 
+# ombre_tests(<folder> [FOLDERS that it tests]): a program of all tests in the folder and its rooms.
+function(ombre_tests folder)
+  cmake_parse_arguments(ARG "" "" "FOLDERS" ${ARGN})
+  set(patterns)
+  foreach(tested ${ARG_FOLDERS} ${folder})
+    list(APPEND patterns ${PROJECT_SOURCE_DIR}/src/${tested}/*_test.cpp)
+  endforeach()
+  file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${patterns})
+  if(NOT OMBRE_TESTS OR NOT tests)
+    return()
+  endif()
+  add_executable(test_${folder} ${tests})
+  target_link_libraries(test_${folder} PRIVATE ombre_${folder} GTest::gtest_main)
+  ombre_test_options(test_${folder})
+  target_compile_definitions(test_${folder} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(test_${folder} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${OMBRE_TEST_TIMEOUT})
+endfunction()
+
+# ombre_rooms(<folder> <rooms...> [FOLDERS that it tests besides]): all rooms of a folder as one, and their tests.
+function(ombre_rooms folder)
+  cmake_parse_arguments(ARG "" "" "FOLDERS" ${ARGN})
+  set(rooms ${ARG_UNPARSED_ARGUMENTS})
+  list(TRANSFORM rooms PREPEND ombre_${folder}_)
+  add_library(ombre_${folder} INTERFACE)
+  target_link_libraries(ombre_${folder} INTERFACE ${rooms})
+  ombre_tests(${folder} FOLDERS ${ARG_FOLDERS})
+endfunction()
+
+# A folder that is one room, with its tests; as ombre_room.
+function(ombre_folder name)
+  ombre_room(${name} ${ARGN})
+  ombre_tests(${name})
+endfunction()
+
 # ombre_module(<name> SOURCES files [LINKS third-party libraries])
-# A module that is loaded when it is first needed (base/module_loader.h), since loading the libraries takes longer than many
+# A module that is loaded when it is first needed (base/system/module_loader.h), since loading the libraries takes longer than many
 # jobs, and compiling it longer than the program. The program runs without it, says what is missing, and shares no code with
 # it; the module has its own of what errors need.
 function(ombre_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-  add_library(ombre_${name} MODULE ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/src/base/phrase.cpp)
+  add_library(ombre_${name} MODULE ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/src/base/text/phrase.cpp)
   target_include_directories(ombre_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(ombre_${name} PRIVATE ${ARG_LINKS})
   set_target_properties(ombre_${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/modules)

@@ -4,8 +4,8 @@
 
 #include <atomic>
 
-#include "base/text.h"
-#include "data.h"
+#include "base/text/text.h"
+#include "python_data.h"
 
 namespace ombre::python {
 namespace {

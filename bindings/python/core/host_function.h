@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "base/source_text.h"
+#include "base/text/source_text.h"
 #include "program/field_source.h"
 
 namespace ombre::python {

@@ -152,7 +152,7 @@ def _docstring(text, indent):
     return f'{pad}"""' + ("\n" + pad).join(text.rstrip().splitlines()) + f'\n{pad}"""\n'
 
 
-# Types of options by the kinds of their values (src/options/values.h); each also takes the text of the command line.
+# Types of options by the kinds of their values (src/options/option_values.h); each also takes the text of the command line.
 _option_kinds = {"flag": "bool", "file": "Path", "whole number": "Union[int, str]", "number": "Union[float, str]",
                  "length": "Length", "lengths": "Union[Length, Sequence[Length]]",
                  "resolutions": "Union[Length, Sequence[Length]]", "size of memory": "Union[int, str]",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 
 namespace ombre::eval {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "base/large_array.h"
+#include "base/system/large_array.h"
 #include "eval/batch/kernels.h"
 #include "program/program.h"
 

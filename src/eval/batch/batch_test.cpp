@@ -5,7 +5,7 @@
 #include <cstring>
 #include <random>
 
-#include "base/math.h"
+#include "base/math/math.h"
 #include "eval/batch/batch.h"
 #include "program/evaluate.h"
 #include "program/field.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 #include "program/evaluate.h"
 #include "program/parts.h"
 

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <type_traits>
 
-#include "eval/batch/kernels.h"
+#include "eval/batch/kernel_types.h"
 #include "eval/batch/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();

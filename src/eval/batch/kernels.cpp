@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "base/instruction_sets.h"
+#include "base/system/instruction_sets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "eval/batch/kernels.cpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/text.h"
+#include "base/text/text.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {

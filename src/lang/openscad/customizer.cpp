@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/json.h"
-#include "base/text.h"
-#include "lang/parser.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "lang/engine/parser.h"
 
 namespace ombre::lang::openscad {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/data.h"
-#include "base/diagnostic.h"
+#include "base/text/data.h"
+#include "base/text/diagnostic.h"
 
 namespace ombre::lang::openscad {
 

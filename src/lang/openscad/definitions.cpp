@@ -4,8 +4,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "base/text.h"
-#include "lang/lexer.h"
+#include "base/text/text.h"
+#include "lang/engine/lexer.h"
 
 namespace ombre::lang::openscad {
 namespace {
@@ -17,13 +17,13 @@ bool is_variable(std::string_view name) {
          !std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c); });
 }
 
-std::string literal(double number) {
+std::string literal_of(double number) {
   if (std::isnan(number)) return "(0/0)";
   if (std::isinf(number)) return number > 0 ? "(1/0)" : "(-1/0)";
   return format_number(number);
 }
 
-std::string literal(const std::string& text) {
+std::string literal_of(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') quoted += '\\';
@@ -35,15 +35,15 @@ std::string literal(const std::string& text) {
   return quoted + '"';
 }
 
-std::optional<std::string> literal(const Data& value) {
+std::optional<std::string> literal_of(const Data& value) {
   if (value.is_null()) return "undef";
   if (const bool* truth = value.boolean()) return *truth ? "true" : "false";
-  if (const double* number = value.number()) return literal(*number);
-  if (const std::string* text = value.string()) return literal(*text);
+  if (const double* number = value.number()) return literal_of(*number);
+  if (const std::string* text = value.string()) return literal_of(*text);
   if (!value.list()) return std::nullopt;
   std::vector<std::string> elements;
   for (const Data& element : *value.list()) {
-    auto own = literal(element);
+    auto own = literal_of(element);
     if (!own) return std::nullopt;
     elements.push_back(std::move(*own));
   }
@@ -54,7 +54,7 @@ std::optional<std::string> literal(const Data& value) {
 
 std::optional<std::string> definition_of(const std::string& name, const Data& value) {
   if (!is_variable(name)) return std::nullopt;
-  const auto text = literal(value);
+  const auto text = literal_of(value);
   return text ? std::optional(name + '=' + *text) : std::nullopt;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/data.h"
+#include "base/text/data.h"
 
 namespace ombre::lang::openscad {
 

@@ -1,7 +1,7 @@
 // Functions that measure drawings.
 #include <array>
 
-#include "lang/openscad/functions.h"
+#include "lang/openscad/script_functions.h"
 #include "lang/openscad/vectors.h"
 #include "solids/drawing_measures.h"
 

@@ -1,5 +1,5 @@
 // Geometry from files.
-#include "lang/openscad/evaluator.h"
+#include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
 #include "lang/openscad/vectors.h"
 

@@ -1,9 +1,9 @@
 // Loops over values, shared by statements and list comprehensions.
 #pragma once
 
-#include "base/utf8.h"
-#include "lang/openscad/evaluator.h"
+#include "base/text/utf8.h"
 #include "lang/openscad/ranges.h"
+#include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/math.h"
-#include "lang/degrees.h"
-#include "lang/openscad/functions.h"
+#include "base/math/math.h"
+#include "lang/engine/degrees.h"
+#include "lang/openscad/script_functions.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {

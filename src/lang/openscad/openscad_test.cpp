@@ -4,7 +4,7 @@
 
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/customizer.h"
-#include "lang/openscad/run.h"
+#include "lang/openscad/run_script.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {

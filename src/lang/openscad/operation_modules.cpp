@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lang/openscad/evaluator.h"
+#include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/vectors.h"
 
 namespace ombre::lang::openscad {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lang/openscad/evaluator.h"
+#include "lang/openscad/script_evaluator.h"
 
 namespace ombre::lang::openscad {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "lang/loader.h"
-#include "lang/openscad/messages.h"
+#include "lang/engine/loader.h"
+#include "lang/openscad/script_messages.h"
 
 namespace ombre::lang::openscad {
 

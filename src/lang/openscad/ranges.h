@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lang/value.h"
+#include "lang/engine/value.h"
 
 namespace ombre::lang::openscad {
 

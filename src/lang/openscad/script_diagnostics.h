@@ -1,7 +1,7 @@
 // A script's messages as diagnostics of a design.
 #pragma once
 
-#include "lang/openscad/messages.h"
+#include "lang/openscad/script_messages.h"
 
 namespace ombre::lang::openscad {
 

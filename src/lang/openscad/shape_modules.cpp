@@ -1,7 +1,7 @@
 // Solids without children.
 #include <cctype>
 
-#include "lang/openscad/evaluator.h"
+#include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/vectors.h"
 
 namespace ombre::lang::openscad {

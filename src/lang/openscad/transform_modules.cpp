@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "lang/degrees.h"
+#include "lang/engine/degrees.h"
 #include "lang/openscad/colours.h"
-#include "lang/openscad/evaluator.h"
+#include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
 #include "lang/openscad/vectors.h"
 

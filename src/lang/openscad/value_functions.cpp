@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "base/utf8.h"
-#include "lang/openscad/functions.h"
+#include "base/text/utf8.h"
 #include "lang/openscad/ranges.h"
+#include "lang/openscad/script_functions.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {

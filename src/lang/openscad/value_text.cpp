@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "lang/scope.h"
+#include "lang/engine/scope.h"
 
 namespace ombre::lang::openscad {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lang/value.h"
+#include "lang/engine/value.h"
 
 namespace ombre::lang::openscad {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/vec.h"
-#include "lang/value.h"
+#include "base/math/vec.h"
+#include "lang/engine/value.h"
 
 namespace ombre::lang::openscad {
 

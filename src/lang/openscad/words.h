@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lang/vocabulary.h"
+#include "lang/engine/vocabulary.h"
 #include "solids/tree.h"
 
 namespace ombre::lang::openscad {

@@ -1,6 +1,6 @@
 #include "program/passes/replay.h"
 
-#include "base/assert.h"
+#include "base/system/assert.h"
 
 namespace ombre::program {
 namespace {

@@ -1,0 +1,32 @@
+// The compiled part of the package `ombre`.
+#include <pybind11/pybind11.h>
+
+#include "base/system/progress.h"
+#include "base/text/error.h"
+#include "python_data.h"
+#include "design_objects.h"
+#include "load/data_folder.h"
+
+namespace ombre::python {
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "The compiled part of ombre; use the package.";
+  module.attr("version") = OMBRE_VERSION;
+  module.def("set_package_folder", &set_package_folder);
+  module.def("data_folder", &compile::data_folder);
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const Error& error) {
+      PyErr_SetString(package_member("MachineError").ptr(), error.what());
+    } catch (const Cancelled&) {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+    }
+  });
+  const auto cache = std::make_shared<sources::SourceCache>();
+  add_designs(module, cache);
+  add_commands(module, cache);
+  add_point_sets(module);
+}
+
+}  // namespace ombre::python

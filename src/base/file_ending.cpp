@@ -1,9 +1,0 @@
-#include "base/file_ending.h"
-
-#include "base/text.h"
-
-namespace ombre {
-
-std::string ending_of(const std::filesystem::path& path) { return to_lower(path.extension().string()); }
-
-}  // namespace ombre

@@ -1,0 +1,119 @@
+// Boxes in a tree, to find those that meet another.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/math/box.h"
+
+namespace ombre {
+
+inline bool meet(const Box& a, const Box& b) {
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+         b.lo.z <= a.hi.z;
+}
+
+// 0 within.
+inline double squared_distance(Vec3 point, const Box& box) {
+  Vec3 off;
+  for (int axis = 0; axis < 3; ++axis)
+    off[axis] = std::max({box.lo[axis] - point[axis], point[axis] - box.hi[axis], 0.0});
+  return dot(off, off);
+}
+
+inline Box box_of(const std::array<Vec3, 3>& corners) {
+  return hull(hull({corners[0], corners[0]}, {corners[1], corners[1]}), {corners[2], corners[2]});
+}
+
+// Boxes in the order of a space-filling curve. Four that follow each other make a group, four groups one of the next
+// level, and so on.
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(const std::vector<Box>& boxes);
+
+  // Calls visit(number) for the boxes that meet this one.
+  template <class Visit>
+  void each_that_meets(const Box& box, const Visit& visit) const {
+    if (!order_.empty()) ask(levels_.size() - 1, 0, box, 0, [&](size_t n) { visit(order_[n]); });
+  }
+
+  bool meets_any(const Box& box) const { return !order_.empty() && is_met(levels_.size() - 1, 0, box); }
+
+  // The least distance(number), or any that is `enough` or less; infinite where all are more than `reach`. No distance
+  // may be less than the one to its box.
+  template <class Distance>
+  double nearest(Vec3 point, double reach, double enough, const Distance& distance) const {
+    Search search{point, reach, enough};
+    if (!order_.empty()) look(levels_.size() - 1, 0, search, distance);
+    return search.found;
+  }
+
+  size_t groups() const { return levels_.size() > 1 ? levels_[1].size() : 0; }
+  // Calls visit(a, b) for a box of the group and one that meets it, each pair from one group only.
+  template <class Visit>
+  void each_pair_that_meets(size_t group, const Visit& visit) const {
+    const size_t first = group * width, last = std::min(first + width, order_.size());
+    ask(levels_.size() - 1, 0, levels_[1][group], first, [&](size_t n) {
+      for (size_t m = first; m < std::min(last, n); ++m)
+        if (meet(levels_[0][m], levels_[0][n])) visit(order_[m], order_[n]);
+    });
+  }
+
+ private:
+  static constexpr size_t width = 4;
+
+  // Of the boxes below a node those from `first` on.
+  template <class Visit>
+  void ask(size_t level, size_t node, const Box& box, size_t first, const Visit& visit) const {
+    if (!meet(levels_[level][node], box)) return;
+    if (level == 0) return visit(node);
+    const size_t begin = node * width, end = std::min(begin + width, levels_[level - 1].size());
+    for (size_t n = std::max(begin, first >> (2 * (level - 1))); n < end; ++n) ask(level - 1, n, box, first, visit);
+  }
+
+  bool is_met(size_t level, size_t node, const Box& box) const {
+    if (!meet(levels_[level][node], box)) return false;
+    if (level == 0) return true;
+    const size_t begin = node * width, end = std::min(begin + width, levels_[level - 1].size());
+    for (size_t n = begin; n < end; ++n)
+      if (is_met(level - 1, n, box)) return true;
+    return false;
+  }
+
+  struct Search {
+    Vec3 point;
+    double most, enough, found = HUGE_VAL;
+  };
+
+  // Near boxes first.
+  template <class Distance>
+  void look(size_t level, size_t node, Search& search, const Distance& distance) const {
+    if (level == 0) {
+      const double here = distance(order_[node]);
+      if (here <= search.most) search.most = search.found = here;
+      return;
+    }
+    const size_t begin = node * width, count = std::min(width, levels_[level - 1].size() - begin);
+    std::array<std::pair<double, size_t>, width> below;
+    for (size_t n = 0; n < count; ++n) {
+      const std::pair<double, size_t> next{squared_distance(search.point, levels_[level - 1][begin + n]), begin + n};
+      size_t place = n;
+      for (; place > 0 && next < below[place - 1]; --place) below[place] = below[place - 1];
+      below[place] = next;
+    }
+    for (size_t n = 0; n < count; ++n) {
+      if (search.found <= search.enough || below[n].first > search.most * search.most) return;
+      look(level - 1, below[n].second, search, distance);
+    }
+  }
+
+  std::vector<std::vector<Box>> levels_;  // the boxes themselves first
+  std::vector<uint32_t> order_;           // of the boxes: their numbers
+};
+
+}  // namespace ombre

@@ -1,0 +1,17 @@
+// Checks of the points from which hulls, edges and tubes are made.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "base/math/vec.h"
+
+namespace ombre {
+
+inline constexpr size_t most_set_points = 100'000;
+
+// Returns what is wrong with the points, in words for people, or "" where they can be used: there are at least
+// `least`, all finite, not all in one plane, and no two in one place unless `may_repeat`.
+std::string problem_of_points(std::span<const Vec3> points, size_t least, bool may_repeat);
+
+}  // namespace ombre

@@ -1,0 +1,112 @@
+// Tasks by oneTBB.
+#ifndef OMBRE_PLAIN_THREADS
+
+#include "base/system/tasks.h"
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+namespace ombre {
+
+namespace {
+
+// More threads than cores gain nothing, and the library would complain.
+int worker_count(int threads) { return threads > 0 ? std::min(threads, core_count()) : core_count(); }
+
+// Threads of the run whose task this thread is at; 0: of none.
+thread_local int threads_of_task = 0;
+
+class AtTask {
+ public:
+  explicit AtTask(int threads) : before_(std::exchange(threads_of_task, threads)) {}
+  ~AtTask() { threads_of_task = before_; }
+  AtTask(const AtTask&) = delete;
+  AtTask& operator=(const AtTask&) = delete;
+
+ private:
+  int before_;
+};
+
+// run(threads) on so many. A run within a task of another shares its threads: an arena of its own would bring more. It
+// is isolated, so that what waits for it does not take up another task of the outer run.
+template <class Run>
+void with_threads(int threads, Run run) {
+  const int wanted = worker_count(threads);
+  if (threads_of_task > 0 && threads_of_task <= wanted) {
+    tbb::this_task_arena::isolate([&] { run(threads_of_task); });
+    return;
+  }
+  tbb::task_arena arena(wanted);
+  arena.execute([&] { run(wanted); });
+}
+
+}  // namespace
+
+int core_count() { return std::max(1, tbb::info::default_concurrency()); }
+
+void run_ordered(size_t count, int threads, size_t window, const std::function<std::shared_ptr<void>(size_t)>& produce,
+                 const std::function<void(size_t, const std::shared_ptr<void>&)>& consume) {
+  struct Item {
+    size_t index;
+    std::shared_ptr<void> result;
+  };
+  // An exception that passes through the pipeline would leak the items in flight.
+  std::atomic<bool> failed{false};
+  std::exception_ptr first_failure;
+  std::mutex mutex;
+  const auto guarded = [&](const auto& act) {
+    if (failed) return;
+    try {
+      act();
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!first_failure) first_failure = std::current_exception();
+      failed = true;
+    }
+  };
+  with_threads(threads, [&](int shared) {
+    size_t next = 0;
+    const auto take = [&](tbb::flow_control& flow) -> Item {
+      if (next < count && !failed) return {next++, nullptr};
+      flow.stop();
+      return {};
+    };
+    const auto work = [&](Item item) -> Item {
+      const AtTask here(shared);
+      guarded([&] { item.result = produce(item.index); });
+      return item;
+    };
+    const auto give = [&](Item item) {
+      const AtTask here(shared);
+      guarded([&] { consume(item.index, item.result); });
+    };
+    tbb::parallel_pipeline(std::max<size_t>(1, window),
+                           tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, take) &
+                               tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, work) &
+                               tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, give));
+  });
+  if (first_failure) std::rethrow_exception(first_failure);
+}
+
+void run_parallel(size_t count, int threads, const std::function<void(size_t)>& body) {
+  // One by one: the partitioner of choice hands out eighths, which may take very unequal times.
+  with_threads(threads, [&](int shared) {
+    const auto task = [&](size_t i) {
+      const AtTask here(shared);
+      body(i);
+    };
+    tbb::parallel_for(size_t{0}, count, task, tbb::simple_partitioner());
+  });
+}
+
+}  // namespace ombre
+
+#endif  // OMBRE_PLAIN_THREADS

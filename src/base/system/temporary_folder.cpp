@@ -1,0 +1,23 @@
+#include "base/system/temporary_folder.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/text/error.h"
+
+namespace ombre {
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "ombre-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw Error("no folder can be made as " + name + ": " + std::strerror(errno));
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace ombre

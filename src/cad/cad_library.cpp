@@ -1,0 +1,31 @@
+// Loads the module of CAD files when the first is read.
+#include "cad/solids.h"
+
+#include <algorithm>
+
+#include "base/system/module_loader.h"
+#include "base/text/text.h"
+#include "cad/occt_calls.h"
+
+namespace ombre::cad {
+namespace {
+
+constexpr Module opencascade{"ombre_opencascade",         "Open CASCADE", "CAD files",
+                             "libocct-data-exchange-dev", "OMBRE_CAD",    "save the part as a mesh (STL, 3MF)"};
+
+}  // namespace
+
+bool is_cad_file(const std::string& path) {
+  const std::string name = to_lower(path);
+  constexpr const char* endings[] = {".step", ".stp", ".iges", ".igs"};
+  return std::any_of(std::begin(endings), std::end(endings), [&](const char* e) { return name.ends_with(e); });
+}
+
+std::vector<SolidPtr> read_solids(const std::string& path, const StopFlag* stop) {
+  static const auto read = load_function<decltype(ombre_read_cad)>(opencascade, "ombre_read_cad");
+  std::vector<SolidPtr> solids;
+  read(&path, stop, &solids);
+  return solids;
+}
+
+}  // namespace ombre::cad

@@ -1,0 +1,62 @@
+// What an expression's text means, as a tree.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "program/field.h"
+
+namespace ombre::expr {
+
+enum class Kind : uint8_t { number, variable, negate, logical_not, binary, call, conditional, source, input };
+enum class Binary : uint8_t {
+  add,
+  subtract,
+  multiply,
+  divide,
+  mod,
+  power,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or,
+  logical_xor,
+  logical_nand,
+  logical_nor,
+};
+
+// A value that a formula gets from elsewhere, such as an output of a node.
+class Input {
+ public:
+  virtual ~Input() = default;
+  virtual program::Field field(const program::Point& p) const = 0;
+  virtual std::string name() const = 0;  // for people
+  virtual bool is_same(const Input& other) const = 0;
+};
+using InputPtr = std::shared_ptr<const Input>;
+
+struct Node {
+  Kind kind = Kind::number;
+  Binary binary = Binary::add;
+  double number = 0;
+  std::string name;  // of a variable or function, lower case
+  std::vector<std::shared_ptr<const Node>> operands;
+  program::SourceField source;  // of a value that the host program computes: its channel 0
+  InputPtr input;
+  uint32_t begin = 0, end = 0;  // bytes of the expression's text
+
+  Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+  ~Node();  // without recursion: sums may be long
+};
+
+using NodePtr = std::shared_ptr<const Node>;
+
+}  // namespace ombre::expr

@@ -1,0 +1,112 @@
+// Studies: what is held and what pulls, as a JSON file says it, and what that means for the nodes of a mesh.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/text/data.h"
+#include "base/text/diagnostic.h"
+#include "fea/model/model.h"
+
+namespace ombre::fea {
+
+// A plane through a point; the nodes on it are meant.
+struct Plane {
+  Vec3 point, normal;  // mm; of length one
+};
+
+// Outer sides that look along a direction.
+struct Facing {
+  Vec3 direction;  // of length one
+  double most_degrees = 0;
+};
+
+// A text of the study with its place.
+struct PlacedText {
+  std::string text;
+  SourceRange where;
+};
+
+// Chooses nodes of a mesh: those that everything which is given here holds for.
+struct Selection {
+  std::optional<std::pair<int, bool>> side;  // of the bounding box: axis, and whether the upper one
+  std::optional<Box> box;                    // mm
+  std::optional<Plane> plane;
+  std::optional<Facing> facing;
+  std::optional<PlacedText> material;  // nodes of elements that are made of it, or most of all of it
+  std::optional<PlacedText> part;      // nodes of elements whose middle is in this part of the design
+  std::optional<PlacedText> formula;   // not 0 at the node
+  SourceRange where;
+};
+
+struct Support {
+  Selection on;
+  std::array<std::optional<double>, 3> displacement_mm;  // along x, y, z; what is missing is free
+  double value = 0;                                      // in conduction: degrees Celsius, or V
+  std::string name;                                      // of its nodes, in decks
+};
+
+struct Load {
+  enum class Kind : uint8_t {
+    force,
+    pressure,
+    flow,        // heat or current that enters, in all
+    flux,        // the same for each mm2 of outer sides
+    convection,  // to a medium around
+  } kind = Kind::force;
+  Selection on;
+  Vec3 force_n;             // shared out over the outer sides there, by area; or else evenly over the nodes
+  double pressure_mpa = 0;  // towards the solid
+  double flow = 0;          // W or A; or for each mm2
+  double film_w_m2k = 0, ambient_c = 0;
+  std::string name;
+};
+
+struct Study {
+  Physics physics = Physics::mechanics;
+  std::map<std::string, Elastic> materials;      // by name, before those of the materials file
+  std::map<std::string, double> conductivities;  // the same, W/(m K) or S/m, as physics has it
+  std::vector<Support> supports;
+  std::vector<Load> loads;
+  Vec3 gravity_mm_s2;
+  // The mesh is a cell that repeats, without supports and loads: xx, yy, zz, xy, yz, zx, the last three as twice the
+  // tensor's.
+  std::optional<std::array<double, 6>> mean_strain;
+  SourceRange where;
+};
+
+// {"materials": {"soft": {"modulus_mpa": 1, "poissons_ratio": 0.4, "density_kg_m3": 1100}},
+//  "supports": [{"on": "zmin", "fix": "xyz"}, {"on": "zmax", "displacement_mm": [null, null, -1]}],
+//  "loads": [{"on": "xmax", "force_n": [0, 0, -5]}, {"on": {"box": [0, 0, 0, 1, 1, 1]}, "pressure_mpa": 0.1}],
+//  "gravity_mm_s2": [0, 0, -9810]}
+// or of a cell that repeats: {"materials": ..., "mean_strain": [0.01, 0, 0, 0, 0, 0]}
+// or of conduction:
+// {"physics": "heat", "materials": {"soft": {"conductivity_w_mk": 0.2}},
+//  "supports": [{"on": "zmin", "temperature_c": 20}],
+//  "loads": [{"on": "zmax", "heat_w": 1}, {"on": "xmax", "flux_w_mm2": 0.01},
+//            {"on": "ymax", "film_w_m2k": 10, "ambient_c": 20}]}
+// {"physics": "electric", "materials": {"soft": {"conductivity_s_m": 100}},
+//  "supports": [{"on": "zmin", "potential_v": 0}], "loads": [{"on": "zmax", "current_a": 0.1}]}
+// Nothing, and diagnostics with places, when it is wrong.
+std::optional<Study> read_study(const Data& data, Diagnostics& diagnostics);
+
+// Properties as a materials file has them beside a colour: "modulus_mpa" and so on. Nothing when there is none of them;
+// a diagnostic at `data` when one is wrong or missing.
+std::optional<Elastic> read_elastic(const DataMembers& members, const SourceRange& where, Diagnostics& diagnostics);
+// The same of "conductivity_w_mk" or "conductivity_s_m", as physics has it.
+std::optional<double> read_conductivity(const DataMembers& members, Physics physics, Diagnostics& diagnostics);
+
+// Chooses the nodes of a part or by a formula, as the design has them. Nothing, and diagnostics, when it is wrong.
+using ChooseNodes =
+    std::function<std::optional<std::vector<bool>>(const Selection& selection, Diagnostics& diagnostics)>;
+
+// Nothing, and diagnostics, when a selection holds no node, or a piece of the mesh is free to move as a whole, or its
+// temperature is not decided. Without `choose`, selections by part and formula are errors.
+std::optional<Conditions> conditions_of(const Study& study, const ModelView& model, Diagnostics& diagnostics,
+                                        const ChooseNodes& choose = nullptr);
+
+}  // namespace ombre::fea

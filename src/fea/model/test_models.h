@@ -1,0 +1,70 @@
+// Blocks of bricks for tests.
+#pragma once
+
+#include <cmath>
+#include <functional>
+
+#include "fea/model/model.h"
+
+namespace ombre::fea::test {
+
+inline Bricks block(Cell count, Vec3 size_mm, Vec3 origin = {}) {
+  std::vector<Cell> cells;
+  for (int32_t k = 0; k < count[2]; ++k)
+    for (int32_t j = 0; j < count[1]; ++j)
+      for (int32_t i = 0; i < count[0]; ++i) cells.push_back({i, j, k});
+  return make_bricks(origin, size_mm, std::move(cells));
+}
+
+// A block from the origin that ends anywhere, as bricks with their fill.
+inline Bricks cut_block(Vec3 block_mm, double brick_mm) {
+  const auto part_is_inside = [&](const Cell& cell, const std::array<size_t, 3>& part) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<size_t>(axis);
+      const double middle = cell[at] + (static_cast<double>(part[at]) + 0.5) / parts_along;
+      if (middle * brick_mm > block_mm[axis]) return false;
+    }
+    return true;
+  };
+  const auto fill_of = [&](const Cell& cell) {
+    Fill fill = 0;
+    for (size_t n = 0; n < parts_of_brick; ++n)
+      if (part_is_inside(cell, {n % 4, n / 4 % 4, n / 16})) fill |= Fill{1} << n;
+    return fill;
+  };
+  std::vector<Cell> cells;
+  std::vector<Fill> fills;
+  const auto along = [&](int axis) { return static_cast<int32_t>(std::ceil(block_mm[axis] / brick_mm - 1e-9)); };
+  for (int32_t k = 0; k < along(2); ++k)
+    for (int32_t j = 0; j < along(1); ++j)
+      for (int32_t i = 0; i < along(0); ++i) {
+        cells.push_back({i, j, k});
+        fills.push_back(fill_of({i, j, k}));
+      }
+  Bricks bricks = make_bricks({}, {brick_mm, brick_mm, brick_mm}, std::move(cells));
+  bricks.fills = std::move(fills);
+  return bricks;
+}
+
+// A model of one material.
+inline Model model_of(Bricks bricks, Elastic elastic) {
+  Model model{std::move(bricks), {{"one", elastic}}, {}, {}};
+  model.section_of.assign(model.bricks.count(), 0);
+  return model;
+}
+
+// Displacements by a function of the node's place, where another says so; axes that it leaves are NaN.
+inline Conditions held(const MeshView& mesh, const std::function<bool(Vec3)>& where,
+                       const std::function<Vec3(Vec3)>& displacement) {
+  Conditions conditions;
+  for (uint32_t n = 0; n < mesh.node_count(); ++n) {
+    const Vec3 p = mesh.node(n);
+    if (!where(p)) continue;
+    for (uint8_t axis = 0; axis < 3; ++axis)
+      if (const double value = displacement(p)[axis]; value == value)
+        conditions.displacements.push_back({n, axis, value});
+  }
+  return conditions;
+}
+
+}  // namespace ombre::fea::test

@@ -1,0 +1,38 @@
+// Linear elasticity on equal bricks.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/system/progress.h"
+#include "fea/model/model.h"
+#include "fea/solve/solve_options.h"
+
+namespace ombre::fea {
+
+struct Solution {
+  std::vector<Vec3> displacement_mm;  // of nodes
+  std::vector<std::array<double, 6>>
+      stress_mpa;                             // in the middle of what is inside of each brick: xx, yy, zz, xy, yz, zx
+  std::vector<std::array<double, 6>> strain;  // engineering shear
+  std::vector<Prescribed> reactions_n;        // at what is held, in the order of the conditions
+  size_t iterations = 0;
+  std::optional<DirectUse> direct;
+  double residual = 0;   // of the last iteration, in the norm of the right side
+  double energy_mj = 0;  // N mm: the strain energy
+};
+
+double von_mises(const std::array<double, 6>& stress);
+
+// Trilinear bricks whose change of volume is the mean of the brick's (B-bar: Hughes, 1980), as Abaqus' C3D8 has it, so
+// that nearly incompressible materials do not lock. By conjugate gradients, without a matrix unless one is factorised
+// (Solver). The same bits with any number of threads. Progress counts thousandths of the way to the tolerance. Throws
+// Error when it does not converge, and Cancelled.
+Solution solve(const Model& model, const Conditions& conditions, const SolveOptions& options,
+               Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+// The memory that solve() takes, about.
+double solve_bytes(const Bricks& bricks);
+
+}  // namespace ombre::fea

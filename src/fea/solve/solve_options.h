@@ -1,0 +1,33 @@
+// How systems of equations are solved.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+namespace ombre::fea {
+
+// What conjugate gradients on bricks are preconditioned with.
+enum class Solver : uint8_t {
+  multigrid,
+  direct,     // a factorisation (direct.h)
+  automatic,  // multigrid at first; a factorisation, where multigrid is slow and that is expected to be quicker and
+              // fits
+};
+
+// A factorisation that was made or is about to be.
+struct DirectUse {
+  double operations = 0, memory_bytes = 0;
+  double disk_bytes = 0;  // 0: the factor is in memory
+};
+
+struct SolveOptions {
+  double tolerance = 1e-8;  // of the residual, in the norm of the right side
+  size_t most_iterations = 20000;
+  int threads = 0;  // 0: all cores
+  Solver solver = Solver::multigrid;
+  double memory_bytes = 8e9;  // that a factorisation may take
+  std::function<void(const DirectUse&)> announce = {};
+};
+
+}  // namespace ombre::fea

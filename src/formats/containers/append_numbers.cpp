@@ -1,0 +1,40 @@
+#include "formats/containers/append_numbers.h"
+
+#include <charconv>
+#include <string_view>
+
+namespace ombre::formats {
+
+void append_float(std::string& text, double value) {
+  char digits[32];
+  const float single = static_cast<float>(value) + 0.0f;  // -0 becomes 0
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, single).ptr);
+}
+
+void append_decimal(std::string& text, double value) {
+  char digits[352];
+  std::string_view written(digits,
+                           std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 6).ptr);
+  written = written.substr(0, written.find_last_not_of('0') + 1);
+  if (written.ends_with('.')) written.remove_suffix(1);
+  text += written == "-0" ? "0" : written;
+}
+
+void append_point(std::string& text, Vec3 p) {
+  append_float(text, p.x);
+  text += ' ';
+  append_float(text, p.y);
+  text += ' ';
+  append_float(text, p.z);
+}
+
+void append_count(std::string& text, uint64_t value) {
+  char digits[24];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+void append_u32(std::string& bytes, uint32_t value) {
+  for (const int shift : {0, 8, 16, 24}) bytes += static_cast<char>(value >> shift & 0xFF);
+}
+
+}  // namespace ombre::formats

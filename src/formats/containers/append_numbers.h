@@ -1,0 +1,31 @@
+// Numbers in files: text and bytes, the same everywhere.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include "base/math/vec.h"
+
+namespace ombre::formats {
+
+// The shortest decimal that reads back to the same float; 0 for -0.
+void append_float(std::string& text, double value);
+// With at most six decimals: millimetres to the nanometre.
+void append_decimal(std::string& text, double value);
+// "x y z".
+void append_point(std::string& text, Vec3 p);
+void append_count(std::string& text, uint64_t value);
+
+// Low byte first.
+void append_u32(std::string& bytes, uint32_t value);
+inline void append_f32(std::string& bytes, double value) {
+  append_u32(bytes, std::bit_cast<uint32_t>(static_cast<float>(value)));
+}
+inline void append_point_f32(std::string& bytes, Vec3 p) {
+  append_f32(bytes, p.x);
+  append_f32(bytes, p.y);
+  append_f32(bytes, p.z);
+}
+
+}  // namespace ombre::formats

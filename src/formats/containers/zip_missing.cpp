@@ -1,0 +1,32 @@
+// What zip archives are in builds without libzip: they cannot be read or written.
+#ifndef OMBRE_3MF
+
+#include "base/text/error.h"
+#include "formats/containers/library_missing.h"
+#include "formats/containers/text_scanner.h"
+#include "formats/containers/zip_archive.h"
+
+namespace ombre::formats {
+
+bool can_write_zip() { return false; }
+
+void write_zip(const std::string& path, const std::vector<ZipEntry>&) {
+  throw Error(Code::cannot_write,
+              "cannot write " + path + ": " + xml_missing + "; " + xml_remedy + ", or write another format");
+}
+
+ZipReader::ZipReader(const std::string& name, std::string_view, Diagnostics& diagnostics, uint64_t ratio)
+    : name_(name), diagnostics_(diagnostics), ratio_(ratio) {
+  fail(diagnostics, name, std::string("zip archives cannot be read: ") + xml_missing, xml_remedy);
+}
+
+ZipReader::~ZipReader() = default;
+
+// Nobody has a reader of these builds.
+std::optional<size_t> ZipReader::find(const std::string&) const { return std::nullopt; }
+bool ZipReader::is_link(const std::string&) const { return false; }
+std::string ZipReader::read(const std::string&) { return ""; }
+
+}  // namespace ombre::formats
+
+#endif

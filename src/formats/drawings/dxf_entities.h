@@ -1,0 +1,59 @@
+// What DXF files hold, before it becomes lines: entities with their values, and blocks of them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/math/vec.h"
+#include "base/text/diagnostic.h"
+#include "formats/containers/text_scanner.h"
+
+namespace ombre::formats {
+
+// A code that says what the value is.
+struct DxfPair {
+  int code = 0;
+  std::string_view value;
+  size_t begin = 0, end = 0;  // of the value
+};
+
+struct DxfEntity {
+  std::string_view kind;
+  std::vector<DxfPair> pairs;
+  std::vector<Vec2> vertices = {};  // of polylines
+  std::vector<double> bulges = {};  // one for each
+};
+
+// Numbers of one entity, each by its code.
+class DxfValues {
+ public:
+  DxfValues(const TextScanner& scanner, const DxfEntity& entity) : scanner_(scanner), entity_(entity) {}
+
+  double number(int code, double otherwise = 0) const;
+  Vec2 point(int code) const { return {number(code), number(code + 10)}; }
+  std::string_view text(int code) const;
+
+  double parsed(const DxfPair& pair) const;
+
+ private:
+  const TextScanner& scanner_;
+  const DxfEntity& entity_;
+};
+
+struct DxfBlock {
+  Vec2 base;
+  std::vector<DxfEntity> entities;
+};
+
+struct DxfDocument {
+  std::vector<DxfEntity> entities;
+  std::map<std::string, DxfBlock, std::less<>> blocks;
+};
+
+// The values of the document point into `bytes`. Reports what is no DXF in text form, and throws DesignError.
+DxfDocument read_dxf_document(const std::string& name, std::string_view bytes, const TextScanner& scanner,
+                              Diagnostics& diagnostics);
+
+}  // namespace ombre::formats

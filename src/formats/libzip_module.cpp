@@ -1,7 +1,0 @@
-// Zip archives by libzip: the module.
-#include "formats/libzip_calls.h"
-
-extern "C" const ombre::formats::LibzipCalls* ombre_libzip_calls() {
-  static const ombre::formats::LibzipCalls calls;
-  return &calls;
-}

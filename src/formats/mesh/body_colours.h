@@ -1,0 +1,17 @@
+// Which colour the parts of a body have.
+#pragma once
+
+#include "formats/mesh/mesh_document.h"
+
+namespace ombre::formats {
+
+// Its material's; gray without one.
+inline Rgba colour_of(const MeshDocument& document, const MeshBody& body) {
+  return body.material ? document.materials[*body.material].colour : MeshMaterial{}.colour;
+}
+
+inline Rgba colour_of_vertex(const MeshDocument& document, const MeshBody& body, size_t vertex) {
+  return body.vertex_colours.empty() ? colour_of(document, body) : body.vertex_colours[vertex];
+}
+
+}  // namespace ombre::formats

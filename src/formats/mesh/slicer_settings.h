@@ -1,0 +1,13 @@
+// A slicer's settings for a body.
+#pragma once
+
+#include "formats/mesh/mesh_document.h"
+
+namespace ombre::formats {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+// In PrusaSlicer's keys: the body's own, and the extruder of its material, from 1, unless it names one.
+Settings slicer_settings(const MeshBody& body);
+
+}  // namespace ombre::formats

@@ -1,0 +1,109 @@
+// AMF (ISO/ASTM 52915): one object with a volume for each body, and PrusaSlicer's metadata.
+#include "formats/containers/append_numbers.h"
+#include "formats/containers/xml_text.h"
+#include "formats/mesh/slicer_settings.h"
+#include "formats/packages/package_writers.h"
+
+namespace ombre::formats {
+namespace {
+
+std::string metadata(std::string_view type, std::string_view value) {
+  return "<metadata" + xml_attribute("type", type) + '>' + xml_escaped(value) + "</metadata>\n";
+}
+
+void append_number(std::string& text, std::string_view element, double value) {
+  text += '<';
+  text += element;
+  text += '>';
+  append_float(text, value);
+  text += "</";
+  text += element;
+  text += '>';
+}
+
+void append_colour(std::string& text, const Rgba& colour) {
+  constexpr std::string_view parts[]{"r", "g", "b", "a"};
+  text += "<color>";
+  for (size_t i = 0; i < colour.size(); ++i) append_number(text, parts[i], colour[i] / 255.0);
+  text += "</color>";
+}
+
+// Number 0 is void.
+std::string material_text(const MeshMaterial& material, size_t index) {
+  std::string text = "<material id=\"" + std::to_string(index + 1) + "\">\n" + metadata("name", material.name);
+  append_colour(text, material.colour);
+  return text + "\n</material>\n";
+}
+
+void append_vertex(std::string& text, const MeshBody& body, size_t index) {
+  const Vec3 p = body.vertices[index];
+  text += "<vertex><coordinates>";
+  append_number(text, "x", p.x);
+  append_number(text, "y", p.y);
+  append_number(text, "z", p.z);
+  text += "</coordinates>";
+  if (!body.vertex_colours.empty()) append_colour(text, body.vertex_colours[index]);
+  text += "</vertex>\n";
+}
+
+void append_corner(std::string& text, std::string_view element, uint64_t vertex) {
+  text += '<';
+  text += element;
+  text += '>';
+  append_count(text, vertex);
+  text += "</";
+  text += element;
+  text += '>';
+}
+
+void append_triangle(std::string& text, const std::array<uint32_t, 3>& triangle, uint64_t first_vertex) {
+  text += "<triangle>";
+  append_corner(text, "v1", first_vertex + triangle[0]);
+  append_corner(text, "v2", first_vertex + triangle[1]);
+  append_corner(text, "v3", first_vertex + triangle[2]);
+  text += "</triangle>\n";
+}
+
+std::string volume_begin(const MeshBody& body) {
+  const std::string material = body.material ? xml_attribute("materialid", std::to_string(*body.material + 1)) : "";
+  std::string text = "<volume" + material + ">\n" + metadata("name", body.name);
+  for (const auto& [key, value] : slicer_settings(body)) text += metadata("slic3r." + key, value);
+  return text;
+}
+
+void add_vertices(LazyBytes& bytes, const MeshDocument& document) {
+  bytes.add("<vertices>\n");
+  for (const MeshBody& body : document.bodies)
+    bytes.add_rows(body.vertices.size(),
+                   [&body](std::string& text, size_t index) { append_vertex(text, body, index); });
+  bytes.add("</vertices>\n");
+}
+
+void add_volumes(LazyBytes& bytes, const MeshDocument& document) {
+  uint64_t first_vertex = 0;
+  for (const MeshBody& body : document.bodies) {
+    if (!body.triangles.empty()) {
+      bytes.add(volume_begin(body));
+      bytes.add_rows(body.triangles.size(), [&body, first_vertex](std::string& text, size_t index) {
+        append_triangle(text, body.triangles[index], first_vertex);
+      });
+      bytes.add("</volume>\n");
+    }
+    first_vertex += body.vertices.size();
+  }
+}
+
+}  // namespace
+
+LazyBytes amf_bytes(const MeshDocument& document) {
+  LazyBytes bytes;
+  std::string begin = std::string(xml_declaration) + "<amf unit=\"millimeter\" version=\"1.1\">\n";
+  for (size_t i = 0; i < document.materials.size(); ++i) begin += material_text(document.materials[i], i);
+  bytes.add(begin + "<object id=\"0\">\n" + metadata("name", document.title) + "<mesh>\n");
+  add_vertices(bytes, document);
+  add_volumes(bytes, document);
+  bytes.add("</mesh>\n</object>\n</amf>\n");
+  return bytes;
+}
+
+}  // namespace ombre::formats

@@ -1,0 +1,124 @@
+#include "formats/packages/three_mf_beams_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "formats/containers/append_numbers.h"
+#include "formats/containers/xml_text.h"
+
+namespace ombre::formats {
+namespace {
+
+constexpr std::string_view cap_texts[]{"sphere", "hemisphere", "butt"};
+constexpr std::string_view clipping_texts[]{"none", "inside", "outside"};
+
+std::string_view word(BeamCap cap) { return cap_texts[static_cast<size_t>(cap)]; }
+
+// What most beams have, the least of equally frequent values.
+template <class T>
+class MostFrequent {
+ public:
+  void add(T value) { ++counts_[value]; }
+  T value() const {
+    const auto rarer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    return std::max_element(counts_.begin(), counts_.end(), rarer)->first;
+  }
+
+ private:
+  std::map<T, size_t> counts_;
+};
+
+// What the lattice says, and beams only where they differ.
+struct Usual {
+  float radius = 0;
+  BeamCap cap = BeamCap::sphere;
+  uint32_t material = 0;
+};
+
+Usual usual_of(const WrittenBeams& written) {
+  MostFrequent<float> radius;
+  MostFrequent<BeamCap> cap;
+  MostFrequent<uint32_t> material;
+  for (const Beam& beam : written.beams)
+    for (const size_t end : {0, 1}) {
+      radius.add(static_cast<float>(beam.radii[end]));
+      cap.add(beam.caps[end]);
+    }
+  for (const uint32_t own : written.materials) material.add(own);
+  return {radius.value(), cap.value(), written.materials.empty() ? 0 : material.value()};
+}
+
+Vec3 rounded(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
+
+// Below the length of each beam, also as programs that compute in floats find it.
+double least_length(const WrittenBeams& written) {
+  constexpr double rounding = 1e-4;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Beam& beam : written.beams) {
+    const Vec3 start = rounded(written.vertices[beam.ends[0]]), end = rounded(written.vertices[beam.ends[1]]);
+    least = std::min(least, length(end - start));
+  }
+  return (1 - rounding) * least;
+}
+
+void append_length(std::string& text, std::string_view name, double value) {
+  text += ' ';
+  text += name;
+  text += "=\"";
+  append_float(text, value);
+  text += '"';
+}
+
+void append_index(std::string& text, std::string_view name, uint64_t value) {
+  text += ' ';
+  text += name;
+  text += "=\"";
+  append_count(text, value);
+  text += '"';
+}
+
+void append_beam(std::string& text, const WrittenBeams& written, const Usual& usual, size_t index) {
+  const Beam& beam = written.beams[index];
+  text += "<b:beam";
+  append_index(text, "v1", beam.ends[0]);
+  append_index(text, "v2", beam.ends[1]);
+  // The second radius is that of the lattice, or the first where this is written.
+  const auto first = static_cast<float>(beam.radii[0]), second = static_cast<float>(beam.radii[1]);
+  if (first != usual.radius || second != usual.radius) append_length(text, "r1", first);
+  if (first != second) append_length(text, "r2", second);
+  if (beam.caps[0] != usual.cap) text += xml_attribute("cap1", word(beam.caps[0]));
+  if (beam.caps[1] != usual.cap) text += xml_attribute("cap2", word(beam.caps[1]));
+  if (!written.materials.empty() && written.materials[index] != usual.material) {
+    append_index(text, "p1", written.materials[index]);
+    append_index(text, "p2", written.materials[index]);
+  }
+  text += "/>\n";
+}
+
+}  // namespace
+
+LazyBytes beam_lattice_text(const WrittenBeams& written, std::optional<uint64_t> clip, uint64_t materials) {
+  const Usual usual = usual_of(written);
+  std::string begin = "<b:beamlattice";
+  append_length(begin, "minlength", least_length(written));
+  append_length(begin, "radius", usual.radius);
+  if (clip) {
+    begin += xml_attribute("clippingmode", clipping_texts[static_cast<size_t>(written.clipping)]);
+    append_index(begin, "clippingmesh", *clip);
+  }
+  if (!written.materials.empty()) {
+    append_index(begin, "pid", materials);
+    append_index(begin, "pindex", usual.material);
+  }
+  if (usual.cap != BeamCap::sphere) begin += xml_attribute("cap", word(usual.cap));
+  LazyBytes bytes;
+  bytes.add(begin + ">\n<b:beams>\n");
+  bytes.add_rows(written.beams.size(),
+                 [&written, usual](std::string& text, size_t index) { append_beam(text, written, usual, index); });
+  bytes.add("</b:beams>\n</b:beamlattice>\n");
+  return bytes;
+}
+
+}  // namespace ombre::formats

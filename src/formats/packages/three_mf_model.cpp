@@ -1,0 +1,205 @@
+// The model files of a 3MF package (3MF Core 1.3; base materials and colour groups; the paths of Production 1.1).
+#ifdef OMBRE_3MF
+
+#include "formats/packages/three_mf_model.h"
+
+#include <algorithm>
+
+#include "base/text/text.h"
+#include "formats/containers/text_scanner.h"
+#include "formats/packages/three_mf_beams.h"
+#include "formats/packages/three_mf_extensions.h"
+#include "formats/packages/three_mf_resources.h"
+
+namespace ombre::formats {
+namespace {
+
+using pugi::xml_node;
+
+// Twelve numbers, column by column of our matrices: 3MF multiplies rows by matrices.
+Affine parse_transform(const XmlFile& file, xml_node node) {
+  auto text = file.attribute(node, "transform");
+  if (!text) return {};
+  std::array<double, 12> m{};
+  size_t count = 0;
+  for (std::string_view word = next_word(*text); !word.empty(); word = next_word(*text), ++count)
+    if (count < m.size()) m[count] = file.number(node, word, "a number of a transform");
+  if (count != m.size()) file.fail_at(node, "a transform has 12 numbers, this one has " + std::to_string(count));
+  const Affine map{{Vec3{m[0], m[3], m[6]}, Vec3{m[1], m[4], m[7]}, Vec3{m[2], m[5], m[8]}}, {m[9], m[10], m[11]}};
+  if (determinant(map) == 0) file.fail_at(node, "a transform squeezes its object flat: its determinant is 0");
+  return map;
+}
+
+class ObjectReader {
+ public:
+  ObjectReader(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further)
+      : file_(file), part_(part), assembly_(assembly), further_(further), properties_(file) {}
+
+  void read(xml_node resources) {
+    properties_.read(resources);
+    for (const xml_node node : resources.children())
+      if (local_name(node) == "object") read_object(node);
+  }
+
+  Placement read_placement(xml_node node) {
+    const uint64_t id = resource_id(file_, node, "objectid");
+    const auto path = file_.attribute(node, "path");
+    if (!path || path->empty()) return {object_key(part_, id), parse_transform(file_, node)};
+    const std::string other(path->front() == '/' ? path->substr(1) : *path);
+    further_.insert(other);
+    return {object_key(other, id), parse_transform(file_, node)};
+  }
+
+ private:
+  void read_object(xml_node node) {
+    const uint64_t id = resource_id(file_, node, "id");
+    AssemblyObject object;
+    object.name = file_.attribute(node, "name").value_or("");
+    if (object.name.empty()) object.name = "object " + std::to_string(id);
+    if (is_solid(node, object)) {
+      if (const xml_node mesh = child_of(node, "mesh")) read_mesh(mesh, node, object);
+      for (const xml_node component : child_of(node, "components").children())
+        if (local_name(component) == "component") object.components.push_back(read_placement(component));
+    }
+    if (!assembly_.objects.emplace(object_key(part_, id), std::move(object)).second)
+      file_.fail_at(node, "there are two objects with the number " + std::to_string(id));
+  }
+
+  // Supports are not part of the solid, nor are meshes that only change settings where they are.
+  bool is_solid(xml_node node, AssemblyObject& object) const {
+    const std::string_view type = file_.attribute(node, "type").value_or("model");
+    const bool is_model = type.empty() || type == "model";
+    if (!is_model && type != "support" && type != "solidsupport")
+      object.no_solid = "of type " + quoted(type);
+    else if (has_cura_mark(node, "cutting_mesh"))
+      object.no_solid = "that Cura cuts others by";
+    return is_model && object.no_solid.empty() && !has_cura_mark(node, "support_mesh") &&
+           !has_cura_mark(node, "anti_overhang_mesh") && !has_cura_mark(node, "infill_mesh");
+  }
+
+  // Cura keeps its settings of an object as metadata; older versions had an element of their own.
+  bool has_cura_mark(xml_node node, std::string_view key) const {
+    const auto is_set = [&](xml_node list, std::string_view element, std::string_view attribute) {
+      for (const xml_node child : list.children())
+        if (local_name(child) == element && local_name(child.attribute(std::string(attribute).c_str()).value()) == key)
+          return to_lower(trim(child.text().get())) == "true" || trim(child.text().get()) == "1";
+      return false;
+    };
+    return is_set(child_of(node, "metadatagroup"), "metadata", "name") ||
+           is_set(child_of(node, "settings"), "setting", "key");
+  }
+
+  void read_mesh(xml_node mesh, xml_node object_node, AssemblyObject& object) {
+    for (const xml_node vertex : child_of(mesh, "vertices").children()) object.mesh.vertices.push_back(point(vertex));
+    const PropertyReference usual = properties_.reference(object_node, "pindex", {});
+    PropertyReference last;
+    for (const xml_node triangle : child_of(mesh, "triangles").children()) {
+      if (local_name(triangle) != "triangle") continue;
+      const PropertyReference property = properties_.reference(triangle, {"p1", "p2", "p3"}, usual);
+      if (object.mesh.groups.empty() || property != last) start_group(object.mesh, property, triangle);
+      last = property;
+      count_mixture(property);
+      object.mesh.triangles.push_back(corners(triangle, object.mesh.vertices.size()));
+      ++object.mesh.groups.back().triangle_count;
+    }
+    if (const xml_node lattice = child_of(mesh, "beamlattice"))
+      add_lattices(
+          file_, lattice, properties_, usual, [&](xml_node user, uint64_t id) { return clip(user, id); },
+          assembly_.warnings, object.mesh);
+  }
+
+  // The mesh by which a lattice is clipped: that of an object before its own.
+  std::shared_ptr<const Mesh> clip(xml_node user, uint64_t id) {
+    std::shared_ptr<const Mesh>& known = clips_[id];
+    if (known) return known;
+    const auto found = assembly_.objects.find(object_key(part_, id));
+    if (found == assembly_.objects.end() || found->second.mesh.triangles.empty())
+      file_.fail_at(user, "the clippingmesh " + std::to_string(id) + " is no object with triangles before this one");
+    return known = std::make_shared<Mesh>(found->second.mesh);
+  }
+
+  void count_mixture(const PropertyReference& property) {
+    const std::string mixture = properties_.mixture(property);
+    if (mixture.empty()) return;
+    const std::string rest = " by <" + mixture + ">, which is not read";
+    assembly_.warnings.add("a triangle has its material" + rest, "triangles have their materials" + rest);
+  }
+
+  Vec3 point(xml_node vertex) const {
+    const auto coordinate = [&](const char* axis) {
+      return file_.coordinate(vertex, file_.required(vertex, axis), "a coordinate of a vertex");
+    };
+    return {coordinate("x"), coordinate("y"), coordinate("z")};
+  }
+
+  std::array<uint32_t, 3> corners(xml_node triangle, size_t vertices) const {
+    return {vertex_number(file_, triangle, "v1", vertices), vertex_number(file_, triangle, "v2", vertices),
+            vertex_number(file_, triangle, "v3", vertices)};
+  }
+
+  void start_group(Mesh& mesh, const PropertyReference& property, xml_node triangle) const {
+    mesh.groups.push_back({"", static_cast<uint32_t>(mesh.triangles.size()), 0});
+    properties_.describe(property, triangle, mesh.groups.back());
+  }
+
+  const XmlFile& file_;
+  const std::string& part_;
+  Assembly& assembly_;
+  std::set<std::string>& further_;
+  PropertyTable properties_;
+  std::map<uint64_t, std::shared_ptr<const Mesh>> clips_;
+};
+
+// Slicers' ways to give parts of a surface to other extruders.
+void warn_of_paint(const XmlFile& file, CountedWarnings& warnings) {
+  for (const std::string_view attribute : {" paint_color=\"", "mmu_segmentation=\""})
+    for (size_t at = file.text().find(attribute); at != std::string_view::npos;
+         at = file.text().find(attribute, at + attribute.size()))
+      warnings.add("a triangle is painted with another extruder, which is not read",
+                   "triangles are painted with other extruders, which is not read");
+}
+
+void read_unit(const XmlFile& file, xml_node model, Assembly& assembly) {
+  const auto unit = file.attribute(model, "unit");
+  if (!unit) return;
+  const auto mm = mm_per_unit(*unit);
+  if (!mm)
+    file.fail_at(model, "there is no unit " + quoted(*unit),
+                 "it can be micron, millimeter, centimeter, inch, foot or meter");
+  assembly.mm_per_unit = *mm;
+}
+
+}  // namespace
+
+std::string object_key(std::string_view part, uint64_t id) { return std::to_string(id) + " of " + std::string(part); }
+
+std::string id_of_key(const std::string& key) { return key.substr(0, key.find(' ')); }
+
+void add_objects(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further) {
+  const xml_node model = file.root("model");
+  warn_of_extensions(file, model);
+  warn_of_paint(file, assembly.warnings);
+  ObjectReader(file, part, assembly, further).read(child_of(model, "resources"));
+}
+
+void add_build(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further) {
+  const xml_node model = file.root("model");
+  read_unit(file, model, assembly);
+  ObjectReader reader(file, part, assembly, further);
+  size_t number = 0;
+  for (const xml_node item : child_of(model, "build").children()) {
+    if (local_name(item) != "item") continue;
+    ++number;
+    const std::string_view printable = file.attribute(item, "printable").value_or("1");
+    if (printable != "0" && printable != "false")
+      assembly.build.push_back(reader.read_placement(item));
+    else
+      assembly.warnings.add(
+          "item " + std::to_string(number) + " of the build is marked printable=\"0\" and is left out",
+          "items of the build are marked printable=\"0\" and are left out");
+  }
+}
+
+}  // namespace ombre::formats
+
+#endif

@@ -1,0 +1,225 @@
+// 3D/3dmodel.model: materials, colours, objects, and what is built of them.
+#include "formats/containers/append_numbers.h"
+#include "formats/containers/xml_text.h"
+#include "formats/packages/package_writers.h"
+#include "formats/packages/three_mf_beams_text.h"
+#include "formats/packages/three_mf_text.h"
+
+namespace ombre::formats {
+namespace {
+
+constexpr std::string_view model_begin =
+    "<model unit=\"millimeter\" xml:lang=\"en-US\""
+    " xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\""
+    " xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\""
+    " xmlns:slic3rpe=\"http://schemas.slic3r.org/3mf/2017/06\"";
+
+std::string id_text(uint64_t id) { return xml_attribute("id", std::to_string(id)); }
+
+void append_vertex(std::string& text, Vec3 p) {
+  text += "<vertex x=\"";
+  append_float(text, p.x);
+  text += "\" y=\"";
+  append_float(text, p.y);
+  text += "\" z=\"";
+  append_float(text, p.z);
+  text += "\"/>\n";
+}
+
+void append_attribute(std::string& text, std::string_view name, uint64_t value) {
+  text += ' ';
+  text += name;
+  text += "=\"";
+  append_count(text, value);
+  text += '"';
+}
+
+// What triangles say besides their corners.
+struct TriangleProperties {
+  uint64_t group = 0;           // 0: nothing
+  std::optional<uint32_t> all;  // one property for all corners, else each vertex has its own
+};
+
+void append_triangle(std::string& text, const std::array<uint32_t, 3>& t, uint64_t first_vertex,
+                     const TriangleProperties& properties) {
+  text += "<triangle";
+  append_attribute(text, "v1", first_vertex + t[0]);
+  append_attribute(text, "v2", first_vertex + t[1]);
+  append_attribute(text, "v3", first_vertex + t[2]);
+  if (properties.group != 0) {
+    append_attribute(text, "pid", properties.group);
+    append_attribute(text, "p1", properties.all.value_or(t[0]));
+    if (!properties.all) {
+      append_attribute(text, "p2", t[1]);
+      append_attribute(text, "p3", t[2]);
+    }
+  }
+  text += "/>\n";
+}
+
+class ModelText {
+ public:
+  ModelText(const MeshDocument& document, SlicerFlavour flavour) : document_(document), flavour_(flavour) {
+    for (const MeshBody& body : document.bodies)
+      if (!body.triangles.empty()) bodies_.push_back(&body);
+    materials_id_ = bodies_.size() + 2;
+    first_colours_id_ = materials_id_ + 1;
+    for (const WrittenBeams& beams : document.beams)
+      if (!beams.beams.empty()) beams_.push_back(&beams);
+    first_clip_id_ = first_colours_id_ + bodies_.size();
+    first_beams_id_ = first_clip_id_ + document.clips.size();
+  }
+
+  LazyBytes make() {
+    add_begin();
+    add_materials();
+    for (size_t i = 0; i < bodies_.size(); ++i) add_colours(i);
+    if (flavour_ == SlicerFlavour::prusa)
+      add_joint_object();
+    else
+      add_parts();
+    bytes_.add("</model>\n");
+    return std::move(bytes_);
+  }
+
+ private:
+  void add_begin() {
+    std::string text(xml_declaration);
+    text += model_begin;
+    if (!beams_.empty()) text += beam_lattice_space;
+    text += ">\n";
+    if (flavour_ != SlicerFlavour::bambu) text += "<metadata name=\"slic3rpe:Version3mf\">1</metadata>\n";
+    if (!document_.title.empty()) text += "<metadata name=\"Title\">" + xml_escaped(document_.title) + "</metadata>\n";
+    bytes_.add(text + "<metadata name=\"Application\">ombre</metadata>\n<resources>\n");
+  }
+
+  // Bambu Studio reads colours where it passes over materials.
+  void add_materials() {
+    if (document_.materials.empty()) return;
+    const bool is_colours = flavour_ == SlicerFlavour::bambu;
+    const std::string element = is_colours ? "m:colorgroup" : "basematerials";
+    std::string text = '<' + element + id_text(materials_id_) + ">\n";
+    for (const MeshMaterial& material : document_.materials)
+      text += is_colours ? "<m:color" + xml_attribute("color", hex_colour(material.colour)) + "/>\n"
+                         : "<base" + xml_attribute("name", material.name) +
+                               xml_attribute("displaycolor", hex_colour(material.colour)) + "/>\n";
+    bytes_.add(text + "</" + element + ">\n");
+  }
+
+  void add_colours(size_t index) {
+    const MeshBody& body = *bodies_[index];
+    if (body.vertex_colours.empty()) return;
+    bytes_.add("<m:colorgroup" + id_text(first_colours_id_ + index) + ">\n");
+    bytes_.add_rows(body.vertex_colours.size(), [&body](std::string& text, size_t vertex) {
+      text += "<m:color color=\"" + hex_colour(body.vertex_colours[vertex]) + "\"/>\n";
+    });
+    bytes_.add("</m:colorgroup>\n");
+  }
+
+  void add_vertices(const MeshBody& body) {
+    bytes_.add_rows(body.vertices.size(),
+                    [&body](std::string& text, size_t index) { append_vertex(text, body.vertices[index]); });
+  }
+
+  void add_triangles(const MeshBody& body, uint64_t first_vertex, const TriangleProperties& properties) {
+    bytes_.add_rows(body.triangles.size(), [&body, first_vertex, properties](std::string& text, size_t index) {
+      append_triangle(text, body.triangles[index], first_vertex, properties);
+    });
+  }
+
+  // What an object's triangles have to say where the object says its material already, or does not.
+  TriangleProperties properties_of(size_t index, bool object_has_material) const {
+    const MeshBody& body = *bodies_[index];
+    if (!body.vertex_colours.empty()) return {first_colours_id_ + index, std::nullopt};
+    if (body.material && !object_has_material) return {materials_id_, body.material};
+    return {};
+  }
+
+  // The bodies are ranges of triangles, whose vertices lie together too: so PrusaSlicer cuts them apart.
+  void add_joint_object() {
+    bytes_.add("<object" + id_text(1) + " type=\"model\"" + xml_attribute("name", document_.title) +
+               ">\n<mesh>\n<vertices>\n");
+    for (const MeshBody* body : bodies_) add_vertices(*body);
+    bytes_.add("</vertices>\n<triangles>\n");
+    uint64_t first_vertex = 0;
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+      add_triangles(*bodies_[i], first_vertex, properties_of(i, false));
+      first_vertex += bodies_[i]->vertices.size();
+    }
+    bytes_.add("</triangles>\n</mesh>\n</object>\n");
+    add_build(1);
+  }
+
+  void add_parts() {
+    std::string components;
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+      add_part(i);
+      components += "<component" + xml_attribute("objectid", std::to_string(i + 1)) + "/>\n";
+    }
+    for (size_t i = 0; i < document_.clips.size(); ++i) add_clip(i);
+    for (size_t i = 0; i < beams_.size(); ++i) {
+      add_beams(i);
+      components += "<component" + xml_attribute("objectid", std::to_string(first_beams_id_ + i)) + "/>\n";
+    }
+    const uint64_t assembly = bodies_.size() + 1;
+    bytes_.add("<object" + id_text(assembly) + " type=\"model\"" + xml_attribute("name", document_.title) +
+               ">\n<components>\n" + components + "</components>\n</object>\n");
+    add_build(assembly);
+  }
+
+  void add_part(size_t index) {
+    const MeshBody& body = *bodies_[index];
+    std::string begin = "<object" + id_text(index + 1) + " type=\"model\"" + xml_attribute("name", body.name);
+    if (body.material)
+      begin +=
+          xml_attribute("pid", std::to_string(materials_id_)) + xml_attribute("pindex", std::to_string(*body.material));
+    bytes_.add(begin + ">\n<mesh>\n<vertices>\n");
+    add_vertices(body);
+    bytes_.add("</vertices>\n<triangles>\n");
+    add_triangles(body, 0, properties_of(index, true));
+    bytes_.add("</triangles>\n</mesh>\n</object>\n");
+  }
+
+  // Not built: only lattices refer to it.
+  void add_clip(size_t index) {
+    const MeshBody& clip = document_.clips[index];
+    bytes_.add("<object" + id_text(first_clip_id_ + index) + " type=\"model\"" + xml_attribute("name", clip.name) +
+               ">\n<mesh>\n<vertices>\n");
+    add_vertices(clip);
+    bytes_.add("</vertices>\n<triangles>\n");
+    add_triangles(clip, 0, {});
+    bytes_.add("</triangles>\n</mesh>\n</object>\n");
+  }
+
+  void add_beams(size_t index) {
+    const WrittenBeams& beams = *beams_[index];
+    const bool is_clipped = beams.clipping != LatticeClipping::none;
+    bytes_.add("<object" + id_text(first_beams_id_ + index) + " type=\"model\"" + xml_attribute("name", beams.name) +
+               ">\n<mesh>\n<vertices>\n");
+    bytes_.add_rows(beams.vertices.size(),
+                    [&beams](std::string& text, size_t vertex) { append_vertex(text, beams.vertices[vertex]); });
+    bytes_.add("</vertices>\n");
+    bytes_.add(beam_lattice_text(beams, is_clipped ? std::optional(first_clip_id_ + beams.clip) : std::nullopt,
+                                 materials_id_));
+    bytes_.add("</mesh>\n</object>\n");
+  }
+
+  void add_build(uint64_t object) {
+    bytes_.add("</resources>\n<build>\n<item" + xml_attribute("objectid", std::to_string(object)) + "/>\n</build>\n");
+  }
+
+  const MeshDocument& document_;
+  SlicerFlavour flavour_;
+  std::vector<const MeshBody*> bodies_;     // those with triangles
+  std::vector<const WrittenBeams*> beams_;  // those with beams
+  uint64_t materials_id_ = 0, first_colours_id_ = 0, first_clip_id_ = 0, first_beams_id_ = 0;
+  LazyBytes bytes_;
+};
+
+}  // namespace
+
+LazyBytes three_mf_model(const MeshDocument& document, SlicerFlavour flavour) {
+  return ModelText(document, flavour).make();
+}
+
+}  // namespace ombre::formats

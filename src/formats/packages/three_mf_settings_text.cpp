@@ -1,0 +1,78 @@
+// The files in which slicers keep what 3MF has no place for: the extruder and the infill of a region.
+#include <array>
+
+#include "formats/containers/xml_text.h"
+#include "formats/mesh/slicer_settings.h"
+#include "formats/packages/package_writers.h"
+#include "formats/packages/three_mf_text.h"
+
+namespace ombre::formats {
+namespace {
+
+// Settings that Bambu Studio and OrcaSlicer know by another name.
+constexpr std::array<std::array<std::string_view, 2>, 5> bambu_keys{{{"fill_density", "sparse_infill_density"},
+                                                                     {"fill_pattern", "sparse_infill_pattern"},
+                                                                     {"perimeters", "wall_loops"},
+                                                                     {"top_solid_layers", "top_shell_layers"},
+                                                                     {"bottom_solid_layers", "bottom_shell_layers"}}};
+
+std::string bambu_key(const std::string& key) {
+  for (const auto& [prusa, bambu] : bambu_keys)
+    if (prusa == key) return std::string(bambu);
+  return key;
+}
+
+std::string metadata(std::string_view type, std::string_view key, std::string_view value) {
+  const std::string of = type.empty() ? "" : xml_attribute("type", type);
+  return "<metadata" + of + xml_attribute("key", key) + xml_attribute("value", value) + "/>\n";
+}
+
+std::string prusa_object_begin(uint64_t id, const std::string& name) {
+  return "<object" + xml_attribute("id", std::to_string(id)) + " instances_count=\"1\">\n" +
+         metadata("object", "name", name);
+}
+
+std::string prusa_volume(const MeshBody& body, uint64_t first) {
+  std::string text = "<volume" + xml_attribute("firstid", std::to_string(first)) +
+                     xml_attribute("lastid", std::to_string(first + body.triangles.size() - 1)) + ">\n" +
+                     metadata("volume", "name", body.name) + metadata("volume", "volume_type", "ModelPart");
+  for (const auto& [key, value] : slicer_settings(body)) text += metadata("volume", key, value);
+  return text + "</volume>\n";
+}
+
+std::string bambu_part(const MeshBody& body, uint64_t id) {
+  std::string text = "<part" + xml_attribute("id", std::to_string(id)) + " subtype=\"normal_part\">\n" +
+                     metadata("", "name", body.name);
+  for (const auto& [key, value] : slicer_settings(body)) text += metadata("", bambu_key(key), value);
+  return text + "</part>\n";
+}
+
+}  // namespace
+
+// Components become objects of their own in PrusaSlicer; then each has one volume.
+std::string prusa_settings(const MeshDocument& document, SlicerFlavour flavour) {
+  const bool is_joint = flavour == SlicerFlavour::prusa;
+  std::string text = std::string(xml_declaration) + "<config>\n";
+  if (is_joint) text += prusa_object_begin(1, document.title);
+  uint64_t first = 0, id = 1;
+  for (const MeshBody& body : document.bodies) {
+    if (body.triangles.empty()) continue;
+    if (!is_joint) text += prusa_object_begin(id++, body.name);
+    text += prusa_volume(body, is_joint ? first : 0);
+    if (!is_joint) text += "</object>\n";
+    first += body.triangles.size();
+  }
+  if (is_joint) text += "</object>\n";
+  return text + "</config>\n";
+}
+
+std::string bambu_settings(const MeshDocument& document) {
+  std::string parts;
+  uint64_t id = 1;
+  for (const MeshBody& body : document.bodies)
+    if (!body.triangles.empty()) parts += bambu_part(body, id++);
+  return std::string(xml_declaration) + "<config>\n<object" + xml_attribute("id", std::to_string(id)) + ">\n" +
+         metadata("", "name", document.title) + parts + "</object>\n</config>\n";
+}
+
+}  // namespace ombre::formats

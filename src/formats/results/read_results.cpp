@@ -1,0 +1,74 @@
+// Reads results of simulations by the content of their files.
+#include <cmath>
+#include <set>
+
+#include "base/text/text.h"
+#include "formats/containers/text_scanner.h"
+#include "formats/results/results_readers.h"
+
+namespace ombre::formats {
+namespace {
+
+// The second field of a name gets a number.
+void make_names_unique(std::vector<ResultField>& fields) {
+  std::set<std::string> taken;
+  for (ResultField& field : fields) {
+    const std::string name = field.name;
+    for (int n = 2; !taken.insert(folded_field_name(field.name)).second; ++n)
+      field.name = name + " " + std::to_string(n);
+  }
+}
+
+// Von Mises' stress of stresses, where the file has none.
+void add_von_mises(Results& results) {
+  if (find_field(results, "von_mises")) return;
+  const ResultField* stress = find_field(results, "stress");
+  if (!stress) stress = find_field(results, "S");
+  if (!stress || stress->components != 6) return;
+  ResultField added{"von Mises stress", stress->unit, 1, stress->is_of_elements, {}};
+  for (size_t n = 0; n + 6 <= stress->values.size(); n += 6) added.values.push_back(von_mises(&stress->values[n]));
+  results.fields.push_back(std::move(added));
+}
+
+// Nodes and elements that the file names after a field have no value there.
+void fill_up_fields(Results& results) {
+  for (ResultField& field : results.fields) {
+    const size_t count = field.is_of_elements ? results.kinds.size() : results.points.size();
+    field.values.resize(count * field.components, std::nan(""));
+  }
+}
+
+Results read_any(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
+                 Diagnostics& diagnostics) {
+  const std::string_view text = trim(bytes.substr(0, std::min<size_t>(bytes.size(), 4096)));
+  const bool is_deck = text.starts_with('*');
+  if (text.starts_with('<') && text.find("<Xdmf") != std::string_view::npos)
+    return read_xdmf(name, bytes, values, diagnostics);
+  if (values && !is_deck)
+    fail(diagnostics, name, "a table of values belongs to a mesh in an .inp file", "leave \"values\" out");
+  if (text.starts_with('<')) return read_vtu(name, bytes, diagnostics);
+  if (text.starts_with("1C")) return read_frd(name, bytes, diagnostics);
+  if (!is_deck) return read_csv_points(name, bytes, diagnostics);
+  NumberedResults mesh = read_inp(name, bytes, diagnostics);
+  if (mesh.results.kinds.empty()) fail(diagnostics, name, "the deck has no solid elements");
+  if (values) add_csv_values(values->name, values->bytes, mesh, diagnostics);
+  return std::move(mesh.results);
+}
+
+}  // namespace
+
+std::optional<Results> read_results(const std::string& name, std::string_view bytes,
+                                    const std::optional<ResultsFile>& values, Diagnostics& diagnostics) {
+  try {
+    Results results = read_any(name, bytes, values, diagnostics);
+    if (results.points.empty()) fail(diagnostics, name, "the file holds no points");
+    fill_up_fields(results);
+    make_names_unique(results.fields);
+    add_von_mises(results);
+    return results;
+  } catch (const DesignError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace ombre::formats

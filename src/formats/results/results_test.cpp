@@ -1,0 +1,266 @@
+#include "formats/results/results.h"
+
+#include <gtest/gtest.h>
+
+#include "formats/containers/base64.h"
+
+#ifdef OMBRE_3MF
+
+namespace ombre::formats {
+namespace {
+
+// One tetrahedron with numbers of its nodes and of itself, as text.
+std::string vtu_of_tetrahedron(const std::string& header, const std::string& point_array,
+                               const std::string& type = "10") {
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" " + header +
+         "><UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n<Points>" + point_array +
+         "</Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>"
+         "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4</DataArray>"
+         "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" +
+         type +
+         "</DataArray></Cells><PointData><DataArray type=\"Float64\" Name=\"move [mm]\" NumberOfComponents=\"3\" "
+         "format=\"ascii\">1 2 3 4 5 6 7 8 9 10 11 12</DataArray></PointData><CellData><DataArray type=\"Float32\" "
+         "Name=\"stress [MPa]\" NumberOfComponents=\"6\" format=\"ascii\">10 0 0 0 0 0</DataArray></CellData>"
+         "</Piece></UnstructuredGrid></VTKFile>";
+}
+const std::string text_points =
+    "<DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 2 0 0 0 3e0</DataArray>";
+std::string binary_points(const std::string& type, const std::string& bytes) {
+  return "<DataArray type=\"" + type + "\" NumberOfComponents=\"3\" format=\"binary\">" + bytes + "</DataArray>";
+}
+
+Results read_good(const std::string& file) {
+  Diagnostics diagnostics;
+  auto results = read_results("a.vtu", file, {}, diagnostics);
+  EXPECT_TRUE(results) << to_text(diagnostics);
+  return results.value_or(Results{});
+}
+std::string error_of(const std::string& file) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_results("a.vtu", file, {}, diagnostics));
+  return to_text(diagnostics);
+}
+const std::vector<Vec3> cube_corners{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+
+}  // namespace
+
+TEST(Results, VtuAsText) {
+  const Results results = read_good(vtu_of_tetrahedron("", text_points));
+  EXPECT_EQ(results.points, cube_corners);
+  EXPECT_EQ(results.nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
+  ASSERT_EQ(results.fields.size(), 3U);
+  EXPECT_EQ(results.fields[0].name, "move");
+  EXPECT_EQ(results.fields[0].unit, "mm");
+  EXPECT_EQ(results.fields[0].values[11], 12);
+  EXPECT_TRUE(results.fields[1].is_of_elements);
+  EXPECT_EQ(find_field(results, "Stress"), &results.fields[1]);
+  EXPECT_EQ(find_field(results, "mov"), &results.fields[0]);
+  EXPECT_EQ(find_field(results, "none"), nullptr);
+}
+
+// A pull of 10 MPa along x has a von Mises stress of 10 MPa.
+TEST(Results, VonMisesIsAddedToStresses) {
+  const Results results = read_good(vtu_of_tetrahedron("", text_points));
+  ASSERT_TRUE(find_field(results, "von_mises"));
+  EXPECT_EQ(find_field(results, "von_mises")->values, std::vector<double>{10});
+  const std::array<double, 6> shear{0, 0, 0, 2, 0, 0};
+  EXPECT_DOUBLE_EQ(von_mises(shear.data()), 2 * std::sqrt(3));
+}
+
+// Arrays as Python's struct, zlib and base64 write them.
+TEST(Results, VtuInBase64) {
+  const std::string floats = "MAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAAAAAAAAABAQA==";
+  EXPECT_EQ(read_good(vtu_of_tetrahedron("", binary_points("Float32", floats))).points, cube_corners);
+  const std::string big = "AAAAAAAAADAAAAAAAAAAAAAAAAA/gAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAAEBAAAA=";
+  EXPECT_EQ(
+      read_good(vtu_of_tetrahedron("byte_order=\"BigEndian\" header_type=\"UInt64\"", binary_points("Float32", big)))
+          .points,
+      cube_corners);
+}
+
+TEST(Results, VtuPackedInBlocks) {
+  const std::string packed = "AgAAACAAAAAQAAAAEQAAAA0AAAA=eJxjYEAGDfYMqMABAA2PAQB4nGNgQAYODgAA0ACB";
+  EXPECT_EQ(
+      read_good(vtu_of_tetrahedron("compressor=\"vtkZLibDataCompressor\"", binary_points("Float32", packed))).points,
+      cube_corners);
+  const std::string cut = packed.substr(0, packed.size() - 8);
+  EXPECT_NE(error_of(vtu_of_tetrahedron("compressor=\"vtkZLibDataCompressor\"", binary_points("Float32", cut)))
+                .find("cut off"),
+            std::string::npos);
+}
+
+TEST(Results, Base64) {
+  EXPECT_EQ(from_base64("TWFu TWE=\n"), "ManMa");
+  EXPECT_EQ(from_base64("TQ=="), "M");
+  for (const char* wrong : {"TQ=", "T?==", "TQ==TQ=a", "===="}) EXPECT_FALSE(from_base64(wrong)) << wrong;
+}
+
+TEST(Results, WhatIsWrongIsSaid) {
+  const auto says = [](const std::string& file, const std::string& what) {
+    EXPECT_NE(error_of(file).find(what), std::string::npos) << error_of(file);
+  };
+  const std::string good = vtu_of_tetrahedron("", text_points);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = good;
+    changed.replace(changed.find(from), from.size(), to);
+    return changed;
+  };
+  says("<nothing", "XML");
+  says(with("UnstructuredGrid", "ImageData"), "no unstructured grid");
+  says(with(">10<", ">14<"), "type 14");
+  says(with(">10<", ">12<"), "8 nodes");
+  says(with("0 1 2 3", "0 1 2 4"), "names point 4");
+  says(with("0 1 2 3", "0 1 2"), "cut off");
+  says(with("3e0", "nan"), "not finite");
+  says(with("3e0", ""), "cut off");
+  says(with("NumberOfPoints=\"4\"", "NumberOfPoints=\"400000000\""), "more points");
+  says(with("Float64", "Float16"), "Float16");
+  for (size_t size = 0; size < good.size(); size += 37) error_of(good.substr(0, size));
+}
+
+}  // namespace ombre::formats
+
+#endif
+
+namespace ombre::formats {
+namespace {
+
+// A bar of one quadratic brick, as CalculiX writes it, but for columns of components that are not asked for.
+const std::string bar = [] {
+  std::string text = "    1C\n    2C                            20                                     1\n";
+  const char* const nodes[20] = {"0 0 0",  "1 0 0",  "1 1 0",  "0 1 0",  "0 0 2",  "1 0 2",  "1 1 2",
+                                 "0 1 2",  ".5 0 0", "1 .5 0", ".5 1 0", "0 .5 0", ".5 0 2", "1 .5 2",
+                                 ".5 1 2", "0 .5 2", "0 0 1",  "1 0 1",  "1 1 1",  "0 1 1"};
+  const auto padded = [](std::string word, size_t size) { return std::string(size - word.size(), ' ') + word; };
+  const auto line = [&](int n, const std::string& x, const std::string& y, const std::string& z) {
+    return " -1" + padded(std::to_string(n), 10) + padded(x, 12) + padded(y, 12) + padded(z, 12) + "\n";
+  };
+  std::string moves;
+  for (int n = 0; n < 20; ++n) {
+    const std::string all = nodes[n];
+    const size_t a = all.find(' '), b = all.rfind(' ');
+    text += line(n + 1, all.substr(0, a), all.substr(a + 1, b - a - 1), all.substr(b + 1));
+    moves += line(n + 1, "1.00000-101", all.substr(b + 1), "-" + std::to_string(n + 1) + ".0E-01");
+  }
+  text += " -3\n    3C                             1                                     1\n";
+  text += " -1         1    4    0    1\n -2         1         2         3         4         5         6         7";
+  text += "         8         9        10\n -2        11        12        17        18        19        20        13";
+  text += "        14        15        16\n -3\n";
+  const std::string head =
+      "  100CL  101 1.000000000          20                     0    1           1\n -4  DISP        4    1\n"
+      " -5  D1          1    2    1    0\n -5  D2          1    2    2    0\n -5  D3          1    2    3    0\n"
+      " -5  ALL         1    2    0    0    1ALL\n";
+  // Two steps, of which the second has other numbers.
+  std::string first = moves;
+  for (size_t at = first.find("1.00000-101"); at != std::string::npos; at = first.find("1.00000-101"))
+    first.replace(at, 11, "7.00000E+00");
+  return text + head + first + " -3\n" + head + moves + " -3\n 9999\n";
+}();
+
+const std::string deck =
+    "*Heading\n** a comment\n*NODE, NSET=ALL\n 1, 0,0,0\n 5, 1,0,0\n7, 0,2,0\n9,0,0,3\n10,1,1,1\n"
+    "*ELEMENT, TYPE=C3D4H, ELSET=A\n3, 1, 5,\n7, 9\n4, 5, 7, 9, 10\n*ELEMENT, TYPE=S3\n8, 1, 5, 7\n"
+    "*NODE FILE\nU\n";
+
+std::optional<Results> read_with(const std::string& text, const std::string& table, std::string& said) {
+  Diagnostics diagnostics;
+  std::optional<ResultsFile> values;
+  if (!table.empty()) values = {"a.csv", table};
+  auto results = read_results("a.inp", text, values, diagnostics);
+  said = to_text(diagnostics);
+  return results;
+}
+
+}  // namespace
+
+TEST(Results, FrdOfCalculix) {
+  Diagnostics diagnostics;
+  const auto results = read_results("a.frd", bar, {}, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  ASSERT_EQ(results->kinds, std::vector<ElementKind>{ElementKind::brick20});
+  // Nodes stand in the order of C3D20: upper edges, then upright ones.
+  EXPECT_EQ(results->points[results->nodes[12]], (Vec3{0.5, 0, 2}));
+  EXPECT_EQ(results->points[results->nodes[16]], (Vec3{0, 0, 1}));
+  const ResultField* moves = find_field(*results, "displacement");
+  ASSERT_TRUE(moves && moves->components == 3);
+  EXPECT_EQ(moves->values[0], 1e-101);  // of the last step
+  EXPECT_EQ(moves->values[3 * 4 + 1], 2);
+  EXPECT_EQ(moves->values[59], -2);
+  // A field of which no values come is none.
+  const std::string empty = bar.substr(0, bar.find("  100CL")) +
+                            "  100CL  101 1.000000000          20                     0    1           1\n"
+                            " -4  DISP        4    1\n -5  D1          1    2    1    0\n -3\n 9999\n";
+  const auto without = read_results("a.frd", empty, {}, diagnostics);
+  ASSERT_TRUE(without);
+  EXPECT_TRUE(without->fields.empty());
+  for (size_t size = 0; size < bar.size(); size += 101) read_results("a.frd", bar.substr(0, size), {}, diagnostics);
+}
+
+TEST(Results, DecksWithTables) {
+  std::string said;
+  const auto results = read_with(deck,
+                                 "node, dx, dy, dz, S11, S22, S33, S12, S13, S23, T [K]\n"
+                                 "9, 1,2,3, 10,20,30,40,50,60, 300\n5, 4,5,6, 0,0,0,0,0,0, 301\n"
+                                 "1,0,0,0, 0,0,0,0,0,0, 1\n7,0,0,0, 0,0,0,0,0,0, 1\n10,0,0,0, 0,0,0,0,0,0, 1\n",
+                                 said);
+  ASSERT_TRUE(results) << said;
+  EXPECT_NE(said.find("1 lines of elements"), std::string::npos);
+  EXPECT_EQ(results->nodes, (std::vector<uint32_t>{0, 1, 2, 3, 1, 2, 3, 4}));
+  ASSERT_EQ(results->fields.size(), 4U);
+  EXPECT_EQ(results->fields[0].name, "displacement");
+  EXPECT_EQ(results->fields[0].values[3 * 3 + 2], 3);
+  const auto& stress = results->fields[1];
+  EXPECT_EQ(std::vector<double>(stress.values.begin() + 18, stress.values.begin() + 24),
+            (std::vector<double>{10, 20, 30, 40, 60, 50}));  // xx, yy, zz, xy, yz, zx
+  EXPECT_EQ(results->fields[2].unit, "K");
+  EXPECT_EQ(results->fields[2].values[1], 301);
+}
+
+TEST(Results, TablesOfElementsAndWithoutNames) {
+  std::string said;
+  auto results = read_with(deck, "element;density\n4;0.5\n3;0.25\n", said);
+  ASSERT_TRUE(results) << said;
+  EXPECT_TRUE(results->fields[0].is_of_elements);
+  EXPECT_EQ(results->fields[0].values, (std::vector<double>{0.25, 0.5}));
+  results = read_with(deck, "1,0,0,1\n5,0,0,2\n7,0,0,3\n9,0,0,4\n10,0,0,5\n", said);
+  ASSERT_TRUE(results) << said;
+  EXPECT_EQ(results->fields[0].name, "displacement");
+}
+
+TEST(Results, WrongDecksAndTablesAreReported) {
+  const auto says = [](const std::string& text, const std::string& table, const std::string& what) {
+    std::string said;
+    EXPECT_FALSE(read_with(text, table, said));
+    EXPECT_NE(said.find(what), std::string::npos) << said;
+  };
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string changed = deck;
+    changed.replace(changed.find(from), from.size(), to);
+    return changed;
+  };
+  says(with("7, 0,2,0", "1, 0,2,0"), "", "a.inp:6:1: error: node 1 comes twice");
+  says(with("7, 9\n", "77, 9\n"), "", "names node 77");
+  says(with("4, 5, 7, 9, 10", "4, 5, 7"), "", "has 2 nodes");
+  says(with("C3D4H", "C3D6"), "", "not read");
+  says(with("C3D4H", "C3D" + std::string(30, '8')), "", "no solid elements");
+  says(with("0,0,3", "0,zero,3"), "", "\"zero\"");
+  says("*NODE\n1,0,0,0\n", "", "no solid elements");
+  says(deck, "node,v\n11,1\n", "a.csv:2:1: error: the mesh has no node 11");
+  says(deck, "node,v\n1,1\n1,2\n", "comes twice");
+  says(deck, "node,v\n1\n", "has 1 values");
+  says("1,2,3,4", "node,v\n1,1\n", "belongs to a mesh");
+  says("node,v\n1,2\n", "", "columns x, y and z");
+}
+
+TEST(Results, PointsInTables) {
+  std::string said;
+  const auto results = read_with("# points\nx,y,z,temperature,vx,vy,vz\n1,2,3,20,1,0,0\n4,5,6,30,0,1,0\n", "", said);
+  ASSERT_TRUE(results) << said;
+  EXPECT_TRUE(results->kinds.empty());
+  EXPECT_EQ(results->points[1], (Vec3{4, 5, 6}));
+  ASSERT_EQ(results->fields.size(), 2U);
+  EXPECT_EQ(results->fields[1].name, "v");
+  EXPECT_EQ(results->fields[1].values, (std::vector<double>{1, 0, 0, 0, 1, 0}));
+}
+
+}  // namespace ombre::formats

@@ -1,0 +1,21 @@
+// What reading VTU and XDMF does in builds without pugixml: it reports that.
+#ifndef OMBRE_3MF
+
+#include "formats/containers/library_missing.h"
+#include "formats/containers/text_scanner.h"
+#include "formats/results/results_readers.h"
+
+namespace ombre::formats {
+
+Results read_vtu(const std::string& name, std::string_view, Diagnostics& diagnostics) {
+  fail(diagnostics, name, std::string("VTU files cannot be read: ") + xml_missing, xml_remedy);
+}
+
+Results read_xdmf(const std::string& name, std::string_view, const std::optional<ResultsFile>&,
+                  Diagnostics& diagnostics) {
+  fail(diagnostics, name, std::string("XDMF files cannot be read: ") + xml_missing, xml_remedy);
+}
+
+}  // namespace ombre::formats
+
+#endif

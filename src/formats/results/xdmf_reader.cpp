@@ -1,0 +1,170 @@
+// Uniform grids of XDMF 3, whose numbers stand in the text or in a file of HDF5.
+#ifdef OMBRE_3MF
+
+#include <cmath>
+
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "formats/containers/hdf5.h"
+#include "formats/containers/text_scanner.h"
+#include "formats/containers/xml_file.h"
+#include "formats/mesh/mesh.h"
+#include "formats/results/results_readers.h"
+
+namespace ombre::formats {
+namespace {
+
+using pugi::xml_node;
+
+std::optional<ElementKind> element_kind(std::string_view topology) {
+  const std::string name = to_lower(topology);
+  if (name == "tetrahedron") return ElementKind::tetrahedron4;
+  if (name == "tetrahedron_10" || name == "tet_10") return ElementKind::tetrahedron10;
+  if (name == "hexahedron") return ElementKind::brick8;
+  if (name == "hexahedron_20" || name == "hex_20") return ElementKind::brick20;
+  return std::nullopt;
+}
+
+class XdmfReader {
+ public:
+  XdmfReader(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& numbers,
+             Diagnostics& diagnostics)
+      : file_(name, bytes, diagnostics), numbers_(numbers) {}
+
+  Results run() {
+    const xml_node domain = file_.root("Xdmf").child("Domain");
+    const xml_node grid = domain.child("Grid");
+    if (!grid) file_.fail_at(file_.root("Xdmf"), "expected a grid in a domain");
+    if (grid.next_sibling("Grid")) file_.fail_at(grid.next_sibling("Grid"), "several grids are not read");
+    const std::string_view type = file_.attribute(grid, "GridType").value_or("Uniform");
+    if (type != "Uniform")
+      file_.fail_at(grid, "a grid of the type " + quoted(type) + " is not read, as of several steps or pieces",
+                    "save one step as one grid, GridType=\"Uniform\"");
+    add_points(child_of(grid, "Geometry"));
+    add_elements(child_of(grid, "Topology"));
+    for (const xml_node attribute : grid.children("Attribute")) add_field(attribute);
+    return std::move(results_);
+  }
+
+ private:
+  xml_node child_of(xml_node parent, const char* name) const {
+    const xml_node child = parent.child(name);
+    if (!child) file_.fail_at(parent, "expected " + quoted(name) + " in the grid");
+    return child;
+  }
+
+  std::vector<double> numbers_of(xml_node parent) const {
+    const xml_node item = parent.child("DataItem");
+    if (!item) file_.fail_at(parent, "expected a DataItem");
+    const std::string_view format = file_.attribute(item, "Format").value_or("XML");
+    if (format == "XML") return numbers_in_text(item);
+    if (format != "HDF") file_.fail_at(item, "expected the format XML or HDF, found " + quoted(format));
+    return numbers_in_hdf5(item);
+  }
+
+  std::vector<double> numbers_in_text(xml_node item) const {
+    std::string_view text = item.text().get();
+    std::vector<double> numbers;
+    for (std::string_view word = next_word(text); !word.empty(); word = next_word(text))
+      numbers.push_back(file_.number(item, word, "a number"));
+    return numbers;
+  }
+
+  // "part.h5:/Mesh/geometry"
+  std::vector<double> numbers_in_hdf5(xml_node item) const {
+    const std::string_view place = trim(std::string_view(item.text().get()));
+    const size_t colon = place.rfind(":/");
+    if (colon == std::string_view::npos)
+      file_.fail_at(item, "expected a file and a path in it, as part.h5:/Mesh/geometry, found " + quoted(place));
+    if (!numbers_)
+      file_.fail_at(item, "the numbers are in the file " + quoted(place.substr(0, colon)), "name it by values=\"...\"");
+    try {
+      auto found = hdf5_numbers(numbers_->bytes, std::string(place.substr(colon + 1)));
+      if (found) return std::move(found->values);
+    } catch (const Error& error) {
+      file_.fail_at(item, numbers_->name + ": " + error.what());
+    }
+    file_.fail_at(item, quoted(numbers_->name) + " has no numbers at " + quoted(place.substr(colon + 1)));
+  }
+
+  void add_points(xml_node geometry) {
+    if (file_.attribute(geometry, "GeometryType").value_or("XYZ") != "XYZ")
+      file_.fail_at(geometry, "expected the geometry XYZ");
+    const std::vector<double> numbers = numbers_of(geometry);
+    if (numbers.size() % 3 != 0 || numbers.size() / 3 > UINT32_MAX)
+      file_.fail_at(geometry, "expected three coordinates for each point, found " + std::to_string(numbers.size()));
+    for (size_t n = 0; n < numbers.size(); n += 3) {
+      for (size_t axis = 0; axis < 3; ++axis)
+        if (!(std::abs(numbers[n + axis]) <= greatest_coordinate))
+          file_.fail_at(geometry,
+                        "point " + std::to_string(n / 3) + " has a coordinate that is not finite or beyond 1e15");
+      results_.points.push_back({numbers[n], numbers[n + 1], numbers[n + 2]});
+    }
+  }
+
+  void add_elements(xml_node topology) {
+    const std::string_view type = file_.required(topology, "TopologyType");
+    const auto kind = element_kind(type);
+    if (!kind)
+      file_.fail_at(topology, "elements of the type " + quoted(type) +
+                                  " are not read; read are Tetrahedron, Tetrahedron_10, Hexahedron and Hexahedron_20");
+    const std::vector<double> numbers = numbers_of(topology);
+    const size_t each = node_count(*kind);
+    if (numbers.empty() || numbers.size() % each != 0)
+      file_.fail_at(topology, "expected " + std::to_string(each) + " nodes for each element, found " +
+                                  std::to_string(numbers.size()));
+    std::array<uint32_t, 20> nodes{};
+    for (size_t n = 0; n < numbers.size(); n += each) {
+      for (size_t c = 0; c < each; ++c) {
+        if (!(numbers[n + c] >= 0 && numbers[n + c] < static_cast<double>(results_.points.size())))
+          file_.fail_at(topology, "element " + std::to_string(n / each) + " names point " +
+                                      format_number(numbers[n + c]) + "; there are " +
+                                      std::to_string(results_.points.size()));
+        nodes[c] = static_cast<uint32_t>(numbers[n + c]);
+      }
+      results_.add_element(*kind, nodes.data());
+    }
+  }
+
+  void add_field(xml_node attribute) {
+    ResultField field;
+    set_name(field, file_.attribute(attribute, "Name").value_or("values"));
+    const std::string_view centre = file_.attribute(attribute, "Center").value_or("Node");
+    if (centre != "Node" && centre != "Cell") return;
+    field.is_of_elements = centre == "Cell";
+    field.values = numbers_of(attribute);
+    const size_t count = field.is_of_elements ? results_.kinds.size() : results_.points.size();
+    field.components = count == 0 ? 0 : field.values.size() / count;
+    if (field.components < 1 || field.components > 9 || field.components * count != field.values.size())
+      file_.fail_at(attribute, "the field " + quoted(field.name) + " has " + std::to_string(field.values.size()) +
+                                   " numbers for " + std::to_string(count) +
+                                   (field.is_of_elements ? " elements" : " nodes"));
+    if (file_.attribute(attribute, "AttributeType").value_or("") == "Tensor6") reorder(field);
+    results_.fields.push_back(std::move(field));
+  }
+
+  // From xx, xy, xz, yy, yz, zz to xx, yy, zz, xy, yz, zx.
+  static void reorder(ResultField& field) {
+    if (field.components != 6) return;
+    for (size_t n = 0; n < field.values.size(); n += 6) {
+      double* const t = &field.values[n];
+      const std::array<double, 6> was{t[0], t[1], t[2], t[3], t[4], t[5]};
+      t[1] = was[3], t[2] = was[5], t[3] = was[1], t[4] = was[4], t[5] = was[2];
+    }
+  }
+
+  XmlFile file_;
+  const std::optional<ResultsFile>& numbers_;
+  Results results_;
+};
+
+}  // namespace
+
+Results read_xdmf(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& numbers,
+                  Diagnostics& diagnostics) {
+  return XdmfReader(name, bytes, numbers, diagnostics).run();
+}
+
+}  // namespace ombre::formats
+
+#endif

@@ -1,0 +1,107 @@
+// Grids of XDMF, with their numbers as text and in files of HDF5.
+#include <gtest/gtest.h>
+
+#include "formats/containers/hdf5.h"
+#include "formats/results/results.h"
+
+#ifdef OMBRE_3MF
+
+namespace ombre::formats {
+namespace {
+
+std::string item(const std::string& numbers) { return "<DataItem Format=\"XML\">" + numbers + "</DataItem>"; }
+
+struct GridText {
+  std::string grid = "GridType=\"Uniform\"", topology = "Tetrahedron", nodes = item("0 1 2 3"),
+              points = item("0 0 0 1 0 0 0 2 0 0 0 3"), stress = item("1 4 6 2 5 3"),
+              move = item("1 2 3 4 5 6 7 8 9 10 11 12");
+
+  std::string text() const {
+    return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid Name=\"mesh\" " + grid +
+           "><Topology TopologyType=\"" + topology + "\">" + nodes + "</Topology><Geometry GeometryType=\"XYZ\">" +
+           points + "</Geometry><Attribute Name=\"displacement [mm]\" AttributeType=\"Vector\" Center=\"Node\">" +
+           move + "</Attribute><Attribute Name=\"stress [MPa]\" AttributeType=\"Tensor6\" Center=\"Cell\">" + stress +
+           "</Attribute></Grid></Domain></Xdmf>";
+  }
+};
+
+std::optional<Results> read_grid(const GridText& grid, Diagnostics& diagnostics, const std::string& numbers = "") {
+  std::optional<ResultsFile> file;
+  if (!numbers.empty()) file = ResultsFile{"a.h5", numbers};
+  return read_results("a.xdmf", grid.text(), file, diagnostics);
+}
+
+std::string grid_error(const GridText& grid, const std::string& numbers = "") {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_grid(grid, diagnostics, numbers));
+  return to_text(diagnostics);
+}
+
+TEST(Xdmf, NumbersAsText) {
+  Diagnostics diagnostics;
+  const auto results = read_grid({}, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(results->points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}));
+  EXPECT_EQ(results->nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
+  ASSERT_TRUE(find_field(*results, "displacement"));
+  EXPECT_EQ(find_field(*results, "displacement")->values[11], 12);
+  // XDMF has xx, xy, xz, yy, yz, zz.
+  EXPECT_EQ(find_field(*results, "stress")->values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(find_field(*results, "stress")->unit, "MPa");
+}
+
+TEST(Xdmf, WhatIsWrongIsSaid) {
+  GridText mixed, short_nodes, far, series, short_field, without, odd;
+  mixed.topology = "Mixed";
+  EXPECT_NE(grid_error(mixed).find("\"Mixed\" are not read"), std::string::npos);
+  short_nodes.nodes = item("0 1 2");
+  EXPECT_NE(grid_error(short_nodes).find("expected 4 nodes for each element, found 3"), std::string::npos);
+  far.nodes = item("0 1 2 4");
+  EXPECT_NE(grid_error(far).find("names point 4; there are 4"), std::string::npos);
+  series.grid = "GridType=\"Collection\" CollectionType=\"Temporal\"";
+  EXPECT_NE(grid_error(series).find("save one step"), std::string::npos);
+  short_field.move = item("1 2 3");
+  EXPECT_NE(grid_error(short_field).find("3 numbers for 4 nodes"), std::string::npos);
+  without.points = "<DataItem Format=\"HDF\">a.h5:/Mesh/geometry</DataItem>";
+  EXPECT_NE(grid_error(without).find("name it by values="), std::string::npos);
+  odd.points = "<DataItem Format=\"Binary\">a.bin</DataItem>";
+  EXPECT_NE(grid_error(odd).find("found \"Binary\""), std::string::npos);
+}
+
+#ifdef OMBRE_HDF5
+
+TEST(Xdmf, NumbersInHdf5) {
+  const std::vector<double> points{0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3};
+  const std::vector<int64_t> nodes{0, 1, 2, 3};
+  const std::vector<float> wide{1, 2, 3, 4};
+  const std::vector<Hdf5Array> arrays{{"/Mesh/geometry", Hdf5Array::Kind::float64, {4, 3}, points.data()},
+                                      {"/Mesh/nodes", Hdf5Array::Kind::int64, {1, 4}, nodes.data()},
+                                      {"/short", Hdf5Array::Kind::float32, {4}, wide.data()}};
+  const std::string bytes = hdf5_file(arrays);
+  EXPECT_EQ(hdf5_file(arrays), bytes);
+  const auto numbers = hdf5_numbers(bytes, "/short");
+  ASSERT_TRUE(numbers);
+  EXPECT_EQ(numbers->sizes, std::vector<uint64_t>{4});
+  EXPECT_EQ(numbers->values, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_FALSE(hdf5_numbers(bytes, "/Mesh/none"));
+  EXPECT_FALSE(hdf5_numbers(bytes, "/Mesh"));
+
+  GridText grid;
+  grid.points = "<DataItem Format=\"HDF\">other name.h5:/Mesh/geometry</DataItem>";
+  grid.nodes = "<DataItem Format=\"HDF\">other name.h5:/Mesh/nodes</DataItem>";
+  Diagnostics diagnostics;
+  const auto results = read_grid(grid, diagnostics, bytes);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(results->points[3], (Vec3{0, 0, 3}));
+  grid.points = "<DataItem Format=\"HDF\">a.h5:/Mesh/place</DataItem>";
+  EXPECT_NE(grid_error(grid, bytes).find("has no numbers at \"/Mesh/place\""), std::string::npos);
+  EXPECT_NE(grid_error(grid, bytes.substr(0, 100)).find("no file of HDF5"), std::string::npos);
+  EXPECT_NE(grid_error(grid, "no numbers").find("no file of HDF5"), std::string::npos);
+}
+
+#endif
+
+}  // namespace
+}  // namespace ombre::formats
+
+#endif

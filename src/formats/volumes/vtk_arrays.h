@@ -1,0 +1,61 @@
+// Arrays of numbers in VTK's XML files: as text, as base64, or as raw bytes behind the XML, packed by zlib or not.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/containers/xml_file.h"
+
+namespace ombre::formats {
+
+// A file of the kind VTKFile. Failures are reported and end the reading by DesignError.
+class VtkArrays {
+ public:
+  struct Kind {
+    size_t bytes = 0;
+    char family = ' ';  // f, i or u
+  };
+  struct Parts {
+    std::string xml;
+    std::string_view appended;  // behind its underscore
+    bool is_base64 = false;
+  };
+
+  // The bytes must live as long.
+  VtkArrays(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+
+  const XmlFile& file() const { return file_; }
+  // Byte order, headers and packing, which the outermost element states.
+  void read_settings(pugi::xml_node root);
+
+  // The type of an array's numbers.
+  Kind kind_of(pugi::xml_node array) const;
+  // So many numbers, of any type and in any form.
+  std::vector<double> numbers(pugi::xml_node array, uint64_t count) const;
+  // The bytes of so many numbers that are no text, low byte first.
+  std::string bytes_of(pugi::xml_node array, uint64_t count) const;
+  // The same where they lie so in the file.
+  std::optional<std::string_view> bytes_in_file(pugi::xml_node array, uint64_t count) const;
+
+ private:
+  std::vector<double> numbers_in_text(pugi::xml_node array, uint64_t count) const;
+  [[noreturn]] void fail_short(pugi::xml_node array, uint64_t count) const;
+  std::string_view appended_at(pugi::xml_node array) const;
+  std::string appended_bytes(pugi::xml_node array, uint64_t size) const;
+  size_t header_bytes() const;
+  uint64_t header(std::string_view bytes, size_t n) const;
+  void check_header(pugi::xml_node array, std::string_view text, bool is_base64, uint64_t size) const;
+  std::string take(pugi::xml_node array, std::string_view& text, bool is_base64, uint64_t size) const;
+  std::string array_bytes(pugi::xml_node array, std::string_view text, bool is_base64, uint64_t size) const;
+  std::string unpacked_blocks(pugi::xml_node array, std::string_view text, bool is_base64, uint64_t size) const;
+  std::string unpacked_block(pugi::xml_node array, std::string_view packed, uint64_t size) const;
+
+  Parts parts_;
+  XmlFile file_;
+  bool is_swapped_ = false, has_long_headers_ = false, is_packed_ = false;
+};
+
+}  // namespace ombre::formats

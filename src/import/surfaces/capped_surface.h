@@ -1,0 +1,28 @@
+// Closes the gaps of a surface, so that winding numbers become whole.
+#pragma once
+
+#include <vector>
+
+#include "import/surfaces/surface.h"
+
+namespace ombre::importing {
+
+// Triangles between an apex and each edge of a closed rim: (apex, rim[i], rim[i + 1]).
+struct Cap {
+  Vec3 apex;
+  std::vector<Vec3> rim;  // at least three corners
+
+  std::array<Vec3, 3> corners(size_t i) const { return {apex, rim[i], rim[i + 1 == rim.size() ? 0 : i + 1]}; }
+};
+
+struct CappedSurface {
+  SurfacePtr closed;      // the surface's triangles, slivers along its cracks, and the caps' triangles
+  std::vector<Cap> caps;  // one for each loop of edges that stays open
+};
+
+// Corners of open edges nearer to each other than a ten-thousandth of the surface's size are the two sides of a crack.
+// Vertices at exactly the same place count as one. The triangles may be any, also none, or loose ones without
+// neighbours.
+CappedSurface close_by_caps(const Surface& surface);
+
+}  // namespace ombre::importing

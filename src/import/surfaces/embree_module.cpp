@@ -1,0 +1,7 @@
+// Distances to meshes by Embree: the module.
+#include "import/surfaces/embree_calls.h"
+
+extern "C" const ombre::importing::EmbreeCalls* ombre_embree_calls() {
+  static const ombre::importing::EmbreeCalls calls;
+  return &calls;
+}

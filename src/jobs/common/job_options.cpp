@@ -1,0 +1,31 @@
+#include "jobs/common/job_options.h"
+
+#include "load/find_printer.h"
+
+namespace ombre::compile {
+
+std::optional<PlanOptions> plan_options(const std::string& program, const SamplingOptions& sampling,
+                                        const ImageOptions& images, Diagnostics& diagnostics) {
+  const auto printer = find_printer(sampling.printer.empty() ? "generic" : sampling.printer, diagnostics);
+  if (!printer) return std::nullopt;
+  PlanOptions options;
+  options.program = program;
+  options.printer = *printer;
+  options.printer_given = !sampling.printer.empty();
+  if (sampling.voxel) options.pitch = *sampling.voxel;
+  if (sampling.dpi) options.pitch = *sampling.dpi;
+  if (sampling.layer_height) options.pitch[2] = *sampling.layer_height;
+  static_cast<SamplingRules&>(options) = sampling.rules;
+  options.image = images.format;
+  options.place = sampling.place;
+  options.whole_tray = sampling.tray;
+  if (images.by.empty()) return options;
+  if (images.format && images.format != ImageFormat::gray)
+    throw options::WrongValue("--format " + voxel::to_text(*images.format) + " holds materials; " +
+                              spelled::option("--by") + " makes gray images: leave " + spelled::option("--format") +
+                              " out");
+  options.value = ValueChoice{images.by, images.range, images.bits == "16" ? 16 : 8};
+  return options;
+}
+
+}  // namespace ombre::compile

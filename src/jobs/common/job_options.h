@@ -1,0 +1,115 @@
+// Options that several kinds of jobs have: which design, on which voxels, in which images, with what of the machine.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/text/diagnostic.h"
+#include "jobs/common/plan_options.h"
+#include "jobs/common/sampling_rules.h"
+
+namespace ombre::compile {
+
+// Which design, and with what it is read.
+struct DesignOptions {
+  std::string design, materials;
+  std::vector<std::string> definitions;
+  std::vector<std::string> needed = {};  // variables that the command sets later, so that a script must have them
+  std::optional<Vec3> rotate = {};       // degrees about x, then y, then z
+
+  static const options::Spec<DesignOptions>& options() {
+    using namespace options;
+    static const options::Spec<DesignOptions> spec{
+        option("design", &DesignOptions::design, kind::file, "The design: a .vcad, .scad, .json, .ombre or .py file",
+               "FILE")
+            .required(),
+        option("--materials", &DesignOptions::materials, kind::file, "Materials file (see: ombre materials)", "FILE"),
+        options::list("-D,--define", &DesignOptions::definitions, kind::text,
+                      "Set a variable of the design; may be repeated", "NAME=VALUE"),
+        option("--rotate", &DesignOptions::rotate, kind::angles, "Turn the design about x, then y, then z; degrees",
+               "X,Y,Z")};
+    return spec;
+  }
+};
+
+// Which voxels.
+struct SamplingOptions {
+  std::string printer;  // a name or a path; empty: the generic one
+  std::optional<options::Pitches> voxel, dpi;
+  std::optional<Pitch> layer_height;
+  SamplingRules rules;
+  std::optional<voxel::Placement> place;
+  bool tray = false;
+
+  static const options::Spec<SamplingOptions>& options() {
+    using namespace options;
+    static const options::Spec<SamplingOptions> spec{
+        option("--printer", &SamplingOptions::printer, kind::text,
+               "Printer profile: a name, or the path of a .json file", "NAME"),
+        option("--voxel", &SamplingOptions::voxel, kind::voxel, "Voxel size: one length, or x,y,z; mm", "X,Y,Z"),
+        option("--dpi", &SamplingOptions::dpi, kind::dpi, "Resolution in dots per inch: x and y alike, x,y or x,y,z",
+               "X,Y")
+            .excludes({"--voxel"}),
+        option("--layer-height", &SamplingOptions::layer_height, kind::layer_height, "Voxel size along z; mm", "MM"),
+        group(&SamplingOptions::rules),
+        choice("--place", &SamplingOptions::place, voxel::placement_names(),
+               "Layers cover the design's own box, or the build plate with the part in its middle", "design|center"),
+        flag("--tray", &SamplingOptions::tray, "Layers cover the printer's whole build box, the design where it stands")
+            .excludes({"--place"})};
+    return spec;
+  }
+};
+
+// Which images of them.
+struct ImageOptions {
+  std::optional<ImageFormat> format;
+  std::string by;  // empty: images show materials
+  std::optional<Interval> range;
+  std::string bits = "8";
+
+  static const options::Spec<ImageOptions>& options() {
+    using namespace options;
+    static const options::Spec<ImageOptions> spec{
+        choice("--format", &ImageOptions::format, voxel::image_format_names(),
+               "Image format: " + words_text(voxel::image_format_names()) + " (default: the printer's)", "FORMAT"),
+        option("--by,--gray,--grey", &ImageOptions::by, kind::text,
+               "Images in shades of gray by an attribute or a material's fraction, black outside, in place of\n"
+               "materials",
+               "NAME"),
+        option("--range", &ImageOptions::range, kind::range,
+               "The values that are black and white (default: those of the design)", "LO,HI")
+            .needs("--by"),
+        choice("--bits", &ImageOptions::bits, {"8", "16"}, "Of a gray pixel: 8 (default, 256 shades) or 16 (65,536)",
+               "8|16")
+            .needs("--by")};
+    return spec;
+  }
+};
+
+inline constexpr size_t usual_memory = size_t{2} << 30;
+
+// How much of the machine a job may take, which decides no result.
+struct WorkOptions {
+  int threads = 0;  // 0: all cores
+  size_t memory_bytes = usual_memory;
+
+  // `memory` says what the memory is for, with a full stop left out.
+  static options::Spec<WorkOptions> options(const std::string& memory) {
+    using namespace options;
+    return {threads_option(), option("--memory", &WorkOptions::memory_bytes, kind::memory, memory, "SIZE")};
+  }
+  static options::Row<WorkOptions> threads_option() {
+    using namespace options;
+    return option("--threads", &WorkOptions::threads, kind::whole,
+                  "Threads (default: all cores); never changes a result", "N")
+        .between(1, 1024);
+  }
+};
+
+// Nothing, and diagnostics, when there is no such printer. Throws options::WrongValue for what does not go together.
+// `program` is for job.json: "ombre 0.1.0".
+std::optional<PlanOptions> plan_options(const std::string& program, const SamplingOptions& sampling,
+                                        const ImageOptions& images, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

@@ -1,0 +1,43 @@
+#include "jobs/common/region_options.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "base/text/text.h"
+
+namespace ombre::compile {
+
+std::vector<double> parse_borders(const std::string& text, const std::string& name) {
+  const std::vector<double> borders = options::parse_numbers(text);
+  const bool rises = std::ranges::adjacent_find(borders, std::greater_equal<>()) == borders.end();
+  if (!borders.empty() && rises) return borders;
+  throw options::WrongValue(name + " " + text + " are not rising numbers; write for example " + name +
+                            " 0.25,0.5,0.75");
+}
+
+RegionRequest RegionOptions::request() const {
+  RegionRequest request;
+  request.tolerance_mm = tolerance_mm;
+  request.cell_mm = cell_mm;
+  request.by_material = by == "materials";
+  request.by_part = by == "parts";
+  const bool has_bands = bands > 0 || !borders.empty();
+  const bool is_without_bands = request.by_material || request.by_part || by == "whole";
+  if (is_without_bands && has_bands)
+    throw options::WrongValue("--by " + by + " has no bands; leave out " + spelled::option("--bands") + " and " +
+                              spelled::option("--borders") + ", or name a material: " + spelled::option("--by", "red"));
+  if (!has_bands && (by.empty() || is_without_bands)) return request;
+  const std::vector<std::string> names = split(by, ',');
+  if (names.size() > 1 && !borders.empty())
+    throw options::WrongValue(spelled::option("--borders") + " are those of one value; with " +
+                              spelled::option("--by", by) + " write " + spelled::option("--bands") +
+                              ", the number for each");
+  const auto bands_of = [&](const std::string& name) {
+    return BandRequest{bands > 0 ? bands : 4, borders, std::string(trim(name))};
+  };
+  request.bands = bands_of(names.front());
+  for (size_t n = 1; n < names.size(); ++n) request.crossed.push_back(bands_of(names[n]));
+  return request;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,50 @@
+// Options of jobs that cut designs into regions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options/options.h"
+#include "questions/region_request.h"
+
+namespace ombre::compile {
+
+// "0.25,0.5": numbers that rise.
+std::vector<double> parse_borders(const std::string& text, const std::string& name);
+inline constexpr options::Kind<std::vector<double>> rising_numbers_kind{"numbers", parse_borders};
+
+struct RegionOptions {
+  std::optional<double> tolerance_mm, cell_mm;
+  std::string by;
+  int bands = 0;  // 0: not chosen
+  std::vector<double> borders;
+
+  // `piece` is what a region becomes, "A body"; `usual` says the regions where none are chosen, and `usual_tolerance`
+  // the tolerance.
+  static options::Spec<RegionOptions> options(const std::string& piece, const std::string& usual,
+                                              const std::string& usual_tolerance) {
+    using namespace options;
+    return {option("--tolerance", &RegionOptions::tolerance_mm, kind::length,
+                   "Largest distance to the design's surface; mm (default: " + usual_tolerance + ")", "MM"),
+            option("--cell", &RegionOptions::cell_mm, kind::length,
+                   "Edge of the smallest cells; mm (default: 4 times the tolerance)", "MM"),
+            option("--by", &RegionOptions::by, kind::text,
+                   piece +
+                       " for the whole, each of the materials or named parts, or bands of a material's fraction or "
+                       "an attribute; of\nseveral, with commas, for each combination of their bands (default: " +
+                       usual + ")",
+                   "whole|materials|parts|NAME"),
+            option("--bands", &RegionOptions::bands, kind::whole,
+                   "Number of bands of equal width (default 4, of the fraction that varies most)", "N")
+                .between(2, 1000),
+            option("--borders", &RegionOptions::borders, rising_numbers_kind,
+                   "Values between bands: fractions from 0 to 1, or the attribute's", "V1,V2,...")
+                .excludes({"--bands"})};
+  }
+  bool are_chosen() const { return !by.empty() || bands > 0 || !borders.empty(); }
+  // Throws options::WrongValue for what does not go together.
+  RegionRequest request() const;
+};
+
+}  // namespace ombre::compile

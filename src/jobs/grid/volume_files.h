@@ -1,0 +1,25 @@
+// Grids of a job as dense files: raw, .npy and .nrrd.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "export/volume_file.h"
+#include "jobs/grid/grid_job.h"
+#include "jobs/grid/grid_report.h"
+
+namespace ombre::compile {
+
+// One file for each grid: `path` itself if it is a single grid of materials, distances or an attribute, else
+// part_red.npy, part_distance.npy and so on.
+std::vector<std::string> volume_paths(const std::string& path, const std::vector<Grid>& grids);
+
+// Of all files, without headers and before compression.
+uint64_t volume_bytes(const GridJob& job);
+
+// Keeps a few layers in memory. The files get their names when all are complete. Throws Error and Cancelled; then
+// nothing is left.
+GridReport write_volumes(const GridJob& job, const std::vector<std::string>& paths, exporting::VolumeFormat format,
+                         int threads, Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+}  // namespace ombre::compile

@@ -1,0 +1,61 @@
+// The options of homogenisation.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "jobs/common/job_options.h"
+#include "jobs/fea/fea_job.h"
+
+namespace ombre::compile {
+
+struct HomogeniseChoices {
+  DesignOptions design;
+  double cell_mm = 0;
+  std::optional<Box> box;
+  std::string study;
+  double density = 0;  // 0: not chosen
+  std::string by;
+  FeaRequest::Assign assign = FeaRequest::Assign::draw;
+  FeaRequest::Fill fill = FeaRequest::Fill::exact;
+  uint64_t seed = 0;
+  std::string output;
+  double tolerance = 1e-6;
+  WorkOptions work{0, 4 * usual_memory};
+  bool force = false;
+
+  static const options::Spec<HomogeniseChoices>& options() {
+    using namespace options;
+    using H = HomogeniseChoices;
+    static const options::Spec<H> spec{
+        group(&H::design),
+        option("--cell", &H::cell_mm, kind::number, "About how large bricks are, mm", "MM")
+            .required()
+            .between(1e-6, 1e6),
+        option("--box", &H::box, kind::box, "The box that repeats, mm (default: that of the design)",
+               "X0,Y0,Z0,X1,Y1,Z1"),
+        option("--study", &H::study, kind::file, "Properties of materials; a .json file", "FILE"),
+        option("--density", &H::density, kind::number,
+               "Which share of the box is to be solid: a variable of the design is found for it", "X")
+            .between(1e-6, 1),
+        option("--by", &H::by, kind::text, "Of --density: the variable, and between which values it is searched",
+               "NAME=LOW:HIGH"),
+        choice("--assign", &H::assign, {"draw", "mix"},
+               "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
+               "mix (mean properties)",
+               "RULE"),
+        choice("--fill", &H::fill, {"exact", "centre"},
+               "exact (default): a brick is stiff by what of it is inside; centre: whole if its centre is inside",
+               "RULE"),
+        option("--seed", &H::seed, kind::seed, "Seed of draw (default 0)", "N"),
+        option("-o,--output", &H::output, kind::file, "A chart of Young's modulus by direction, .svg", "FILE"),
+        option("--tolerance", &H::tolerance, kind::number, "How near the forces must come to balance (default 1e-6)",
+               "X")
+            .between(1e-12, 0.1),
+        group(&H::work, WorkOptions::options("Most memory for solving (default 8G)")),
+        flag("--force", &H::force, "Replace a file that is there")};
+    return spec;
+  }
+};
+
+}  // namespace ombre::compile

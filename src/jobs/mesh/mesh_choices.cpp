@@ -1,0 +1,14 @@
+#include "jobs/mesh/mesh_choices.h"
+
+namespace ombre::compile {
+
+MeshRequest MeshChoices::request() const {
+  MeshRequest request{regions.request()};
+  request.beams = beams;
+  request.join_flat = !keep_all;
+  request.threads = work.threads;
+  request.memory_bytes = work.memory_bytes;
+  return request;
+}
+
+}  // namespace ombre::compile

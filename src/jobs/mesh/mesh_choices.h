@@ -1,0 +1,65 @@
+// The options of ombre mesh.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/packages/package_writers.h"
+#include "jobs/common/job_options.h"
+#include "jobs/common/region_options.h"
+#include "jobs/mesh/mesh_job.h"
+#include "questions/colour_map.h"
+
+namespace ombre::compile {
+
+inline constexpr const char* usual_bodies =
+    "materials, bands of mixtures; in .stl, .ply and .off, which hold no bodies, the whole";
+
+struct MeshChoices {
+  DesignOptions design;
+  std::string output;
+  RegionOptions regions;
+  std::string colour_by, palette;
+  std::optional<Interval> range;
+  bool keep_all = false;
+  formats::SlicerFlavour flavour = formats::SlicerFlavour::generic;
+  std::vector<std::string> settings;
+  bool beams = false;
+  WorkOptions work{0, 2 * usual_memory};
+  bool force = false;
+
+  static const options::Spec<MeshChoices>& options() {
+    using namespace options;
+    static const options::Spec<MeshChoices> spec{
+        group(&MeshChoices::design),
+        option("-o,--output", &MeshChoices::output, kind::file,
+               "The file to write; its ending says the format (default: the design's name and .3mf)", "FILE"),
+        group(&MeshChoices::regions, RegionOptions::options("A body", usual_bodies,
+                                                            "a thousandth of its longest side, up to five where "
+                                                            "there would be many cells")),
+        option("--colour-by,--color-by", &MeshChoices::colour_by, kind::text,
+               "Colours of vertices by an attribute, or by the mixture: materials; not for .stl and .off",
+               "materials|NAME"),
+        choice("--palette", &MeshChoices::palette, palette_names(), "Of an attribute that is a number", "NAME")
+            .needs("--colour-by"),
+        option("--range", &MeshChoices::range, kind::range,
+               "The values from the first colour to the last (default: those at the vertices)", "LO,HI")
+            .needs("--colour-by"),
+        flag("--keep-all", &MeshChoices::keep_all, "Keep the triangles of all cells, also where the surface is flat"),
+        choice("--flavour,--flavor", &MeshChoices::flavour, {"generic", "prusa", "bambu"},
+               "Whom a .3mf is for: generic (default), prusa or bambu", "SLICER"),
+        options::list(
+            "--setting", &MeshChoices::settings, kind::text,
+            "A slicer's setting for the bodies: KEY=VALUE, KEY=FIRST..LAST from the first region to the last, "
+            "or\nKEY=V1,V2,... one by one; may be repeated",
+            "KEY=VALUE"),
+        flag("--beams", &MeshChoices::beams, "Write struts and lattices as beams, where they can be; .3mf only"),
+        group(&MeshChoices::work, WorkOptions::options("Most memory for the cells at the surface (default 4G)")),
+        flag("--force", &MeshChoices::force, "Replace the file if it is there")};
+    return spec;
+  }
+  MeshRequest request() const;
+};
+
+}  // namespace ombre::compile

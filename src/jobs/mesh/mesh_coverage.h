@@ -1,0 +1,22 @@
+// How much of a design lies in the meshes of the results that it reads.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "load/loaded.h"
+
+namespace ombre::compile {
+
+struct MeshCoverage {
+  std::string file;
+  std::optional<double> share;  // of the design's volume; nothing where no sample lies inside
+};
+
+// For each mesh whose results the design's mixture, attributes or shape read, and each place that it is moved to, by
+// samples on a coarse lattice. Those that only parts of a table of many parts read are not found. Nothing, and
+// diagnostics, when the design has no bounds or is too large.
+std::optional<std::vector<MeshCoverage>> survey_coverage(const Loaded& loaded, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

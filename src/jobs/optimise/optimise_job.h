@@ -1,0 +1,82 @@
+// Evaluates designs with other values of their variables, and keeps what was found.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jobs/optimise/optimise_study.h"
+#include "optimise/search.h"
+
+namespace ombre::compile {
+
+// Numbers of a design, or why there are none.
+struct Measured {
+  std::vector<double> values;  // in the order of the measures
+  std::string failure;         // empty where the values are known
+  double solve_bytes = 0;
+};
+
+using LoadWith = std::function<LoadedPtr(const LoadOptions& options, Diagnostics& diagnostics)>;
+
+// Loads a design with these values and measures it. The plan's options say how, but for the size of bricks. Diagnostics
+// go into the failure. Throws Cancelled, and Error for files.
+class DesignMeter {
+ public:
+  DesignMeter(const OptimiseStudy& study, LoadWith load, LoadOptions options, PlanOptions plan)
+      : study_(study), load_(std::move(load)), options_(std::move(options)), plan_(std::move(plan)) {}
+
+  // `values` are those of the study's variables.
+  Measured measure(const std::vector<double>& values, int threads, const StopFlag* stop) const;
+
+ private:
+  const OptimiseStudy& study_;
+  LoadWith load_;
+  LoadOptions options_;
+  PlanOptions plan_;
+};
+
+// "name=value" for each variable.
+std::vector<std::string> definitions_of(const OptimiseStudy& study, const std::vector<double>& values);
+
+// A diagnostic for each variable of the study that the script does not assign.
+void check_variables(const OptimiseStudy& study, const SourcePtr& script, Diagnostics& diagnostics);
+
+// Plans the bricks of a design.
+std::optional<BrickPlan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choice, PlanOptions options,
+                                     Diagnostics& diagnostics);
+
+// A point's values of the variables: within their ranges, whole where they are to be.
+std::vector<double> values_at(const OptimiseStudy& study, const optimise::Point& point);
+// Returns what a search minimises, and how far limits are exceeded, in units of the limit, or of 1 where that is 0.
+optimise::Outcome outcome_of(const OptimiseStudy& study, const Measured& measured);
+
+// The designs that were measured, by their values; a table of comma-separated values.
+class History {
+ public:
+  struct Row {
+    std::vector<double> values;
+    Measured measured;
+  };
+
+  explicit History(const OptimiseStudy& study) : study_(study) {}
+
+  // Takes the lines of `text`; those that are not whole are left out. False, and a diagnostic, when it is another
+  // table.
+  bool read(const std::string& path, const std::string& text, Diagnostics& diagnostics);
+  const Row* find(const std::vector<double>& values) const;
+  void add(Row row);
+  const std::vector<Row>& rows() const { return rows_; }
+
+  std::string header() const;
+  std::string line(size_t row) const;
+
+ private:
+  const OptimiseStudy& study_;
+  std::vector<Row> rows_;
+  std::map<std::vector<double>, size_t> places_;
+};
+
+}  // namespace ombre::compile

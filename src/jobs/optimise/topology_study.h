@@ -1,0 +1,26 @@
+// Studies of topology: where a share of a design's material should be.
+#pragma once
+
+#include <optional>
+
+#include "base/text/data.h"
+#include "base/text/diagnostic.h"
+#include "jobs/optimise/optimise_study.h"
+#include "optimise/topology.h"
+
+namespace ombre::compile {
+
+struct TopologyStudy {
+  ModelChoice model;
+  std::optional<fea::Load> goal;      // a force of 1 N along the displacement that is changed, at its place
+  bool is_greatest = false;           // shall it become greatest?
+  optimise::TopologyOptions options;  // without a radius in the study, 1.5 bricks; 0 until the bricks are known
+};
+
+// {"topology": {"volume_fraction": 0.5, "radius": 2.4, "penalty": 3, "steps": 200, "move": 0.2,
+//  "change": 0.01, "projection": 16, "displacement": {"on": "xmax", "direction": [0, 0, 1], "goal": "least"}},
+//  "fea": "pull.json", "cell": 1}. Nothing, and diagnostics with places, when it is
+//  wrong.
+std::optional<TopologyStudy> read_topology_study(const Data& data, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

@@ -1,0 +1,218 @@
+#include "jobs/scad/scad_job.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "base/text/error.h"
+#include "export/mesh_file.h"
+#include "export/output_file.h"
+#include "formats/drawings/plane_writers.h"
+#include "formats/images/uncoloured.h"
+#include "solids/booleans.h"
+
+namespace ombre::compile {
+namespace {
+
+namespace fs = std::filesystem;
+using formats::MeshBody;
+using formats::MeshDocument;
+using solids::Piece;
+using solids::Pieces;
+using solids::Solid;
+
+constexpr std::string_view part_place = "{part}";
+
+formats::Rgba bytes_of(const solids::Colour& colour) {
+  formats::Rgba bytes{};
+  for (size_t n = 0; n < bytes.size(); ++n)
+    bytes[n] = static_cast<uint8_t>(std::lround(255 * std::clamp(colour[n], 0.0, 1.0)));
+  return bytes;
+}
+
+std::string name_of(const Piece& piece) {
+  const solids::Attributes& attributes = piece.attributes;
+  if (!attributes.part.empty()) return "part \"" + attributes.part + '"';
+  return attributes.material.empty() ? "a solid without a name" : "a solid of \"" + attributes.material + '"';
+}
+
+// Returns a point of an edge that triangles do not pass equally often in both directions: the surface is open there.
+std::optional<Vec3> open_place(const solids::TriangleMesh& mesh) {
+  using Point = std::array<double, 3>;
+  std::map<Point, uint32_t> known;
+  std::vector<uint32_t> number;
+  for (const Vec3& p : mesh.points)
+    number.push_back(known.try_emplace(Point{p.x, p.y, p.z}, static_cast<uint32_t>(known.size())).first->second);
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  for (const solids::Triangle& t : mesh.triangles)
+    for (size_t n = 0; n < 3; ++n) {
+      const uint32_t a = number[t[n]], b = number[t[(n + 1) % 3]];
+      if (a != b) edges[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  for (const auto& [edge, balance] : edges)
+    if (balance != 0)
+      for (size_t n = 0; n < number.size(); ++n)
+        if (number[n] == edge.first) return mesh.points[n];
+  return std::nullopt;
+}
+
+bool check_closed(const Piece& piece, const std::string& path, Diagnostics& messages) {
+  const auto place = open_place(piece.solid()->mesh());
+  if (!place) return true;
+  messages.error({}, path + " is not written: the surface of " + name_of(piece) + " is open near (" +
+                         std::to_string(place->x) + ", " + std::to_string(place->y) + ", " + std::to_string(place->z) +
+                         ')');
+  return false;
+}
+
+// Returns a part's name without what cannot stand in the name of a file.
+std::string file_word(const std::string& part) {
+  if (part.empty()) return "rest";
+  std::string word = part;
+  for (char& c : word)
+    if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ') c = '_';
+  if (word == "." || word == "..") word = "_";
+  return word;
+}
+
+struct OutputFile {
+  std::string path;
+  Pieces pieces;
+};
+
+std::vector<OutputFile> files_of(const Pieces& pieces, const std::string& path) {
+  const size_t place = path.find(part_place);
+  if (place == std::string::npos) return {{path, pieces}};
+  std::vector<OutputFile> files;
+  for (const Piece& piece : pieces) {
+    std::string name = path;
+    name.replace(place, part_place.size(), file_word(piece.attributes.part));
+    auto file = std::find_if(files.begin(), files.end(), [&](const OutputFile& f) { return f.path == name; });
+    if (file == files.end()) file = files.insert(file, {name, {}});
+    file->pieces.push_back(piece);
+  }
+  return files;
+}
+
+std::optional<std::string> drawing_of(const Pieces& pieces, const std::string& title, const std::string& ending) {
+  if (ending != ".svg" && ending != ".dxf") return std::nullopt;
+  std::vector<formats::DrawnRegion> regions;
+  for (const Piece& piece : pieces) {
+    const auto& colour = piece.attributes.colour;
+    regions.push_back(
+        {piece.attributes.part, colour ? std::optional(bytes_of(*colour)) : std::nullopt, piece.region()->rings});
+  }
+  return ending == ".svg" ? formats::drawing_svg(title, regions) : formats::drawing_dxf(regions);
+}
+
+bool check_format(const Pieces& pieces, const std::string& path, Diagnostics& messages) {
+  const std::string ending = fs::path(path).extension().string();
+  const bool is_drawing = ending == ".svg" || ending == ".dxf";
+  if (!is_drawing && !exporting::mesh_format_of(path)) {
+    messages.error({}, path + " has no ending of a format",
+                   "solids: " + exporting::mesh_endings() + "; regions of the plane: .svg, .dxf");
+    return false;
+  }
+  if (pieces.empty()) {
+    messages.error({}, path + " is not written: the design is empty");
+    return false;
+  }
+  const int dimension = is_drawing ? 2 : 3;
+  for (const Piece& piece : pieces)
+    if (piece.dimension() != dimension) {
+      messages.error({}, path + " is not written: the design is " + (is_drawing ? "solid" : "flat"),
+                     is_drawing ? "write one of " + exporting::mesh_endings() + ", or use projection()"
+                                : "write .svg or .dxf, or use linear_extrude()");
+      return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+Pieces without_overlaps(const Pieces& pieces, const solids::EvaluateOptions& options) {
+  const solids::Work work{options.threads, options.stop};
+  Pieces result;
+  std::vector<Solid> before;
+  for (const Piece& piece : pieces) {
+    Piece own = piece;
+    if (piece.solid()) {
+      const Solid rest = solids::subtract(*piece.solid(), before, work);
+      before.push_back(*piece.solid());
+      if (rest.is_empty()) continue;
+      own.shape = rest;
+    }
+    result.push_back(std::move(own));
+  }
+  return result;
+}
+
+void warn_of_overlaps(const Pieces& pieces, const SourceRange& where, const solids::EvaluateOptions& options,
+                      Diagnostics& messages) {
+  const solids::Work work{options.threads, options.stop};
+  for (size_t n = 1; n < pieces.size(); ++n)
+    for (size_t other = 0; other < n; ++other) {
+      if (!pieces[n].solid() || !pieces[other].solid()) continue;
+      const Solid common = solids::intersect({*pieces[other].solid(), *pieces[n].solid()}, work);
+      if (common.is_empty()) continue;
+      messages.warning(where, name_of(pieces[other]) + " and " + name_of(pieces[n]) + " overlap",
+                       "subtract one from the other, or use " + spelled::option("--no-overlap") + ": the first wins");
+    }
+}
+
+MeshDocument document_of(const Pieces& pieces, const std::string& title) {
+  MeshDocument document{title, {}, {}};
+  for (const Piece& piece : pieces) {
+    if (!piece.solid()) continue;
+    const solids::TriangleMesh& mesh = piece.solid()->mesh();
+    const auto& [material, part, colour] = piece.attributes;
+    MeshBody body{part, mesh.points, mesh.triangles};
+    if (!material.empty() || colour) {
+      const formats::Rgba bytes = colour ? bytes_of(*colour) : formats::uncoloured;
+      auto& list = document.materials;
+      auto same = std::find_if(list.begin(), list.end(), [&, name = material](const formats::MeshMaterial& m) {
+        return m.name == name && m.colour == bytes;
+      });
+      if (same == list.end()) same = list.insert(same, {material, bytes});
+      body.material = static_cast<uint32_t>(same - list.begin());
+    }
+    document.bodies.push_back(std::move(body));
+  }
+  return document;
+}
+
+std::vector<std::string> write_pieces(const Pieces& pieces, const SolidsExport& to, Diagnostics& messages) {
+  std::vector<std::string> paths;
+  if (!check_format(pieces, to.path, messages)) return paths;
+  for (const Piece& piece : pieces)
+    if (piece.solid() && !check_closed(piece, to.path, messages)) return paths;
+  for (const auto& [path, own] : files_of(pieces, to.path)) {
+    const std::string title = to.title.empty() ? fs::path(path).stem().string() : to.title;
+    if (const auto drawing = drawing_of(own, title, fs::path(path).extension().string()))
+      exporting::write_file(path, *drawing);
+    else
+      exporting::write_mesh_file(path, document_of(own, title), *exporting::mesh_format_of(path), to.flavour);
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+ScadResult run_scad(const ScadRequest& request, Diagnostics& messages) {
+  const solids::EvaluateOptions options{request.threads, request.keeps_empty, request.stop, request.progress};
+  ScadResult result{solids::evaluate(request.tree, options, messages), {}};
+  if (messages.has_errors()) return result;
+  if (request.no_overlap)
+    result.pieces = without_overlaps(result.pieces, options);
+  else if (!request.outputs.empty())
+    warn_of_overlaps(result.pieces, request.tree ? request.tree->where : SourceRange{}, options, messages);
+  if (request.before_writing && !request.outputs.empty()) request.before_writing();
+  for (const SolidsExport& output : request.outputs) {
+    const std::vector<std::string> paths = write_pieces(result.pieces, output, messages);
+    result.files.insert(result.files.end(), paths.begin(), paths.end());
+  }
+  return result;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,53 @@
+// From a tree of polyhedral geometry to files.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/text/diagnostic.h"
+#include "formats/packages/package_writers.h"
+#include "solids/evaluate_tree.h"
+
+namespace ombre::compile {
+
+struct SolidsExport {
+  // The ending says the format: those of meshes for solids; .svg and .dxf for regions. "{part}" in the name makes a
+  // file for each part.
+  std::string path;
+  std::string title = {};  // empty: the file's name
+  formats::SlicerFlavour flavour = formats::SlicerFlavour::generic;
+};
+
+// Solids lose what solids before them have, and warnings are given where solids overlap else.
+solids::Pieces without_overlaps(const solids::Pieces& pieces, const solids::EvaluateOptions& options);
+void warn_of_overlaps(const solids::Pieces& pieces, const SourceRange& where, const solids::EvaluateOptions& options,
+                      Diagnostics& messages);
+
+// Writes what the tree gave. Nothing is written, and there are errors, where the pieces do not fit the format, or a
+// surface is not closed. The paths of the files, in order. Throws Error where a file cannot be written.
+std::vector<std::string> write_pieces(const solids::Pieces& pieces, const SolidsExport& to, Diagnostics& messages);
+
+// Bodies named by their parts, with a material for each name and colour.
+formats::MeshDocument document_of(const solids::Pieces& pieces, const std::string& title);
+
+struct ScadRequest {
+  solids::TreePtr tree;
+  std::vector<SolidsExport> outputs;
+  bool no_overlap = false;  // the first wins
+  bool keeps_empty = false;
+  int threads = 0;
+  const StopFlag* stop = nullptr;
+  Progress* progress = nullptr;
+  std::function<void()> before_writing = {};  // called when the geometry is there, unless there is nothing to write
+};
+
+struct ScadResult {
+  solids::Pieces pieces;
+  std::vector<std::string> files;
+};
+
+// Evaluates and writes. After errors no file is written. Throws Error and Cancelled.
+ScadResult run_scad(const ScadRequest& request, Diagnostics& messages);
+
+}  // namespace ombre::compile

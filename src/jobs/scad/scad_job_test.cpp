@@ -1,0 +1,181 @@
+#include "jobs/scad/scad_job.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "formats/containers/file.h"
+#include "formats/mesh/mesh.h"
+#include "formats/packages/package_writers.h"
+#include "solids/kernel.h"
+#include "solids/test_trees.h"
+#include "sources/solid_parts.h"
+
+namespace ombre::compile {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace solids;
+
+class ScadJob : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_kernel()) GTEST_SKIP();
+    // Tests run beside each other, each in a folder of its own.
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("ombre_scad_job_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  ScadResult run(const TreePtr& tree, const std::string& name, bool no_overlap = false) {
+    messages_ = {};
+    ScadRequest request{tree, {{path(name)}}};
+    request.no_overlap = no_overlap;
+    return run_scad(request, messages_);
+  }
+
+  TreePtr imported(const std::string& name) const {
+    Import import;
+    import.path = path(name);
+    return node(import);
+  }
+
+  std::string first_message() const { return messages_.list().empty() ? "" : messages_.list()[0].message; }
+
+  fs::path folder_;
+  Diagnostics messages_;
+};
+
+TreePtr two_parts() {
+  return group({part("left", {material("PLA", {colour(red, {cube(1)})})}),
+                part("right", {material("TPU", {moved(1, 0, 0, {cube(2)})})}), moved(9, 0, 0, {cube(3)})});
+}
+
+TEST_F(ScadJob, ThreeMfKeepsNamesMaterialsAndColours) {
+  if (!formats::can_write_3mf()) GTEST_SKIP();
+  EXPECT_EQ(run(two_parts(), "a.3mf").files.size(), 1U);
+  EXPECT_TRUE(messages_.list().empty());
+  EXPECT_EQ(described(imported("a.3mf")), "1 red part left of PLA; 8 part right of TPU; 27");
+}
+
+TEST_F(ScadJob, AmfKeepsNamesMaterialsAndColours) {
+  if (!formats::can_write_3mf()) GTEST_SKIP();
+  run(two_parts(), "a.amf");
+  // The solid without a part has the name of the file's object, which AMF gives to all volumes without one.
+  EXPECT_TRUE(described(imported("a.amf")).starts_with("1 red part left of PLA; 8 part right of TPU; 27"));
+}
+
+TEST_F(ScadJob, EveryFormatHoldsTheVolume) {
+  for (const std::string name : {"a.stl", "a.off", "a.obj", "a.ply"}) {
+    run(two_parts(), name);
+    double volume = 0;
+    for (const Piece& piece : evaluated(imported(name))) volume += size_of(piece);
+    EXPECT_NEAR(volume, 36, 1e-4) << name;
+  }
+  EXPECT_EQ(run(two_parts(), "a.glb").files.size(), 1U);
+}
+
+TEST_F(ScadJob, AFileForEachPart) {
+  const ScadResult result = run(two_parts(), "out-{part}.stl");
+  EXPECT_EQ(result.files,
+            (std::vector<std::string>{path("out-left.stl"), path("out-right.stl"), path("out-rest.stl")}));
+  EXPECT_EQ(described(imported("out-right.stl")), "8");
+}
+
+TEST_F(ScadJob, OverlapsAreReportedOrCut) {
+  // Listing 4.1 of the thesis.
+  const TreePtr tree = group({colour(red, {cube(10, 10, 20)}), colour(green, {cube(10, 20, 10)})});
+  EXPECT_EQ(described(run(tree, "a.stl").pieces), "2000 red; 2000 green");
+  EXPECT_EQ(first_message(), "a solid without a name and a solid without a name overlap");
+  EXPECT_EQ(described(run(tree, "a.stl", true).pieces), "2000 red; 1000 green");
+  EXPECT_TRUE(messages_.list().empty());
+}
+
+TEST_F(ScadJob, WrongFormats) {
+  EXPECT_TRUE(run(cube(1), "a.xyz").files.empty());
+  EXPECT_EQ(first_message(), path("a.xyz") + " has no ending of a format");
+  EXPECT_TRUE(run(cube(1), "a.svg").files.empty());
+  EXPECT_EQ(first_message(), path("a.svg") + " is not written: the design is solid");
+  EXPECT_TRUE(run(square(1, 1), "a.stl").files.empty());
+  EXPECT_EQ(first_message(), path("a.stl") + " is not written: the design is flat");
+  EXPECT_TRUE(run(nothing(), "a.stl").files.empty());
+  EXPECT_EQ(first_message(), path("a.stl") + " is not written: the design is empty");
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(ScadJob, Drawings) {
+  const TreePtr tree =
+      group({part("frame", {colour(red, {difference({square(4, 4), moved(1, 1, 0, {square(1, 1)})})})}),
+             moved(9, 0, 0, {square(1, 1)})});
+  run(tree, "a.svg");
+  const std::string svg = formats::read_file(path("a.svg"));
+  EXPECT_NE(svg.find("<path class=\"frame\" fill=\"#FF0000\""), std::string::npos) << svg;
+  EXPECT_NEAR(size_of(imported("a.svg")), 16, 1e-5);
+  run(tree, "a.dxf");
+  EXPECT_NEAR(size_of(imported("a.dxf")), 16, 1e-5);
+  Import frame;
+  frame.path = path("a.dxf");
+  frame.layer = "frame";
+  EXPECT_NEAR(size_of(node(frame)), 15, 1e-5);
+}
+
+TEST_F(ScadJob, SameBytesOnAnyNumberOfThreads) {
+  Children balls;
+  for (int n = 0; n < 6; ++n) balls.push_back(moved(1.5 * n, 0.3 * n, 0, {sphere(1, 12)}));
+  const TreePtr tree = difference({unite(balls), cube(5, 1, 1)});
+  std::string bytes[2];
+  for (int n = 0; n < 2; ++n) {
+    Diagnostics messages;
+    ScadRequest request{tree, {{path("a.stl")}}};
+    request.threads = n == 0 ? 1 : 4;
+    run_scad(request, messages);
+    bytes[n] = formats::read_file(path("a.stl"));
+  }
+  EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+TEST_F(ScadJob, MissingAndBrokenImports) {
+  EXPECT_TRUE(run(imported("none.stl"), "a.stl").files.empty());
+  EXPECT_EQ(first_message(), "Can't open import file '" + path("none.stl") + "'");
+  std::ofstream(path("open.off")) << "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n";
+  EXPECT_TRUE(run(imported("open.off"), "a.stl").files.empty());
+  EXPECT_EQ(first_message(), '"' + path("open.off") + "\" cannot be used: its surface is not closed");
+}
+
+TEST_F(ScadJob, CrossingShellsBecomeOne) {
+  std::ostringstream text;
+  text << "OFF\n8 8 0\n";
+  for (const double x : {0.0, 0.25}) text << x << " 0 0\n" << x + 1 << " 0 0\n" << x << " 1 0\n" << x << " 0 1\n";
+  for (const int n : {0, 4})
+    text << "3 " << n << ' ' << n + 2 << ' ' << n + 1 << "\n3 " << n << ' ' << n + 1 << ' ' << n + 3 << "\n3 " << n
+         << ' ' << n + 3 << ' ' << n + 2 << "\n3 " << n + 1 << ' ' << n + 2 << ' ' << n + 3 << '\n';
+  std::ofstream(path("two.off")) << text.str();
+  // Two tetrahedra of volume 1/6; they share one of edge 3/4.
+  EXPECT_NEAR(size_of(imported("two.off")), 2.0 / 6 - 0.75 * 0.75 * 0.75 / 6, 1e-9);
+}
+
+TEST_F(ScadJob, Surfaces) {
+  std::ofstream(path("h.dat")) << "# heights\n1 2 3\n4 5 6\n";
+  Surface surface;
+  surface.path = path("h.dat");
+  EXPECT_NEAR(size_of(node(surface)), 7, 1e-9);
+  std::ofstream(path("h.dat")) << "5 6\n7 8\n";
+  EXPECT_NEAR(size_of(node(surface)), 2.5, 1e-9);
+}
+
+TEST_F(ScadJob, PiecesBecomeMadeSolids) {
+  const design::SolidsRequest request = sources::solids_request(evaluated(two_parts()), "two.scad");
+  ASSERT_EQ(request.solids->size(), 3U);
+  EXPECT_EQ((*request.solids)[0].material, "PLA");
+  EXPECT_EQ((*request.solids)[0].colour, (design::Rgba{255, 0, 0, 255}));
+  EXPECT_EQ((*request.solids)[1].part, "right");
+}
+
+}  // namespace
+}  // namespace ombre::compile

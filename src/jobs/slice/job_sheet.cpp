@@ -1,0 +1,112 @@
+// Contact sheets of slice jobs.
+#include "jobs/slice/job_sheet.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "base/math/evenly_spaced.h"
+#include "base/text/error.h"
+#include "base/text/json.h"
+#include "export/contact_sheet.h"
+#include "export/material_stack.h"
+#include "formats/containers/file.h"
+#include "jobs/slice/job_folder.h"
+
+namespace ombre::compile {
+namespace {
+
+// The numbers of a member that must be a list of them.
+std::vector<double> numbers(const Data* data, const std::string& path) {
+  std::vector<double> values;
+  if (data && data->list())
+    for (const Data& element : *data->list())
+      if (const double* number = element.number()) values.push_back(*number);
+  if (!data || !data->list() || values.size() != data->list()->size())
+    throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
+  return values;
+}
+
+const Data* member(const Data* object, const char* name) { return object ? object->find(name) : nullptr; }
+
+struct JobSummary {
+  exporting::SheetStyle style;
+  ImageFormat format = ImageFormat::indexed;
+  std::vector<formats::Rgba> colours;  // of the materials, without void
+  double origin_z_mm = 0, layer_mm = 0;
+  size_t check_count = 0;
+};
+
+formats::Rgba read_colour(const Data& material, const std::string& path) {
+  const std::vector<double> channels = numbers(member(&material, "rgba"), path);
+  if (channels.size() != 4) throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
+  formats::Rgba rgba{};
+  for (size_t i = 0; i < 4; ++i) rgba[i] = static_cast<uint8_t>(std::clamp(channels[i], 0.0, 255.0));
+  return rgba;
+}
+
+ImageFormat format(const Data* images, const std::string& path) {
+  const Data* name = member(images, "format");
+  const auto format = name && name->string() ? voxel::image_format(*name->string()) : std::nullopt;
+  if (!format) throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
+  return *format;
+}
+
+JobSummary read_summary(const std::string& path) {
+  Diagnostics ignored;
+  const std::optional<Data> job = parse_json(make_source(path, formats::read_file(path)), ignored);
+  const Data* sampling = member(job ? &*job : nullptr, "sampling");
+  const std::vector<double> pitch = numbers(member(sampling, "pitch_mm"), path);
+  const std::vector<double> origin = numbers(member(sampling, "origin_mm"), path);
+  const Data* materials = member(&*job, "materials");
+  const Data* checks = member(&*job, "checks");
+  if (pitch.size() != 3 || origin.size() != 3 || !materials || !materials->list() || materials->list()->empty() ||
+      !checks || !checks->list())
+    throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
+
+  JobSummary summary;
+  summary.style.pixel_width_mm = pitch[0];
+  summary.style.pixel_height_mm = pitch[1];
+  summary.format = format(member(&*job, "images"), path);
+  for (const Data& material : *materials->list()) summary.colours.push_back(read_colour(material, path));
+  const formats::Rgba background = summary.colours.front();
+  summary.colours.erase(summary.colours.begin());
+  const bool is_mask = summary.format == ImageFormat::mask;
+  summary.style.background = is_mask ? exporting::mask_off : exporting::shown(background, summary.format);
+  summary.origin_z_mm = origin[2];
+  summary.layer_mm = pitch[2];
+  summary.check_count = checks->list()->size();
+  return summary;
+}
+
+// Its files, with the materials' colours in the place of masks.
+exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& summary,
+                                  const std::filesystem::path& folder) {
+  exporting::SheetLayer layer;
+  layer.layer = entry.layer;
+  layer.z_mm = summary.origin_z_mm + (static_cast<double>(entry.layer) + 0.5) * summary.layer_mm;
+  for (size_t i = 0; i < entry.files.size(); ++i) {
+    layer.images.push_back({(folder / entry.files[i].name).string(), std::nullopt});
+    if (summary.format == ImageFormat::mask && i < summary.colours.size()) layer.images.back().ink = summary.colours[i];
+  }
+  return layer;
+}
+
+}  // namespace
+
+std::string contact_sheet(const std::string& folder, int layer_count) {
+  const std::filesystem::path base(folder);
+  const JobSummary summary = read_summary((base / job_file).string());
+  const std::string journal = formats::read_file((base / journal_file).string());
+  std::vector<exporting::SheetLayer> layers;
+  for (const JournalEntry& entry : parse_journal(journal, summary.colours.size(), summary.check_count))
+    if (!entry.is_empty() && !entry.files.empty()) layers.push_back(sheet_layer(entry, summary, base));
+  if (layers.empty())
+    throw Error(Code::file_content, folder + " has no layer with material to draw", {{"file", folder}});
+  layers = evenly_spaced(layers, static_cast<size_t>(std::max(1, layer_count)));
+  const exporting::Picture sheet = exporting::draw_contact_sheet(layers, summary.style);
+  return formats::encode_png(sheet.width, sheet.height, sheet.rgba);
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,21 @@
+// A box of the voxels of a job.
+#pragma once
+
+#include <optional>
+
+#include "jobs/slice/plan.h"
+
+namespace ombre::compile {
+
+// The voxels that share volume with the box; nothing when none does. Its corners are finite.
+std::optional<voxel::TileBox> region_over(const voxel::Lattice& lattice, const Box& box);
+
+// The same of an option of the command line; without a box all voxels. Throws options::WrongValue when the box is
+// beside the lattice.
+voxel::TileBox chosen_region(const std::optional<Box>& box, const voxel::Lattice& lattice);
+
+// The voxels of the region as a job of their own. They have the materials, and layers the names, that they have in the
+// whole job.
+Plan part_of(Plan plan, const voxel::TileBox& region);
+
+}  // namespace ombre::compile

@@ -1,0 +1,203 @@
+// Slicing: evaluates layers slab by slab and writes them to a job folder as PNG files.
+#include "jobs/slice/slice.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "base/system/assert.h"
+#include "base/system/stopwatch.h"
+#include "base/system/tasks.h"
+#include "base/text/error.h"
+#include "jobs/slice/forecast.h"
+#include "jobs/slice/job_folder.h"
+#include "jobs/slice/slice_work.h"
+
+namespace ombre::compile {
+namespace {
+
+LayerRange requested_layers(const SliceRequest& request, const SliceOptions& options) {
+  const LayerRange whole{0, request.lattice.count[2]};
+  const LayerRange requested = options.layers.value_or(whole);
+  return {std::clamp(requested.begin, whole.begin, whole.end), std::clamp(requested.end, whole.begin, whole.end)};
+}
+
+// Tells how many voxels of the layers asked for are done, and what is left.
+class VoxelProgress {
+ public:
+  VoxelProgress(Progress* progress, const SliceRequest& request, LayerRange layers)
+      : progress_(progress),
+        layer_voxels_(static_cast<uint64_t>(request.lattice.count[0]) *
+                      static_cast<uint64_t>(request.lattice.count[1])),
+        total_(static_cast<uint64_t>(layers.end - layers.begin)) {}
+
+  bool is_watched() const { return progress_ != nullptr; }
+
+  void add_layers(size_t count, const Forecast& forecast) {
+    done_ += count;
+    if (!progress_) return;
+    HowFar how_far{done_ * layer_voxels_, total_ * layer_voxels_};
+    if (const auto left = forecast.left()) {
+      how_far.seconds_left = left->seconds;
+      how_far.bytes_left = left->bytes;
+    }
+    progress_->update(how_far);
+  }
+
+ private:
+  Progress* progress_;
+  uint64_t layer_voxels_, total_, done_ = 0;
+};
+
+// One run over the layers that are missing.
+class SliceRun {
+ public:
+  SliceRun(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options, Progress* progress,
+           const StopFlag* stop)
+      : request_(request),
+        producer_(producer),
+        options_(options),
+        watched_(progress),
+        stop_(stop),
+        size_(size_work(request, options)),
+        folder_(options.folder, request, options.use, size_.threads, progress, stop),
+        layers_(requested_layers(request, options)),
+        slabs_(missing_slabs(layers_, folder_.finished(), size_.slab_layers)),
+        forecast_(slabs_, size_.threads),
+        progress_(progress, request, layers_) {}
+
+  SliceReport run() {
+    count_finished();
+    if (!failed_check_ && prepare_stages()) write();
+    report_.whole_job_finished = folder_.close();
+    if (skipped_ && !failed_check_) throw Cancelled();
+    finish_report();
+    return std::move(report_);
+  }
+
+ private:
+  struct Slab {
+    std::vector<EncodedLayer> layers;
+    LayerCost cost;
+  };
+
+  void count_finished() {
+    for (const auto& [layer, entry] : folder_.finished()) {
+      if (layer < layers_.begin || layer >= layers_.end) continue;
+      ++report_.layers_kept;
+      note_checks(entry);
+    }
+    progress_.add_layers(static_cast<size_t>(report_.layers_kept), forecast_);
+  }
+
+  // False when the run is to stop.
+  bool prepare_stages() {
+    if (!options_.stages || slabs_.empty()) return true;
+    try {
+      options_.stages->prepare(stage_loan(options_, watched_, stop_));
+    } catch (const Cancelled&) {
+      skipped_ = true;
+    }
+    return !skipped_;
+  }
+
+  void write() {
+    const auto produce = [&](size_t i) {
+      sample_ahead();
+      return make(slabs_[i]);
+    };
+    const auto consume = [&](size_t i, Slab& slab) { write_slab(slabs_[i], slab); };
+    run_ordered<Slab>(slabs_.size(), size_.threads, size_.window, produce, consume);
+  }
+
+  bool is_stopping() const { return failed_check_ || (stop_ && stop_->requested()); }
+
+  // When the run is to stop, with fewer layers or none: those that are encoded are still written.
+  Slab make(LayerRange range) {
+    Slab slab;
+    const Stopwatch watch;
+    try {
+      if (!is_stopping()) slab.layers = make_slab(request_, producer_, stack_, range, stop_);
+    } catch (const Cancelled&) {
+      ASSERT(slab.layers.empty());
+    }
+    slab.cost.seconds = watch.seconds();
+    for (const EncodedLayer& layer : slab.layers) slab.cost.bytes += static_cast<double>(layer.bytes());
+    return slab;
+  }
+
+  static bool is_whole(LayerRange range, const Slab& slab) {
+    return slab.layers.size() == static_cast<size_t>(range.end - range.begin);
+  }
+
+  void sample_ahead() {
+    if (!progress_.is_watched() || is_stopping()) return;
+    const std::optional<LayerRange> range = forecast_.sample_ahead();
+    if (!range) return;
+    const Slab slab = make(*range);
+    if (is_whole(*range, slab)) forecast_.add_sample(*range, slab.cost);
+  }
+
+  void write_slab(LayerRange range, Slab& slab) {
+    const Stopwatch watch;
+    for (EncodedLayer& layer : slab.layers) {
+      ++(layer.images.empty() ? report_.layers_dropped : report_.layers_written);
+      report_.bytes_written += layer.bytes();
+      note_checks(layer.entry);
+      folder_.add(std::move(layer.entry), layer.images);
+    }
+    if (is_whole(range, slab))
+      forecast_.add_written(slab.cost, watch.seconds());
+    else
+      skipped_ = true;
+    progress_.add_layers(slab.layers.size(), forecast_);
+  }
+
+  void note_checks(const JournalEntry& entry) {
+    const auto hit = [](const voxel::CheckHits& hits) { return hits.count > 0; };
+    if (options_.strict && std::any_of(entry.checks.begin(), entry.checks.end(), hit)) failed_check_ = true;
+  }
+
+  void finish_report() {
+    report_.layers = layers_;
+    report_.stopped_by_check = failed_check_;
+    report_.material_voxels.resize(request_.materials.size());
+    CheckSums checks(request_);
+    for (const auto& [layer, entry] : folder_.finished()) {
+      if (layer < layers_.begin || layer >= layers_.end) continue;
+      for (size_t i = 0; i < entry.voxels.size(); ++i) report_.material_voxels[i] += entry.voxels[i];
+      checks.add(entry.checks);
+    }
+    for (const uint64_t voxels : report_.material_voxels) report_.voxels_inside += voxels;
+    report_.checks = checks.reports();
+  }
+
+  const SliceRequest& request_;
+  const LayerProducer& producer_;
+  const SliceOptions& options_;
+  Progress* watched_;
+  const StopFlag* stop_;
+  WorkSize size_;
+  JobFolder folder_;
+  LayerRange layers_;
+  const std::vector<LayerRange> slabs_;  // that are missing
+  Forecast forecast_;
+  VoxelProgress progress_;
+  const exporting::MaterialStack stack_ = image_stack(request_);
+  SliceReport report_;
+  bool skipped_ = false;
+  std::atomic<bool> failed_check_{false};
+};
+
+}  // namespace
+
+SliceReport slice(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options,
+                  Progress* progress, const StopFlag* stop) {
+  const Stopwatch watch;
+  if (options.stages) options.stages->check_memory(stage_loan(options, progress, stop));
+  const SliceOptions for_layers = without_stages_memory(options);
+  SliceReport report = SliceRun(request, producer, for_layers, progress, stop).run();
+  report.seconds = watch.seconds();
+  return report;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,37 @@
+#include "jobs/slice/slice_choices.h"
+
+#include <filesystem>
+
+#include "base/text/text.h"
+#include "jobs/slice/plan.h"
+
+namespace ombre::compile {
+
+std::string SliceChoices::output_folder() const {
+  return folder.empty() ? std::filesystem::path(design.design).stem().string() + "_slices" : folder;
+}
+
+FolderUse SliceChoices::folder_use() const {
+  if (force) return FolderUse::replace;
+  return resume ? FolderUse::resume : FolderUse::fresh;
+}
+
+SliceOptions slice_options(const SliceChoices& choices, const Plan& plan) {
+  SliceOptions options;
+  options.folder = choices.output_folder();
+  options.use = choices.folder_use();
+  options.threads = choices.work.threads;
+  options.memory_bytes = choices.work.memory_bytes;
+  options.strict = choices.strict;
+  options.stages = plan.stages;
+  if (choices.layers.empty()) return options;
+  const int64_t count = plan.request.lattice.count[2];
+  options.layers = parse_layer_range(choices.layers, count);
+  if (!options.layers)
+    throw options::WrongValue(spelled::option("--layers", choices.layers) + " selects none of the " +
+                              format_count(static_cast<unsigned long long>(count)) + " layers, which are 0:" +
+                              std::to_string(count) + "; write for example " + spelled::option("--layers", "0:10"));
+  return options;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,88 @@
+// The options of slice jobs, and of a single layer of one.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "jobs/check/emit.h"
+#include "jobs/common/job_options.h"
+#include "jobs/slice/plan.h"
+
+namespace ombre::compile {
+
+struct SliceChoices {
+  DesignOptions design;
+  SamplingOptions sampling;
+  ImageOptions images;
+  std::string folder, layers;
+  std::optional<Box> box;
+  WorkOptions work;
+  bool force = false, resume = false, dry_run = false, strict = false;
+  std::string emit;
+
+  static const options::Spec<SliceChoices>& options() {
+    using namespace options;
+    static const options::Spec<SliceChoices> spec{
+        group(&SliceChoices::design),
+        group(&SliceChoices::sampling),
+        group(&SliceChoices::images),
+        option("-o,--output", &SliceChoices::folder, kind::file,
+               "Folder for the layers (default: the design's name and _slices)", "DIR"),
+        option("--layers", &SliceChoices::layers, kind::text,
+               "Only these layers, a:b as in Python (b excluded), a:, :b or a", "A:B"),
+        option(
+            "--box", &SliceChoices::box, kind::box,
+            "Only the voxels that touch this box, with the materials and in layers with the names that they have in\n"
+            "the whole job; mm",
+            "X0,Y0,Z0,X1,Y1,Z1")
+            .excludes({"--layers"}),
+        group(&SliceChoices::work,
+              WorkOptions::options("Most memory for layers in flight, with their images and what evaluating them takes "
+                                   "(default 2G)")),
+        flag("--force", &SliceChoices::force, "Replace the job in the folder, or write beside other files; those stay"),
+        flag("--resume", &SliceChoices::resume, "Continue the job in the folder").excludes({"--force"}),
+        flag("--dry-run", &SliceChoices::dry_run, "Say what the job would take, from a few layers; write nothing"),
+        flag("--strict", &SliceChoices::strict, "End with exit code 3 as soon as a check fails"),
+        choice("--emit", &SliceChoices::emit, emit_forms(), "Print an intermediate form to stdout, and slice nothing",
+               "FORM")};
+    return spec;
+  }
+  // The folder that was chosen, or one that has the design's name.
+  std::string output_folder() const;
+  FolderUse folder_use() const;
+};
+
+// For the plan of the same choices. Throws options::WrongValue when the layers are not among the plan's.
+SliceOptions slice_options(const SliceChoices& choices, const Plan& plan);
+
+struct LayerChoices {
+  DesignOptions design;
+  SamplingOptions sampling;
+  ImageOptions images;
+  std::string output, index;
+  std::optional<double> z_mm;
+  std::optional<Box> box;
+  WorkOptions work;
+  bool force = false;
+
+  static const options::Spec<LayerChoices>& options() {
+    using namespace options;
+    static const options::Spec<LayerChoices> spec{
+        group(&LayerChoices::design),
+        group(&LayerChoices::sampling),
+        group(&LayerChoices::images),
+        option("-o,--output", &LayerChoices::output, kind::file,
+               "The image to write, - for stdout (default: the names of the design and of the layer's file)", "FILE"),
+        option("--z", &LayerChoices::z_mm, kind::height, "The layer at this height of the design; mm", "MM"),
+        option("--index", &LayerChoices::index, kind::text, "The layer of this number: 0 is the lowest, -1 the highest",
+               "N")
+            .excludes({"--z"}),
+        option("--box", &LayerChoices::box, kind::rectangle, "Only the pixels that touch this box; mm", "X0,Y0,X1,Y1"),
+        group(&LayerChoices::work,
+              WorkOptions::options("Most memory for the layer, its image and stages (default 2G)")),
+        flag("--force", &LayerChoices::force, "Replace the image if it is there")};
+    return spec;
+  }
+};
+
+}  // namespace ombre::compile

@@ -1,0 +1,127 @@
+// What slice jobs are made from, and what they report.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/math/interval.h"
+#include "base/system/progress.h"
+#include "formats/images/png.h"
+#include "jobs/common/sampling_rules.h"
+#include "stages/job_stages.h"
+#include "voxel/lattice.h"
+#include "voxel/layers.h"
+#include "voxel/printer.h"
+
+namespace ombre::compile {
+
+struct SliceMaterial {
+  std::string name;
+  MaterialId id = 1;
+  formats::Rgba rgba{};
+};
+
+// What shades of gray mean: black is range.lo or less, or outside, white range.hi or more.
+struct ShadeMeaning {
+  std::string of, unit;  // a material, for its fraction, or an attribute with its unit
+  Interval range;
+  int bits = 8;  // of a pixel: 8 or 16
+};
+
+// What a box of a larger job's voxels is in that.
+struct PartOfJob {
+  std::array<int64_t, 3> first{}, count{};  // the least voxel, and the voxels of the whole
+};
+
+// Everything that decides the voxels of a job, already resolved.
+struct Sampling : SamplingRules {
+  std::string program;      // "ombre 0.1.0"
+  std::string design_hash;  // hex
+  voxel::Lattice lattice;
+  std::optional<PartOfJob> part;          // where the lattice is a part of another
+  std::vector<SliceMaterial> materials;   // those used, by ascending id, without void
+  std::optional<ShadeMeaning> shades;     // where voxels show a value; then materials are its shades
+  std::vector<std::string> check_texts;   // one for each check of the program: what failed, for people
+  std::vector<std::string> check_places;  // and where in the design, "part.vcad:3:1"; decides no bytes
+};
+
+// Everything that decides the bytes of a job.
+struct SliceRequest : Sampling, voxel::Images {
+  std::string printer;  // the profile's name
+};
+
+// The conventions of a profile; `image` overrides its image format. Masks are always one for each material.
+void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<ImageFormat> image);
+
+// Layers [begin, end) of the whole job.
+struct LayerRange {
+  int64_t begin = 0, end = 0;
+  bool operator==(const LayerRange&) const = default;
+};
+
+// "a:b", "a:", ":b" or "a", as Python's slices have them; negative numbers count from the top.
+// Nothing when the text is none of these or selects no layer.
+std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count);
+
+// A box of the job's voxels, layer by layer, lowest first; results have its width and height. Called from several
+// threads. Throws Cancelled when asked to stop.
+using RegionProducer =
+    std::function<std::vector<voxel::LayerResult>(const voxel::TileBox& region, const StopFlag* stop)>;
+
+// Layers [begin, end), lowest first. Called from several threads. Throws Cancelled when asked to stop.
+using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end, const StopFlag* stop)>;
+
+// Layers of the whole width and height of the lattice.
+LayerProducer whole_layers(RegionProducer regions, const voxel::Lattice& lattice);
+
+enum class FolderUse {
+  fresh,    // the folder must be empty or missing
+  resume,   // continue the job there, if there is one
+  replace,  // remove the files of the job there; files of others stay
+};
+
+// What does not decide any bytes.
+struct SliceOptions {
+  std::string folder;
+  FolderUse use = FolderUse::fresh;
+  std::optional<LayerRange> layers;       // a part of the job, with the names and bytes it has in the whole
+  int threads = 0;                        // 0: all cores
+  size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one at a time is always allowed
+  bool strict = false;                    // stop at the first slab in which a check fails
+  JobStagesPtr stages = nullptr;          // to be prepared before layers are made; null: there are none
+};
+
+struct CheckReport {
+  std::string text;
+  uint64_t voxels = 0;
+  Vec3 first_mm;  // centre of the lowest voxel concerned, in the design's space
+};
+
+struct SliceReport {
+  LayerRange layers;
+  int64_t layers_written = 0;             // in this run
+  int64_t layers_kept = 0;                // finished by an earlier run
+  int64_t layers_dropped = 0;             // empty, and the printer wants no empty layers
+  uint64_t voxels_inside = 0;             // in `layers`, as are the counts below
+  std::vector<uint64_t> material_voxels;  // in the order of the request's materials
+  std::vector<CheckReport> checks;        // those that failed somewhere
+  uint64_t bytes_written = 0;
+  double seconds = 0;
+  bool whole_job_finished = false;
+  bool stopped_by_check = false;
+};
+
+struct SliceEstimate {
+  double seconds = 0;
+  uint64_t bytes = 0;               // of image files
+  bool is_least = false;            // nothing was done in time: it takes this long at least, and bytes are unknown
+  size_t memory_bytes = 0;          // most that layers in flight can take
+  std::vector<CheckReport> checks;  // that failed in the layers looked at
+};
+
+}  // namespace ombre::compile

@@ -1,0 +1,176 @@
+// How a slice job is cut into slabs, and one layer's way from runs to a file's bytes.
+#include "jobs/slice/slice_work.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/system/assert.h"
+#include "base/system/tasks.h"
+
+namespace ombre::compile {
+namespace {
+
+constexpr int64_t most_slab_layers = 8;  // what stays in the second-level cache at common sizes
+
+// The most bits that a pixel takes in a file, where layers are noise.
+double pixel_bits(const SliceRequest& request) {
+  if (request.format == ImageFormat::mask) return 1;
+  const double information = std::log2(static_cast<double>(request.materials.size() + 1));
+  // Four bytes for each pixel, coded one by one where no match is found.
+  if (request.format == ImageFormat::rgba) return std::min(32.0, 4 * information);
+  return std::min(8.0, information + 0.5);
+}
+
+// What layers take on their way.
+class LayerMemory {
+ public:
+  explicit LayerMemory(const SliceRequest& request) : request_(request) {
+    const auto& count = request.lattice.count;
+    const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
+    const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
+    runs_ = voxels;  // a byte at most
+    images_ = images * voxels * pixel_bits(request) / 8;
+  }
+
+  // Runs go as images come. The image that is being made is copied as it grows, some formats need a copy of its runs.
+  double being_made(int64_t layers) const {
+    const auto evaluation = voxel::working_bytes(request_.lattice, layers, request_.dither, request_.materials.size());
+    return static_cast<double>(layers) * std::max(runs_, images_) + runs_ + images_ + static_cast<double>(evaluation);
+  }
+  double waiting(int64_t layers) const { return static_cast<double>(layers) * images_; }
+
+ private:
+  const SliceRequest& request_;
+  double runs_, images_;
+};
+
+}  // namespace
+
+WorkSize size_work(const SliceRequest& request, const SliceOptions& options) {
+  const size_t threads = static_cast<size_t>(options.threads > 0 ? options.threads : core_count());
+  const LayerMemory memory(request);
+  const auto allowed = static_cast<double>(options.memory_bytes);
+  const auto needed = [&](size_t slabs, int64_t layers) {
+    const size_t made = std::min(slabs, threads);
+    return static_cast<double>(made) * memory.being_made(layers) +
+           static_cast<double>(slabs - made) * memory.waiting(layers);
+  };
+
+  // Twice the threads, so that none waits for the order of the files; then smaller slabs; then fewer threads.
+  size_t window = 2 * threads;
+  int64_t layers = most_slab_layers;
+  while (window > threads && needed(window, layers) > allowed) --window;
+  while (layers > 1 && needed(window, layers) > allowed) --layers;
+  while (window > 1 && needed(window, layers) > allowed) --window;
+
+  WorkSize size;
+  size.slab_layers = layers;
+  size.window = window;
+  size.threads = static_cast<int>(std::min(threads, window));
+  size.memory_bytes = static_cast<size_t>(needed(window, layers));
+  return size;
+}
+
+StageLoan stage_loan(const SliceOptions& options, Progress* progress, const StopFlag* stop) {
+  return {options.threads, options.memory_bytes, progress, stop};
+}
+
+SliceOptions without_stages_memory(const SliceOptions& options) {
+  SliceOptions rest = options;
+  if (rest.stages)
+    rest.memory_bytes -= std::min(rest.memory_bytes, rest.stages->memory_bytes(stage_loan(options, nullptr, nullptr)));
+  return rest;
+}
+
+std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
+                                      int64_t slab_layers) {
+  std::vector<LayerRange> slabs;
+  for (int64_t layer = range.begin; layer < range.end; ++layer) {
+    if (finished.count(layer) > 0) continue;
+    const bool continues = !slabs.empty() && slabs.back().end == layer && layer % slab_layers != 0;
+    if (continues)
+      ++slabs.back().end;
+    else
+      slabs.push_back({layer, layer + 1});
+  }
+  return slabs;
+}
+
+std::vector<LayerRange> spread(const std::vector<LayerRange>& slabs, size_t most) {
+  const size_t count = std::min(most, slabs.size());
+  // Multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
+  constexpr double golden = 0.6180339887498949;
+  std::vector<LayerRange> chosen;
+  std::vector<char> is_chosen(slabs.size());
+  double place = 0.5;
+  while (chosen.size() < count) {
+    const auto n = std::min(slabs.size() - 1, static_cast<size_t>(place * static_cast<double>(slabs.size())));
+    if (!is_chosen[n]) chosen.push_back(slabs[n]);
+    is_chosen[n] = 1;
+    place += golden;
+    place -= std::floor(place);
+  }
+  return chosen;
+}
+
+uint64_t EncodedLayer::bytes() const {
+  uint64_t sum = 0;
+  for (const std::string& image : images) sum += image.size();
+  return sum;
+}
+
+exporting::MaterialStack image_stack(const SliceRequest& request) {
+  exporting::MaterialStack stack{request, {}, request.lattice.pitch[0], request.lattice.pitch[1]};
+  for (const SliceMaterial& material : request.materials) stack.materials.push_back({material.id, material.rgba});
+  return stack;
+}
+
+std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
+                                    const exporting::MaterialStack& stack, LayerRange slab, const StopFlag* stop) {
+  std::vector<voxel::LayerResult> layers = producer(slab.begin, slab.end, stop);
+  ASSERT(static_cast<int64_t>(layers.size()) == slab.end - slab.begin);
+  std::vector<EncodedLayer> encoded;
+  for (size_t i = 0; i < layers.size() && !(stop && stop->requested()); ++i) {
+    // Its runs go when the layer is encoded.
+    const voxel::LayerResult layer = std::move(layers[i]);
+    EncodedLayer result;
+    result.entry.layer = slab.begin + static_cast<int64_t>(i);
+    for (const SliceMaterial& material : request.materials)
+      result.entry.voxels.push_back(layer.material_counts[material.id]);
+    result.entry.checks = layer.checks;
+    result.entry.checks.resize(request.check_texts.size());
+    if (!request.drop_empty_layers || !result.entry.is_empty())
+      result.images = layer.lower_bytes ? std::vector{stack.encode_shades(layer.runs, *layer.lower_bytes)}
+                                        : stack.encode(layer.runs);
+    encoded.push_back(std::move(result));
+  }
+  return encoded;
+}
+
+CheckSums::CheckSums(const SliceRequest& request) : request_(request), sums_(request.check_texts.size()) {}
+
+void CheckSums::add(const std::vector<voxel::CheckHits>& hits) {
+  for (size_t i = 0; i < sums_.size() && i < hits.size(); ++i) {
+    if (hits[i].count == 0) continue;
+    if (sums_[i].count == 0) sums_[i].first = hits[i].first;
+    sums_[i].count += hits[i].count;
+  }
+}
+
+bool CheckSums::any() const {
+  return std::any_of(sums_.begin(), sums_.end(), [](const voxel::CheckHits& sum) { return sum.count > 0; });
+}
+
+std::vector<CheckReport> CheckSums::reports() const {
+  std::vector<CheckReport> reports;
+  for (size_t i = 0; i < sums_.size(); ++i) {
+    if (sums_[i].count == 0) continue;
+    const auto& [x, y, z] = sums_[i].first;
+    const bool has_place = i < request_.check_places.size() && !request_.check_places[i].empty();
+    const std::string text = (has_place ? request_.check_places[i] + ": " : "") + request_.check_texts[i];
+    reports.push_back({text, sums_[i].count, request_.lattice.center(x, y, z)});
+  }
+  return reports;
+}
+
+}  // namespace ombre::compile

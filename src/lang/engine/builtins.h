@@ -1,0 +1,57 @@
+// The functions that every script has.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lang/engine/value.h"
+
+namespace ombre::lang {
+
+// A builtin's argument that is not what it takes.
+struct BadArgument {
+  size_t index;         // of the argument
+  std::string message;  // "abs() needs a number, found a string"
+  Phrase hint;
+};
+
+// Arguments of one call, checked as they are read.
+class BuiltinCall {
+ public:
+  BuiltinCall(const char* name, std::vector<Value> arguments, Meter& m)
+      : meter(m), name_(name), arguments_(std::move(arguments)) {}
+
+  size_t size() const { return arguments_.size(); }
+  bool has(size_t i) const { return i < size() && !arguments_[i].is_undef(); }
+  const Value& operator[](size_t i) const { return arguments_[i]; }
+  const char* name() const { return name_; }
+  double number(size_t i) const;
+  const List& list(size_t i) const;
+  const std::string& text(size_t i) const;
+  const std::vector<Value>& all() const { return arguments_; }
+  [[noreturn]] void expected(size_t i, const std::string& what, const Phrase& hint = {}) const;
+
+  Meter& meter;
+
+ private:
+  const char* name_;
+  std::vector<Value> arguments_;
+};
+
+struct Builtin {
+  const char* name;
+  std::vector<const char*> parameters;
+  size_t required;   // how many of them must be given
+  bool is_variadic;  // any number may follow
+  Value (*call)(const BuiltinCall& call);
+
+  std::string signature() const;  // "pow(base, exponent)"
+};
+
+std::span<const Builtin> math_builtins();
+std::span<const Builtin> list_builtins();
+std::span<const Builtin> text_builtins();
+std::span<const Builtin> point_builtins();
+
+}  // namespace ombre::lang

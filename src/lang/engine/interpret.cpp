@@ -1,0 +1,76 @@
+#include "lang/engine/interpret.h"
+
+#include "lang/engine/interpreter.h"
+
+namespace ombre::lang {
+
+Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const Options& options,
+                         Diagnostics& diagnostics)
+    : program_(program),
+      vocabulary_(vocabulary),
+      options_(options),
+      diagnostics_(diagnostics),
+      meter_(options.limits, options.stop),
+      captured_(options.limits),
+      children_name_(program.names->intern("children")),
+      children_count_name_(program.names->intern("$children")),
+      facets_name_(program.names->intern("$fn")) {
+  for (const auto table : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
+    for (const Builtin& builtin : table) builtins_[program.names->intern(builtin.name)] = &builtin;
+  constants_[program.names->intern("PI")] = 3.14159265358979323846;
+  // What OpenSCAD's own special variables are before anyone sets them.
+  const auto special = [&](const char* name, Value value) {
+    specials_.emplace_back(program.names->intern(name), std::move(value));
+  };
+  special("$fn", 0.0);
+  special("$fa", 12.0);
+  special("$fs", 2.0);
+  special("$t", 0.0);
+  special("$preview", false);
+}
+
+// A name that is to be set, and that the script does not have, is a slip of the pen.
+void Interpreter::report_missing(Severity severity, const std::string& name, const std::string& what,
+                                 const Unit& main) {
+  std::vector<std::string> names;
+  for (const ast::Assign* assignment : main.plan.assignments) names.emplace_back(*assignment->name.symbol);
+  report({severity,
+          {},
+          "the design has no variable \"" + name + "\" " + what,
+          did_you_mean(name, names),
+          Code::unknown_variable,
+          {{"name", name}}});
+}
+
+Interpreter::Nodes Interpreter::run() {
+  Nodes nodes;
+  try {
+    const Unit& main = program_.units.front();
+    for (const Definition& definition : options_.definitions) {
+      if (!program_.names->contains(definition.name))
+        report_missing(Severity::warning, definition.name, "that -D could set", main);
+      overrides_[program_.names->intern(definition.name)] = from_data(definition.value, meter_);
+    }
+    for (const std::string& name : options_.needed)
+      if (!program_.names->contains(name)) report_missing(Severity::error, name, "that could get what is found", main);
+    const ScopePtr& scope = unit_scope(main);
+    try {
+      run_actions(main.plan, scope, nodes);
+    } catch (const Failure&) {  // of an assertion
+    }
+  } catch (const LimitReached& limit) {
+    report({Severity::error, at_.range(), limit.message, limit.hint, Code::limit});
+  }
+  return has_roots_ ? std::move(roots_) : std::move(nodes);
+}
+
+std::vector<Product> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
+                         Diagnostics& diagnostics) {
+  const size_t errors_before = diagnostics.error_count();
+  const Program program = load(source, options, diagnostics);
+  // What could not be read would be missed everywhere else.
+  if (diagnostics.error_count() > errors_before) return {};
+  return Interpreter(program, vocabulary, options, diagnostics).run();
+}
+
+}  // namespace ombre::lang

@@ -1,0 +1,175 @@
+// Statements: scopes, conditions, loops.
+#include "lang/engine/for_each.h"
+#include "lang/engine/interpreter.h"
+#include "lang/engine/parser.h"
+
+namespace ombre::lang {
+
+using ast::Statement;
+
+namespace {
+
+// Statements that only say or check something, and what "%" and "!" take elsewhere, stand for no solid.
+bool makes_solids(const Statement& statement) {
+  if (statement.has('%') || statement.has('!')) return false;
+  if (statement.kind != Statement::Kind::echo && statement.kind != Statement::Kind::assertion) return true;
+  return !static_cast<const ast::CallStatement&>(statement).children.statements.empty();
+}
+
+}  // namespace
+
+Interpreter::Level::Level(Interpreter& interpreter, const ast::Span& at, int weight)
+    : interpreter_(interpreter), weight_(weight) {
+  interpreter.at_ = at;
+  interpreter.meter_.spend();
+  const int limit = interpreter.options_.limits.depth;
+  if (interpreter.depth_ + weight > limit)
+    throw LimitReached{"calls and operators are evaluated inside each other deeper than " +
+                           format_count(static_cast<unsigned>(limit)) + " levels",
+                       "end the recursion, or let the function end with its own call, which takes no depth"};
+  interpreter.depth_ += weight;
+}
+
+void Interpreter::set_special(Symbol name, Value value, size_t from) {
+  for (size_t i = from; i < specials_.size(); ++i) {
+    if (specials_[i].first != name) continue;
+    specials_[i].second = std::move(value);
+    return;
+  }
+  specials_.emplace_back(name, std::move(value));
+}
+
+const Value* Interpreter::find_special(Symbol name) const {
+  for (size_t i = specials_.size(); i > 0; --i)
+    if (specials_[i - 1].first == name) return &specials_[i - 1].second;
+  return nullptr;
+}
+
+void Interpreter::set_variable(const ast::Name& name, Value value, Scope& scope, size_t specials_from) {
+  if (name.is_special())
+    set_special(name.symbol, std::move(value), specials_from);
+  else
+    scope.set(name.symbol, std::move(value));
+}
+
+const ScopePtr& Interpreter::unit_scope(const Unit& unit) {
+  const auto found = unit_scopes_.find(&unit);
+  if (found != unit_scopes_.end()) return found->second;
+  const ScopePtr& scope = unit_scopes_[&unit] = make_scope(ScopePtr(), &unit.plan);
+  scope->set_unit(&unit);
+  const bool is_main = &unit == &program_.units.front();
+  if (is_main)
+    for (const auto& [name, value] : overrides_) set_variable({name, {}}, value, *scope, 0);
+  assign(unit.plan, scope, is_main);
+  return scope;
+}
+
+void Interpreter::assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main) {
+  const size_t specials_from = specials_.size();
+  for (const ast::Assign* assignment : plan.assignments) {
+    if (is_main && overrides_.count(assignment->name.symbol)) continue;
+    Value value = Broken{};
+    try {
+      value = eval(*assignment->value, scope);
+    } catch (const Failure&) {  // what reads it later fails without a word
+    }
+    set_variable(assignment->name, std::move(value), *scope, specials_from);
+  }
+}
+
+void Interpreter::run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends) {
+  if (block.plan.defines_nothing()) return run_actions(block.plan, outer, out, ends);
+  const ScopePtr scope = make_scope(outer, &block.plan);
+  const SpecialsMark mark(*this);
+  assign(block.plan, scope, false);
+  run_actions(block.plan, scope, out, ends);
+}
+
+void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends) {
+  const auto reader = options_.threads > 1 ? ReadAhead::start(plan.actions, *program_.names) : nullptr;
+  const Reading reading(reader_, reader.get());
+  for (size_t n = 0; n < plan.actions.size(); ++n) {
+    if (reader) reader->go_to(n);
+    run_action(*plan.actions[n], scope, out);
+    if (ends && makes_solids(*plan.actions[n])) ends->push_back(out.size());
+  }
+}
+
+// A mistake in a statement does not stop those after it; a failed assertion does, as they rely on it.
+void Interpreter::run_action(const Statement& statement, const ScopePtr& scope, Nodes& out) {
+  try {
+    execute(statement, scope, out);
+  } catch (const Failure&) {
+    ++failures_;
+    if (statement.kind == Statement::Kind::assertion) throw;
+  }
+}
+
+void Interpreter::execute(const Statement& statement, const ScopePtr& scope, Nodes& out) {
+  const Level level(*this, statement.span, heavy);
+  if (statement.modifiers.empty())
+    dispatch(statement, scope, out);
+  else
+    execute_modified(statement, scope, out);
+}
+
+void Interpreter::execute_modified(const Statement& statement, const ScopePtr& scope, Nodes& out) {
+  if (!statement.has('%') && !statement.has('!')) return dispatch(statement, scope, out);
+  Nodes nodes;
+  dispatch(statement, scope, nodes);
+  if (!statement.has('!')) return;
+  has_roots_ = true;
+  roots_.insert(roots_.end(), nodes.begin(), nodes.end());
+}
+
+void Interpreter::dispatch(const Statement& statement, const ScopePtr& scope, Nodes& out) {
+  if (statement.kind == Statement::Kind::condition)
+    return run_condition(static_cast<const ast::Condition&>(statement), scope, out);
+  if (statement.kind == Statement::Kind::deferred)
+    return run_deferred(static_cast<const ast::Deferred&>(statement), scope, out);
+  const auto& named = static_cast<const ast::CallStatement&>(statement);
+  switch (statement.kind) {
+    case Statement::Kind::loop:
+      return run_loop(named, 0, scope, out);
+    case Statement::Kind::let:
+      return run_let(named, scope, out);
+    case Statement::Kind::assertion:
+      assert_true(named.arguments, named.whole, scope);
+      return run_block(named.children, scope, out);
+    case Statement::Kind::echo:
+      echo(named.arguments, scope);
+      return run_block(named.children, scope, out);
+    default:
+      return call(named, scope, out);
+  }
+}
+
+// Nothing that evaluation keeps points into the statement: values that remember literals end with it.
+void Interpreter::run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Nodes& out) {
+  if (const Statement* known = reader_ ? reader_->call(statement) : nullptr) return dispatch(*known, scope, out);
+  const ast::StatementPtr call = read(statement, *program_.names);
+  dispatch(*call, scope, out);
+}
+
+void Interpreter::run_condition(const ast::Condition& statement, const ScopePtr& scope, Nodes& out) {
+  for (const auto& [condition, block] : statement.branches)
+    if (holds(*condition, scope)) return run_block(block, scope, out);
+  run_block(statement.otherwise, scope, out);
+}
+
+// A loop over its variables from `variable` on.
+void Interpreter::run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Nodes& out) {
+  if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
+  const Level level(*this, statement.whole, heavy);
+  for_each_scope(statement.arguments[variable], scope,
+                 [&](const ScopePtr& inner) { run_loop(statement, variable + 1, inner, out); });
+}
+
+void Interpreter::run_let(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out) {
+  const ScopePtr inner = make_scope(scope);
+  const SpecialsMark mark(*this);
+  bind_let(statement.arguments, inner, mark.size());
+  run_block(statement.children, inner, out);
+}
+
+}  // namespace ombre::lang

@@ -1,0 +1,140 @@
+// Builtin functions of lists.
+#include <cmath>
+
+#include "base/text/utf8.h"
+#include "lang/engine/builtins.h"
+
+namespace ombre::lang {
+namespace {
+
+Value len(const BuiltinCall& call) {
+  if (const List* list = call[0].list()) return static_cast<double>(list->items.size());
+  if (!call[0].text()) call.expected(0, "a list or a string");
+  call.meter.spend(call.text(0).size() / 16);
+  return static_cast<double>(count_code_points(call.text(0)));
+}
+
+// Lists are joined, other values added.
+Value concat(const BuiltinCall& call) {
+  ListBuilder result(call.meter);
+  for (const Value& argument : call.all()) {
+    const List* list = argument.list();
+    if (!list) {
+      result.push(argument);
+      continue;
+    }
+    call.meter.spend(list->items.size());
+    for (const Value& item : list->items) result.push(item);
+  }
+  return result.finish();
+}
+
+// Linear between the keys, constant outside of them.
+Value lookup(const BuiltinCall& call) {
+  const double key = call.number(0);
+  const List& table = call.list(1);
+  call.meter.spend(table.items.size());
+  const double *below = nullptr, *above = nullptr;  // the nearest keys
+  double value_below = 0, value_above = 0;
+  for (const Value& row : table.items) {
+    const List* pair = row.list();
+    if (!pair || pair->items.size() < 2 || !pair->items[0].number() || !pair->items[1].number())
+      call.expected(1, "a list of [key, value] pairs", "write lookup(key, [[key, value], [key, value], ...])");
+    const double *at = pair->items[0].number(), *value = pair->items[1].number();
+    if (*at <= key && (!below || *at > *below)) below = at, value_below = *value;
+    if (*at >= key && (!above || *at < *above)) above = at, value_above = *value;
+  }
+  if (!below && !above) return {};
+  if (!below || (above && *above == key)) return value_above;
+  if (!above || *above == *below) return value_below;
+  const double part = (key - *below) / (*above - *below);
+  return value_below * (1 - part) + value_above * part;
+}
+
+// The places in a list, or characters of a string, where something stands.
+class Search {
+ public:
+  explicit Search(const BuiltinCall& call) : call_(call) {
+    most_ = call.has(2) ? call.number(2) : 1;
+    column_ = call.has(3) ? call.number(3) : 0;
+    if (!call[1].list() && !call[1].text()) call.expected(1, "a list or a string to search in");
+    if (const Text* text = call[1].text()) characters_ = characters(text->text);
+  }
+
+  Value run() {
+    ListBuilder result(call_.meter);
+    const Value& wanted = call_[0];
+    if (const Text* text = wanted.text()) {
+      for (const Value& character : characters(text->text)) add(character, false, result);
+    } else if (const List* list = wanted.list()) {
+      for (const Value& value : list->items) add(value, true, result);
+    } else {
+      for (const double place : places(wanted)) result.push(place);
+    }
+    return result.finish();
+  }
+
+ private:
+  // With one place each, the places stand in a row; a listed value that is nowhere leaves [].
+  void add(const Value& wanted, bool is_listed, ListBuilder& result) {
+    const std::vector<double> found = places(wanted);
+    if (most_ == 1 && !found.empty()) return result.push(found.front());
+    if (most_ == 1 && !is_listed) return;
+    ListBuilder all(call_.meter);
+    for (const double place : found) all.push(place);
+    result.push(all.finish());
+  }
+
+  std::vector<double> places(const Value& wanted) const {
+    std::vector<double> found;
+    const auto* list = call_[1].list();
+    const std::vector<Value>& items = list ? list->items : characters_;
+    for (size_t i = 0; i < items.size(); ++i) {
+      call_.meter.spend();
+      if (!matches(items[i], wanted)) continue;
+      found.push_back(static_cast<double>(i));
+      if (most_ > 0 && static_cast<double>(found.size()) >= most_) break;
+    }
+    return found;
+  }
+
+  bool matches(const Value& item, const Value& wanted) const {
+    const List* row = item.list();
+    if (!row) return equal(item, wanted, call_.meter);
+    const bool has_column = column_ >= 0 && column_ < static_cast<double>(row->items.size());
+    return (has_column && equal(row->items[static_cast<size_t>(column_)], wanted, call_.meter)) ||
+           (wanted.list() && equal(item, wanted, call_.meter));
+  }
+
+  std::vector<Value> characters(const std::string& text) const {
+    std::vector<Value> result;
+    for (size_t at = 0; at < text.size();) {
+      call_.meter.spend();
+      if (result.size() >= call_.meter.limits().elements) call_.meter.too_many_elements();
+      const size_t size = std::max<size_t>(1, code_point_size(text, at));
+      result.push_back(make_text(text.substr(at, size), call_.meter));
+      at += size;
+    }
+    return result;
+  }
+
+  const BuiltinCall& call_;
+  double most_, column_;
+  std::vector<Value> characters_;  // of the string to search in, if it is one
+};
+
+Value search(const BuiltinCall& call) { return Search(call).run(); }
+
+}  // namespace
+
+std::span<const Builtin> list_builtins() {
+  static const std::vector<Builtin> table = {
+      {"len", {"value"}, 1, false, len},
+      {"concat", {}, 0, true, concat},
+      {"lookup", {"key", "table"}, 2, false, lookup},
+      {"search", {"match_value", "string_or_vector", "num_returns_per_match", "index_col_num"}, 2, false, search},
+  };
+  return table;
+}
+
+}  // namespace ombre::lang

@@ -1,0 +1,156 @@
+#include "lang/engine/loader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "base/system/named_files.h"
+#include "base/text/text.h"
+#include "lang/engine/parser.h"
+
+namespace ombre::lang {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t largest_file = 256u << 20;
+
+std::optional<std::string> read_real_file(const std::string& path) {
+  std::error_code status;
+  if (!fs::is_regular_file(path, status) || fs::file_size(path, status) > largest_file) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+class Loader {
+ public:
+  Loader(const Options& options, Diagnostics& diagnostics)
+      : limits_(options.limits),
+        read_(options.read_file ? options.read_file : read_real_file),
+        dialect_(options.dialect),
+        libraries_(options.libraries),
+        diagnostics_(diagnostics) {}
+
+  Program run(const SourcePtr& source) {
+    unit(source);
+    return std::move(program_);
+  }
+
+ private:
+  Unit& unit(const SourcePtr& source) {
+    Unit& result = program_.units.emplace_back();
+    result.path = source->name();
+    splice(source, result);
+    if (dialect_ == Dialect::vcad) warn_of_replaced(result.plan, diagnostics_);
+    return result;
+  }
+
+  // Adds a file's statements to the unit, and those of the files that it includes in their places.
+  void splice(const SourcePtr& source, Unit& into) {
+    open_.push_back(normal(source->name()));
+    program_.files.push_back(parse_deferred(source, program_.names, dialect_, diagnostics_));
+    const ast::File& file = program_.files.back();
+    for (const ast::StatementPtr& statement : file.statements) {
+      if (statement->kind == ast::Statement::Kind::include)
+        bring(static_cast<const ast::Include&>(*statement), into);
+      else
+        into.plan.add(*statement);
+    }
+    open_.pop_back();
+  }
+
+  void bring(const ast::Include& include, Unit& into) {
+    if (dialect_ == Dialect::openscad && include.is_use && include.path == "ombre") {
+      into.has_words = true;
+      return;
+    }
+    SourcePtr source = find(include);
+    if (!source) return;
+    const std::string path = normal(source->name());
+    if (include.is_use) {
+      if (const auto known = used_.find(path); known != used_.end()) {
+        into.uses.push_back(known->second);
+        return;
+      }
+    }
+    if (!may_open(include, path)) return;
+    if (!include.is_use) return splice(source, into);
+    const Unit& used = unit(source);
+    used_[path] = &used;
+    into.uses.push_back(&used);
+  }
+
+  bool may_open(const ast::Include& include, const std::string& path) {
+    std::string message, hint;
+    Code code = Code::limit;
+    if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
+      message = '"' + path + "\" includes itself" + way_round(path);
+      hint = "move what both need into a third file";
+      code = Code::script;
+    } else if (open_.size() > static_cast<size_t>(limits_.include_depth)) {
+      message = "files include each other deeper than " + std::to_string(limits_.include_depth) + " levels";
+    } else if (program_.files.size() >= static_cast<size_t>(limits_.files)) {
+      if (was_reported_) return false;
+      was_reported_ = true;
+      message = "this design includes more than " + std::to_string(limits_.files) + " files";
+    } else {
+      return true;
+    }
+    diagnostics_.error(code, include.path_span.range(), message, hint);
+    return false;
+  }
+
+  // ", through a.vcad and b.vcad" of the files between.
+  std::string way_round(const std::string& path) const {
+    std::string names;
+    for (auto at = std::find(open_.begin(), open_.end(), path) + 1; at != open_.end(); ++at)
+      names += (names.empty() ? ", through " : " and ") + *at;
+    return names;
+  }
+
+  // Beside the file that asks first, then beside the one that it links to, then from the working directory.
+  SourcePtr find(const ast::Include& include) {
+    if (include.path.empty()) {
+      diagnostics_.error(Code::syntax, include.span.range(), "there is no path between < and >");
+      return nullptr;
+    }
+    std::vector<std::string> places = places_of(include.path, (*include.span.source)->name());
+    for (const std::string& library : libraries_) places.push_back((fs::path(library) / include.path).generic_string());
+    for (const std::string& path : places)
+      if (auto text = read_(path)) return make_source(path, std::move(*text));
+    if (dialect_ == Dialect::openscad) {
+      const std::string what = include.is_use ? "library" : "include file";
+      diagnostics_.warning({}, "Can't open " + what + " '" + include.path + "'.");
+      return nullptr;
+    }
+    if (places.size() > 1) places.back() += " in the working directory";
+    diagnostics_.error(Code::file_missing, include.path_span.range(), "there is no file \"" + include.path + '"',
+                       "looked for " + join(places, " and "), {{"file", include.path}});
+    return nullptr;
+  }
+
+  static std::string normal(const std::string& path) { return fs::path(path).lexically_normal().generic_string(); }
+
+  const Limits& limits_;
+  std::function<std::optional<std::string>(const std::string&)> read_;
+  Dialect dialect_;
+  const std::vector<std::string>& libraries_;
+  Diagnostics& diagnostics_;
+  Program program_;
+  std::vector<std::string> open_;  // the files being read, outermost first
+  std::map<std::string, const Unit*> used_;
+  bool was_reported_ = false;
+};
+
+}  // namespace
+
+Program load(const SourcePtr& source, const Options& options, Diagnostics& diagnostics) {
+  return Loader(options, diagnostics).run(source);
+}
+
+}  // namespace ombre::lang

@@ -1,0 +1,33 @@
+// Brings a script and the files that it includes and uses together.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/text/diagnostic.h"
+#include "lang/engine/ast.h"
+#include "lang/engine/run_options.h"
+
+namespace ombre::lang {
+
+// A file with what it includes in its place; it is evaluated in one scope.
+struct Unit {
+  std::string path;
+  ast::Plan plan;
+  std::vector<const Unit*> uses;  // files whose functions and modules it may call
+  bool has_words = false;         // it says `use <ombre>` (OpenSCAD scripts)
+};
+
+struct Program {
+  std::shared_ptr<Names> names = std::make_shared<Names>();
+  std::deque<ast::File> files;
+  std::deque<Unit> units;  // the first is the main file
+};
+
+Program load(const SourcePtr& source, const Options& options, Diagnostics& diagnostics);
+
+}  // namespace ombre::lang

@@ -1,0 +1,143 @@
+// The parser's insides, shared by its two halves: statements and expressions.
+#pragma once
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lang/engine/ast.h"
+#include "lang/engine/lexer.h"
+#include "lang/engine/parser.h"
+
+namespace ombre::lang {
+
+// Ends the statement being read; its diagnostic was recorded.
+struct SyntaxError {};
+
+class Parser {
+ public:
+  // Reads from `begin` on; tells of wrong tokens in `lexical`, of everything else in `diagnostics`.
+  Parser(const SourcePtr* source, uint32_t begin, Dialect dialect, Names& names, Diagnostics& lexical,
+         Diagnostics& diagnostics)
+      : source_(source),
+        text_((*source)->text()),
+        dialect_(dialect),
+        names_(names),
+        tokens_(*source, begin, dialect, lexical),
+        diagnostics_(diagnostics) {}
+
+  // Of long lists of statements, keeps where the calls stand and not what they say.
+  void defer_calls() { defers_ = true; }
+  std::vector<ast::StatementPtr> file();
+  ast::StatementPtr statement();
+
+ private:
+  // One level of nesting, for as long as it lives.
+  class Level {
+   public:
+    explicit Level(Parser& parser);
+    ~Level() { --parser_.depth_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+   private:
+    Parser& parser_;
+  };
+
+  // What is read may be evaluated many times, for as long as it lives.
+  class Repeated {
+   public:
+    explicit Repeated(Parser& parser, bool is_repeated = true) : parser_(parser), count_(is_repeated ? 1 : 0) {
+      parser_.repeats_ += count_;
+    }
+    ~Repeated() { parser_.repeats_ -= count_; }
+    Repeated(const Repeated&) = delete;
+    Repeated& operator=(const Repeated&) = delete;
+
+   private:
+    Parser& parser_;
+    int count_;
+  };
+
+  // --- tokens
+  Token token(size_t ahead = 0) { return tokens_.ahead(ahead); }
+  TokenKind kind(size_t ahead = 0) { return token(ahead).kind; }
+  std::string_view text(const Token& token) const { return text_.substr(token.begin, token.end - token.begin); }
+  bool at(TokenKind wanted) { return kind() == wanted; }
+  bool at_word(std::string_view word, size_t ahead = 0);
+  bool is_name(size_t ahead = 0);  // a name that is no reserved word
+  bool accept(TokenKind wanted);
+  void take() {
+    if (kind() != TokenKind::end) tokens_.take();
+  }
+  void expect(TokenKind wanted, const char* what);
+  ast::Span span(const Token& token) const { return {source_, token.begin, token.end}; }
+  ast::Span since(uint32_t begin) const { return {source_, begin, std::max(begin, last_end())}; }
+  uint32_t last_end() const { return tokens_.last_end(); }
+  std::string found();
+  [[noreturn]] void fail(ast::Span where, std::string message, Phrase hint = {});
+  [[noreturn]] void fail_here(const std::string& expected, Phrase hint = {});
+  ast::Name name(const char* what);
+  ast::Name name_at(ast::Span where, std::string_view text);
+
+  // --- statements
+  void statements(std::vector<ast::StatementPtr>& into, bool inside_braces);
+  void resynchronise();
+  void defer(ast::StatementPtr& statement) const;
+  ast::StatementPtr include();
+  ast::StatementPtr group();
+  ast::StatementPtr assignment();
+  ast::StatementPtr function_definition();
+  ast::StatementPtr module_definition();
+  ast::StatementPtr instantiation();
+  ast::StatementPtr condition(ast::Modifiers modifiers);
+  ast::StatementPtr call(ast::Modifiers modifiers);
+  ast::Name call_name();
+  size_t hyphenated_tokens();
+  void block(ast::Block& into, const char* owner);
+  void braces(ast::Block& into);
+  void finish(ast::Block& block);
+  void end_of_statement(const char* after);
+  bool at_last_of_braces() { return dialect_ == Dialect::vcad && at(TokenKind::right_brace); }
+  static ast::Statement::Kind call_kind(std::string_view name);
+
+  // --- expressions
+  ast::ExprPtr expression();
+  ast::ExprPtr conditional();
+  ast::ExprPtr chain(int precedence);
+  ast::ExprPtr links(int precedence, ast::ExprPtr first);
+  ast::ExprPtr unary();
+  ast::ExprPtr power();
+  ast::ExprPtr postfix();
+  ast::ExprPtr primary();
+  ast::ExprPtr parenthesised();
+  ast::ExprPtr bracketed();
+  ast::ExprPtr element();
+  ast::ExprPtr generator();
+  ast::ExprPtr generate_for();
+  ast::ExprPtr function_literal();
+  ast::ExprPtr prefix(ast::PrefixKind which, bool inside_list);
+  ast::ExprPtr number();
+  ast::ExprPtr string();
+  bool at_generator(size_t ahead = 0);
+  bool at_parenthesised_generator();
+  bool at_expression_end();
+  void arguments(std::vector<ast::Argument>& into);  // with both parentheses
+  void arguments_until(TokenKind close, std::vector<ast::Argument>& into);
+  void named_arguments(std::vector<ast::Argument>& into, const char* owner, TokenKind close);
+  void parameters(std::vector<ast::Parameter>& into);
+
+  const SourcePtr* source_;
+  std::string_view text_;
+  Dialect dialect_;
+  Names& names_;
+  Tokens tokens_;
+  Diagnostics& diagnostics_;
+  int depth_ = 0;
+  bool defers_ = false;
+  int repeats_ = 0;  // loops and modules around
+};
+
+}  // namespace ombre::lang

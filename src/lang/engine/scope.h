@@ -1,0 +1,149 @@
+// The variables, functions and modules that are visible at a place.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "lang/engine/value.h"
+
+namespace ombre::lang {
+
+class Scope;
+
+// Counts references without atomics: a script runs on one thread.
+class ScopePtr {
+ public:
+  ScopePtr() = default;
+  explicit ScopePtr(Scope* scope);
+  ScopePtr(const ScopePtr& other);
+  ScopePtr(ScopePtr&& other) noexcept : scope_(std::exchange(other.scope_, nullptr)) {}
+  ScopePtr& operator=(ScopePtr other) noexcept {
+    std::swap(scope_, other.scope_);
+    return *this;
+  }
+  ~ScopePtr();
+
+  Scope* get() const { return scope_; }
+  Scope* operator->() const { return scope_; }
+  Scope& operator*() const { return *scope_; }
+  explicit operator bool() const { return scope_ != nullptr; }
+
+ private:
+  Scope* scope_ = nullptr;
+};
+
+struct Unit;
+
+// What a module was called with to be its children.
+struct Children {
+  const ast::Block* block = nullptr;
+  ScopePtr scope;  // where the call stands
+};
+
+class Scope {
+ public:
+  Scope(ScopePtr parent, const ast::Plan* plan)
+      : parent_(std::move(parent)), plan_(plan), children_(parent_ ? parent_->children_ : nullptr) {}
+
+  const ScopePtr& parent() const { return parent_; }
+  const ast::Plan* plan() const { return plan_; }
+
+  // The variable of this scope alone, or null.
+  const Value* own(Symbol name) const {
+    if (!index_.empty()) {
+      const auto found = index_.find(name);
+      return found == index_.end() ? nullptr : &variables_[found->second].second;
+    }
+    for (const auto& [symbol, value] : variables_)
+      if (symbol == name) return &value;
+    return nullptr;
+  }
+
+  // The variable of the innermost scope that has it, or null.
+  const Value* find(Symbol name) const {
+    for (const Scope* scope = this; scope; scope = scope->parent_.get())
+      if (const Value* value = scope->own(name)) return value;
+    return nullptr;
+  }
+
+  // The same by the name's text. The table of names is left alone, since a thread that reads ahead may add to it.
+  const Value* find_text(std::string_view name) const {
+    for (const Scope* scope = this; scope; scope = scope->parent_.get())
+      for (const auto& [symbol, value] : scope->variables_)
+        if (*symbol == name) return &value;
+    return nullptr;
+  }
+
+  void reserve(size_t count) { variables_.reserve(count); }
+  void set(Symbol name, Value value);
+  // Forgets the variables, for another pass of a loop.
+  void clear() {
+    variables_.clear();
+    index_.clear();
+  }
+  const std::vector<std::pair<Symbol, Value>>& variables() const { return variables_; }
+
+  int use_count() const { return use_count_; }
+  void keep_alive() { is_captured_ = true; }
+  bool is_captured() const { return is_captured_; }
+
+  const Children* children() const { return children_; }
+  void set_children(const Children* children) { children_ = children; }
+  const Unit* unit() const { return unit_; }
+  void set_unit(const Unit* unit) { unit_ = unit; }
+
+ private:
+  friend class ScopePtr;
+  static constexpr size_t index_from = 12;  // variables; fewer are found faster one by one
+
+  ScopePtr parent_;
+  const ast::Plan* plan_;
+  const Children* children_;    // of the module call around; alive while its statements run
+  const Unit* unit_ = nullptr;  // of a file's outermost scope
+  std::vector<std::pair<Symbol, Value>> variables_;
+  std::unordered_map<Symbol, size_t> index_;
+  int use_count_ = 0;
+  bool is_captured_ = false;
+};
+
+inline ScopePtr::ScopePtr(Scope* scope) : scope_(scope) { ++scope_->use_count_; }
+inline ScopePtr::ScopePtr(const ScopePtr& other) : scope_(other.scope_) {
+  if (scope_) ++scope_->use_count_;
+}
+inline ScopePtr::~ScopePtr() {
+  // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Branch): every constructor sets it
+  if (scope_ && --scope_->use_count_ == 0) delete scope_;
+}
+
+inline ScopePtr make_scope(ScopePtr parent, const ast::Plan* plan = nullptr) {
+  return ScopePtr(new Scope(std::move(parent), plan));
+}
+
+// A function as a value: the literal, and the scope it was written in.
+struct Closure {
+  const ast::Function* function;
+  ScopePtr scope;
+};
+
+// Scopes that closures hold on to. Closures and scopes may hold each other, in rings and in long
+// rows; so all of them are owned here too, and emptied one by one.
+class CapturedScopes {
+ public:
+  explicit CapturedScopes(const Limits& limits) : limits_(limits) {}
+  ~CapturedScopes();
+  CapturedScopes(const CapturedScopes&) = delete;
+  CapturedScopes& operator=(const CapturedScopes&) = delete;
+
+  void add(const ScopePtr& scope);
+
+ private:
+  void drop_unused();
+
+  const Limits& limits_;
+  std::vector<ScopePtr> scopes_;
+  size_t next_sweep_ = 1024;
+};
+
+}  // namespace ombre::lang

@@ -1,0 +1,161 @@
+#include "lang/engine/value.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "lang/engine/scope.h"
+
+namespace ombre::lang {
+
+List::List(std::vector<Value> i, const ast::List* o, Meter& m)
+    : items(std::move(i)), origin(o), weight(items.size()), depth(1), meter(m) {
+  for (const Value& item : items) {
+    const List* inner = item.list();
+    if (!inner) continue;
+    weight += inner->weight;
+    depth = std::max(depth, inner->depth + 1);
+  }
+}
+
+Value ListBuilder::finish(const ast::List* origin) {
+  auto list = std::make_shared<const List>(std::move(items_), origin, meter_);
+  items_.clear();  // the elements now count with the list
+  if (list->weight > meter_.limits().elements) meter_.too_many_elements();
+  if (list->depth > meter_.limits().list_depth)
+    throw LimitReached{"lists nest deeper than " + std::to_string(meter_.limits().list_depth) + " levels",
+                       "join lists with concat or each instead of putting them into each other"};
+  return ListPtr(std::move(list));
+}
+
+const Object* first_object(std::span<const Value> values) {
+  const auto found = std::ranges::find_if(values, [](const Value& value) { return value.object() != nullptr; });
+  return found == values.end() ? nullptr : found->object();
+}
+
+bool holds_object(const Value& value) {
+  if (const List* list = value.list()) return std::ranges::any_of(list->items, holds_object);
+  return value.object() != nullptr;
+}
+
+std::string_view hint_for(const Value& found) {
+  return found.object() ? "it is known only while the job runs; write a number here, and give the value to a solid: "
+                          "sphere(5 + t);"
+                        : "";
+}
+
+Value make_text(std::string text, Meter& meter) {
+  return TextPtr(std::make_shared<const Text>(std::move(text), nullptr, meter));
+}
+
+double Range::count() const {
+  const double steps = (end - begin) / step;
+  return steps < 0 ? 0 : std::floor(steps + std::min(steps * 1e-12, 1e-6)) + 1;
+}
+
+bool is_true(const Value& value) {
+  if (value.is_undef()) return false;
+  if (const bool* b = value.boolean()) return *b;
+  if (const double* n = value.number()) return *n != 0;
+  if (const Text* t = value.text()) return !t->text.empty();
+  if (const List* l = value.list()) return !l->items.empty();
+  return true;
+}
+
+namespace {
+
+bool equal_lists(const List& a, const List& b, Meter& meter) {
+  if (&a == &b) return true;
+  if (a.items.size() != b.items.size()) return false;
+  for (size_t i = 0; i < a.items.size(); ++i)
+    if (!equal(a.items[i], b.items[i], meter)) return false;
+  return true;
+}
+
+}  // namespace
+
+bool equal(const Value& a, const Value& b, Meter& meter) {
+  meter.spend();
+  if (a.is_undef() || b.is_undef()) return a.is_undef() && b.is_undef();
+  if (const bool* x = a.boolean()) return b.boolean() && *x == *b.boolean();
+  if (const double* x = a.number()) return b.number() && *x == *b.number();
+  if (const Text* x = a.text()) {
+    if (b.text()) meter.spend(std::min(x->text.size(), b.text()->text.size()) / 16);
+    return b.text() && x->text == b.text()->text;
+  }
+  if (const List* x = a.list()) return b.list() && equal_lists(*x, *b.list(), meter);
+  if (const Range* x = a.range()) {
+    const Range* y = b.range();
+    return y && x->begin == y->begin && x->step == y->step && x->end == y->end;
+  }
+  if (a.object()) return a.object() == b.object();
+  return a.closure() && a.closure() == b.closure();
+}
+
+std::string describe(const Value& value) {
+  if (value.boolean()) return "a boolean";
+  if (value.number()) return "a number";
+  if (value.text()) return "a string";
+  if (const List* list = value.list())
+    return list->items.empty() ? "an empty list" : "a list of " + std::to_string(list->items.size());
+  if (value.range()) return "a range";
+  if (value.closure()) return "a function";
+  if (const Object* object = value.object()) return object->describe();
+  return "undef";
+}
+
+std::string number_text(double number) {
+  if (std::isnan(number)) return "nan";
+  if (std::isinf(number)) return number > 0 ? "inf" : "-inf";
+  if (number == 0) return "0";
+  std::array<char, 40> buffer;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::general, 15).ptr;
+  return {buffer.data(), end};
+}
+
+void append_text(std::string& text, const Value& value, bool quoted, Meter& meter) {
+  meter.spend();
+  meter.check_text(text.size());
+  if (const bool* b = value.boolean()) {
+    text += *b ? "true" : "false";
+  } else if (const double* n = value.number()) {
+    text += number_text(*n);
+  } else if (const Text* t = value.text()) {
+    meter.check_text(text.size() + t->text.size());
+    text += quoted ? '"' + t->text + '"' : t->text;
+  } else if (const List* list = value.list()) {
+    text += '[';
+    for (size_t i = 0; i < list->items.size(); ++i) {
+      if (i > 0) text += ", ";
+      append_text(text, list->items[i], true, meter);
+    }
+    text += ']';
+  } else if (const Range* range = value.range()) {
+    text += '[' + number_text(range->begin) + " : " + number_text(range->step) + " : " + number_text(range->end) + ']';
+  } else if (value.closure()) {
+    text += "function";
+  } else if (const Object* object = value.object()) {
+    text += object->text();
+  } else {
+    text += "undef";
+  }
+}
+
+bool is_number_list(const List& list) {
+  return std::all_of(list.items.begin(), list.items.end(), [](const Value& item) { return item.number() != nullptr; });
+}
+
+Value from_data(const Data& data, Meter& meter) {
+  if (const bool* b = data.boolean()) return *b;
+  if (const double* n = data.number()) return *n;
+  if (const std::string* s = data.string()) return make_text(*s, meter);
+  const DataList* list = data.list();
+  if (!list) return {};
+  ListBuilder builder(meter);
+  for (const Data& item : *list) builder.push(from_data(item, meter));
+  return builder.finish();
+}
+
+}  // namespace ombre::lang

@@ -1,0 +1,156 @@
+// What expressions evaluate to.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/text/data.h"
+#include "lang/engine/ast.h"
+#include "lang/engine/meter.h"
+
+namespace ombre::lang {
+
+struct Text;
+struct List;
+struct Range;
+struct Closure;
+class Object;
+struct Undef {};
+// Of a variable whose assignment failed and was reported: reading it fails silently.
+struct Broken {};
+
+using TextPtr = std::shared_ptr<const Text>;
+using ListPtr = std::shared_ptr<const List>;
+using RangePtr = std::shared_ptr<const Range>;
+using ClosurePtr = std::shared_ptr<const Closure>;
+using ObjectPtr = std::shared_ptr<const Object>;
+
+class Value {
+ public:
+  Value() = default;
+  Value(bool v) : value_(v) {}                   // NOLINT
+  Value(double v) : value_(v) {}                 // NOLINT
+  Value(TextPtr v) : value_(std::move(v)) {}     // NOLINT
+  Value(ListPtr v) : value_(std::move(v)) {}     // NOLINT
+  Value(RangePtr v) : value_(std::move(v)) {}    // NOLINT
+  Value(ClosurePtr v) : value_(std::move(v)) {}  // NOLINT
+  Value(ObjectPtr v) : value_(std::move(v)) {}   // NOLINT
+  Value(Broken v) : value_(v) {}                 // NOLINT
+
+  bool is_undef() const { return std::holds_alternative<Undef>(value_); }
+  bool is_broken() const { return std::holds_alternative<Broken>(value_); }
+  const bool* boolean() const { return std::get_if<bool>(&value_); }
+  const double* number() const { return std::get_if<double>(&value_); }
+  const Text* text() const { return pointee<TextPtr>(); }
+  const List* list() const { return pointee<ListPtr>(); }
+  const Range* range() const { return pointee<RangePtr>(); }
+  const Closure* closure() const { return pointee<ClosurePtr>(); }
+  const Object* object() const { return pointee<ObjectPtr>(); }
+  const ClosurePtr& closure_ptr() const { return std::get<ClosurePtr>(value_); }
+
+ private:
+  template <class Pointer>
+  const typename Pointer::element_type* pointee() const {
+    const Pointer* pointer = std::get_if<Pointer>(&value_);
+    return pointer ? pointer->get() : nullptr;
+  }
+
+  std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, ObjectPtr, Broken> value_;
+};
+
+// Something that only a vocabulary understands, such as a number that varies in space.
+class Object {
+ public:
+  virtual ~Object() = default;
+  virtual std::string describe() const = 0;  // "a value that varies in space"
+  virtual std::string text() const = 0;      // as echo writes it
+  virtual Data data() const = 0;             // as a parameter of a node
+  // Nothing where it has no such part; `names` is then given those that it has.
+  virtual std::optional<Value> part(const std::string& name, std::string& names, Meter& meter) const = 0;
+  // What an operator or a builtin function makes of operands, by its name in scripts ("?:" of a condition and two
+  // others). Nothing where that has no meaning.
+  virtual std::optional<Value> apply(std::string_view function, std::span<const Value> operands,
+                                     Meter& meter) const = 0;
+};
+
+// The first of the values that is an object, or null.
+const Object* first_object(std::span<const Value> values);
+bool holds_object(const Value& value);  // itself, or somewhere in a list
+// What to write in the place of a value that was found where it cannot be used.
+std::string_view hint_for(const Value& found);
+
+struct Text {
+  static constexpr uint64_t overhead = 32;  // counted for each string, so that many short ones are bounded too
+
+  Text(std::string t, const ast::String* o, Meter& m) : text(std::move(t)), origin(o), meter(m) {
+    meter.claim_text(text.size() + overhead);
+  }
+  ~Text() { meter.release_text(text.size() + overhead); }
+  Text(const Text&) = delete;
+  Text& operator=(const Text&) = delete;
+
+  std::string text;
+  const ast::String* origin;  // the literal, if it is one
+  Meter& meter;
+};
+
+struct List {
+  List(std::vector<Value> i, const ast::List* o, Meter& m);  // its elements were claimed from the meter
+  ~List() { meter.release_elements(items.size()); }
+  List(const List&) = delete;
+  List& operator=(const List&) = delete;
+
+  std::vector<Value> items;
+  const ast::List* origin;  // the literal whose elements these are, one by one, if there is one
+  uint64_t weight;          // elements, counted through the nesting; shared ones each time
+  int depth;                // 1 for a list without lists in it
+  Meter& meter;
+};
+
+struct Range {
+  double begin, step, end;
+
+  // Elements; a range whose end lies within rounding of an element has it.
+  double count() const;
+  double at(double index) const { return begin + index * step; }
+};
+
+// Collects a list's elements, within the limits.
+class ListBuilder {
+ public:
+  explicit ListBuilder(Meter& meter) : meter_(meter) {}
+  ~ListBuilder() { meter_.release_elements(items_.size()); }
+  ListBuilder(const ListBuilder&) = delete;
+  ListBuilder& operator=(const ListBuilder&) = delete;
+
+  void reserve(size_t size) { items_.reserve(size); }
+  void push(Value value) {
+    meter_.claim_element();
+    items_.push_back(std::move(value));
+  }
+  Value finish(const ast::List* origin = nullptr);
+
+ private:
+  Meter& meter_;
+  std::vector<Value> items_;
+};
+
+Value make_text(std::string text, Meter& meter);
+
+bool is_true(const Value& value);
+bool equal(const Value& a, const Value& b, Meter& meter);
+// "a number", "a list of 3": for messages.
+std::string describe(const Value& value);
+// As str() and echo() write it. Numbers have up to 15 digits; `quoted` is for strings inside of lists.
+void append_text(std::string& text, const Value& value, bool quoted, Meter& meter);
+std::string number_text(double number);
+
+bool is_number_list(const List& list);
+
+Value from_data(const Data& data, Meter& meter);
+
+}  // namespace ombre::lang

@@ -1,0 +1,194 @@
+#include "lang/openscad/run_script.h"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+
+#include "base/text/error.h"
+#include "lang/engine/lexer.h"
+#include "lang/openscad/overwritten.h"
+#include "lang/openscad/script_evaluator.h"
+#include "lang/openscad/value_text.h"
+
+namespace ombre::lang::openscad {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t stack_bytes = 512u << 20;  // reserved, not used: pages come as the evaluation goes deeper
+
+// Runs `work` on a thread with a deep stack, and passes on what it throws.
+template <class Work>
+void with_deep_stack(const Work& work) {
+  struct Task {
+    const Work& work;
+    std::exception_ptr failure;
+  } task{work, nullptr};
+  const auto body = [](void* data) -> void* {
+    auto& running = *static_cast<Task*>(data);
+    try {
+      running.work();
+    } catch (...) {
+      running.failure = std::current_exception();
+    }
+    return nullptr;
+  };
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, stack_bytes);
+  pthread_t thread;
+  const int status = pthread_create(&thread, &attributes, body, &task);
+  pthread_attr_destroy(&attributes);
+  if (status != 0) throw Error("no thread could be started for a script");
+  pthread_join(thread, nullptr);
+  if (task.failure) std::rethrow_exception(task.failure);
+}
+
+// The script with the definitions of the command line after it, where they count as its last assignments.
+SourcePtr with_definitions(const SourcePtr& source, const std::vector<std::string>& definitions) {
+  if (definitions.empty()) return source;
+  std::string text(source->text());
+  for (const std::string& definition : definitions) text += '\n' + definition + ';';
+  return make_source(source->name(), std::move(text));
+}
+
+bool is_unterminated(const Diagnostic& diagnostic) {
+  return diagnostic.message.starts_with("the string is not closed") ||
+         diagnostic.message.starts_with("the comment is not closed");
+}
+
+// The line of the token that a mistake was found at: what is missing before it is missed there. OpenSCAD ends a script
+// with a line of its own, and an empty one; what is open beyond a statement is missed on the last of them.
+int line_of(const Diagnostic& diagnostic) {
+  const SourceRange& where = diagnostic.where;
+  const std::string_view text = where.source->text();
+  const int last = static_cast<int>(std::ranges::count(text, '\n')) + 3;
+  if (is_unterminated(diagnostic)) return last;
+  Diagnostics ignored;
+  Lexer lexer(where.source, where.begin, Dialect::openscad, ignored);
+  const Token token = lexer.next();
+  if (token.kind == TokenKind::end) return diagnostic.message.starts_with("expected \"}\"") ? last : last - 1;
+  return where.source->place(token.begin).line;
+}
+
+void report_syntax(const Diagnostics& found, const std::string& main, Messages& messages) {
+  for (const Diagnostic& diagnostic : found.list()) {
+    if (diagnostic.severity == Severity::error) continue;
+    messages.add({Message::Kind::warning, diagnostic.message, "", 0});
+  }
+  if (!found.has_errors()) return;
+  for (const Diagnostic& diagnostic : found.list()) {
+    if (diagnostic.severity != Severity::error) continue;
+    messages.details.add(diagnostic);
+    if (!diagnostic.where.source || messages.error_count() > 0) continue;
+    const std::string file = shown_path(diagnostic.where.source->name(), "");
+    const int line = line_of(diagnostic);
+    if (is_unterminated(diagnostic)) {
+      const bool is_string = diagnostic.message.starts_with("the string");
+      messages.add({Message::Kind::error,
+                    std::string("Parser error: Unterminated ") + (is_string ? "string" : "comment"), file, line,
+                    Code::syntax});
+    }
+    messages.add({Message::Kind::error, "Parser error: syntax error", file, line, Code::syntax});
+  }
+  messages.add({Message::Kind::note, "Can't parse file '" + main + "'!\n", "", 0});
+}
+
+lang::Options engine_options(const Options& options) {
+  lang::Options result;
+  result.limits = options.limits;
+  result.stop = options.stop;
+  result.read_file = options.read_file;
+  result.dialect = Dialect::openscad;
+  result.libraries = options.libraries;
+  return result;
+}
+
+// The parsed script, or nothing where its text is wrong.
+std::optional<Program> load_script(const SourcePtr& source, const Options& options, const lang::Options& engine,
+                                   Messages& messages) {
+  Diagnostics found;
+  Program program = load(with_definitions(source, options.definitions), engine, found);
+  for (const Message& message : overwritten(program, static_cast<uint32_t>(source->text().size())))
+    messages.add(message);
+  report_syntax(found, source->name(), messages);
+  if (found.has_errors()) return std::nullopt;
+  return program;
+}
+
+// Whether the script chooses its own view.
+bool sets_view(const Program& program) {
+  const ast::Plan& plan = program.units.front().plan;
+  return std::ranges::any_of(std::array{"$vpr", "$vpt", "$vpd", "$vpf"}, [&](const char* name) {
+    return program.names->contains(name) && plan.assigns(program.names->intern(name));
+  });
+}
+
+void add_imports(const solids::Tree& tree, std::vector<std::string>& files) {
+  if (const auto* file = std::get_if<solids::Import>(&tree.operation)) files.push_back(file->path);
+  if (const auto* file = std::get_if<solids::Surface>(&tree.operation)) files.push_back(file->path);
+  for (const solids::TreePtr& child : tree.children) add_imports(*child, files);
+}
+
+}  // namespace
+
+Limits Options::openscad_limits() {
+  Limits limits;
+  limits.depth = 50'000;
+  limits.list_depth = 2'000;
+  return limits;
+}
+
+Outcome run_with_files(const SourcePtr& source, const Options& options, Messages& messages) {
+  Outcome outcome;
+  with_deep_stack([&] {
+    const lang::Options engine = engine_options(options);
+    const auto program = load_script(source, options, engine, messages);
+    if (!program) return;
+    outcome.tree = Evaluator(*program, options, messages).run();
+    if (outcome.tree && sets_view(*program))
+      messages.add({Message::Kind::warning, "Viewall and autocenter disabled in favor of $vp*", "", 0});
+    for (const ast::File& file : program->files) outcome.files.push_back((*file.source)->name());
+    if (outcome.tree) add_imports(*outcome.tree, outcome.files);
+  });
+  return outcome;
+}
+
+solids::TreePtr run(const SourcePtr& source, const Options& options, Messages& messages) {
+  return run_with_files(source, options, messages).tree;
+}
+
+bool uses_words(const SourcePtr& source, const Options& options) {
+  Diagnostics ignored;
+  const Program program = load(source, engine_options(options), ignored);
+  return std::ranges::any_of(program.units, &Unit::has_words);
+}
+
+std::optional<std::string> syntax_tree(const SourcePtr& source, const Options& options, Messages& messages) {
+  const lang::Options engine = engine_options(options);
+  const auto program = load_script(source, options, engine, messages);
+  if (!program) return std::nullopt;
+  return scope_text(program->units.front().plan);
+}
+
+std::vector<std::string> library_folders() {
+  std::vector<std::string> folders;
+  if (const char* listed = std::getenv("OPENSCADPATH")) {
+    std::string text = listed;
+    for (size_t at = 0; at <= text.size();) {
+      const size_t end = std::min(text.find(':', at), text.size());
+      if (end > at) folders.push_back(text.substr(at, end - at));
+      at = end + 1;
+    }
+  }
+  if (const char* home = std::getenv("HOME"))
+    folders.push_back((fs::path(home) / ".local/share/OpenSCAD/libraries").generic_string());
+  folders.emplace_back("/usr/share/openscad/libraries");
+  return folders;
+}
+
+}  // namespace ombre::lang::openscad

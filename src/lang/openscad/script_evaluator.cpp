@@ -1,0 +1,323 @@
+#include "lang/openscad/script_evaluator.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+
+#include "lang/openscad/value_text.h"
+
+namespace ombre::lang::openscad {
+
+Evaluator::Evaluator(const Program& program, const Options& options, Messages& messages)
+    : program_(program),
+      options_(options),
+      messages_(messages),
+      meter_(options.limits, options.stop),
+      captured_(options.limits) {
+  const auto symbol = [&](std::string_view name) { return program.names->intern(name); };
+  children_name_ = symbol("children"), child_name_ = symbol("child");
+  intersection_for_name_ = symbol("intersection_for"), assign_name_ = symbol("assign");
+  children_count_ = symbol("$children"), parent_modules_ = symbol("$parent_modules");
+  fn_ = symbol("$fn"), fa_ = symbol("$fa"), fs_ = symbol("$fs"), semantics_ = symbol("$semantics");
+  for (const auto& table : {math_functions(), value_functions(), drawing_functions()})
+    for (const NamedFunction& function : table) functions_[symbol(function.name)] = function;
+  module_table_ = operation_modules();
+  for (Module& module : module_table_) module.is_operation = true;
+  for (const auto& table : {shape_modules(), plane_modules(), transform_modules(), file_modules()})
+    module_table_.insert(module_table_.end(), table.begin(), table.end());
+  for (const char* name : {"cube", "sphere", "cylinder", "polyhedron", "square", "circle", "polygon"})
+    std::ranges::find(module_table_, std::string_view(name), &Module::name)->warns_of_children = true;
+  for (const Module& module : module_table_) modules_[symbol(module.name)] = &module;
+  constants_[symbol("PI")] = std::numbers::pi;
+
+  const auto special = [&](std::string_view name, Value value) {
+    specials_.emplace_back(symbol(name), std::move(value));
+  };
+  const auto vector = [&](const std::array<double, 3>& numbers) {
+    ListBuilder list(meter_);
+    for (const double number : numbers) list.push(number);
+    return list.finish();
+  };
+  special("$fn", 0.0);
+  special("$fa", 12.0);
+  special("$fs", 2.0);
+  special("$t", options.time);
+  special("$preview", options.is_preview);
+  special("$vpr", vector(options.view.rotation));
+  special("$vpt", vector(options.view.target));
+  special("$vpd", options.view.distance);
+  special("$vpf", options.view.field);
+}
+
+solids::TreePtr Evaluator::run() {
+  try {
+    check_words();
+    auto result = std::make_shared<solids::Tree>();
+    const ScopePtr& scope = unit_scope(program_.units.front());
+    run_actions(program_.units.front().plan, scope, result->children);
+    if (roots_.empty()) return result;
+    std::vector<solids::TreePtr> roots;
+    find_roots(result, roots);
+    if (roots.size() > 1) warn_of_roots(*roots[1]);
+    return roots.empty() ? result : roots.front();
+  } catch (const Stopped&) {
+  } catch (const LimitReached& limit) {
+    say(Message::Kind::error, limit.message + (limit.hint.empty() ? "" : "; " + limit.hint), at_, Code::limit);
+  }
+  return nullptr;
+}
+
+// In the order of the text's nesting: a parent before its children. The first one counts.
+void Evaluator::find_roots(const solids::TreePtr& tree, std::vector<solids::TreePtr>& found) const {
+  if (std::ranges::find(roots_, tree.get()) != roots_.end()) found.push_back(tree);
+  for (const solids::TreePtr& child : tree->children) find_roots(child, found);
+}
+
+void Evaluator::warn_of_roots(const solids::Tree& second) {
+  const SourceRange& where = second.where;
+  warn("More than one Root Modifier (!)", {where.source ? &where.source : nullptr, where.begin, where.end});
+}
+
+// --- messages
+
+std::string shown_path(const std::string& path, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path file = fs::absolute(path, ignored).lexically_normal();
+  const fs::path from = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
+  const fs::path relative = file.lexically_relative(from);
+  return relative.empty() ? path : relative.generic_string();
+}
+
+std::string folder_of(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
+
+std::pair<std::string, int> Evaluator::place(const ast::Span& where) {
+  if (!where.source) return {};
+  const auto known = shown_files_.find(where.source);
+  const int line = (*where.source)->place(where.begin).line;
+  if (known != shown_files_.end()) return {known->second, line};
+  return {shown_files_[where.source] = shown_path((*where.source)->name(), folder_of(program_.units.front().path)),
+          line};
+}
+
+void Evaluator::say(Message::Kind kind, std::string text, const ast::Span& where, Code code) {
+  auto [file, line] = place(where);
+  messages_.add({kind, std::move(text), std::move(file), line, code});
+  if (kind == Message::Kind::warning && options_.stops_at_warnings) throw Stopped{};
+}
+
+void Evaluator::warn(std::string text, const ast::Span& where) {
+  meter_.spend(10);
+  say(Message::Kind::warning, std::move(text), where);
+}
+
+void Evaluator::warn_all(Problems& problems, const ast::Span& where) {
+  for (std::string& text : problems) {
+    const bool has_place = !text.starts_with("resetting to ");
+    warn(std::move(text), has_place ? where : ast::Span{});
+  }
+}
+
+void Evaluator::stop(std::string text, const ast::Span& where, Code code) {
+  say(Message::Kind::error, std::move(text), where, code);
+  throw Stopped{};
+}
+
+void Evaluator::trace(const std::string& name, const ast::Span& where) {
+  constexpr int most_traced = 12;
+  if (++traced_ > most_traced) return;
+  auto [file, line] = place(where);
+  messages_.add({Message::Kind::trace, "called by '" + name + '\'', std::move(file), line});
+}
+
+// --- special variables
+
+void Evaluator::set_special(Symbol name, Value value, size_t from) {
+  for (size_t i = from; i < specials_.size(); ++i) {
+    if (specials_[i].first != name) continue;
+    specials_[i].second = std::move(value);
+    return;
+  }
+  specials_.emplace_back(name, std::move(value));
+}
+
+const Value* Evaluator::find_special(Symbol name) const {
+  for (size_t i = specials_.size(); i > 0; --i)
+    if (specials_[i - 1].first == name) return &specials_[i - 1].second;
+  return nullptr;
+}
+
+void Evaluator::set_variable(const ast::Name& name, Value value, Scope& scope, size_t specials_from) {
+  if (name.symbol && name.is_special())
+    set_special(name.symbol, std::move(value), specials_from);
+  else if (name.symbol)
+    scope.set(name.symbol, std::move(value));
+}
+
+double Evaluator::special_number(Symbol name) const {
+  const Value* value = find_special(name);
+  return value && value->number() ? *value->number() : 0;
+}
+
+// --- calls of builtin modules
+
+std::shared_ptr<solids::Tree> Evaluator::tree(solids::Operation operation, const ast::Span& where) {
+  meter_.count_instance();
+  auto result = std::make_shared<solids::Tree>();
+  result->operation = std::move(operation);
+  result->where = where.range();
+  if (const Value* semantics = find_special(semantics_)) result->semantics = semantics_of(*semantics, where);
+  return result;
+}
+
+solids::Semantics Evaluator::semantics_of(const Value& value, const ast::Span& where) {
+  const std::string name = value.text() ? value.text()->text : "";
+  if (name == "strict") return solids::Semantics::strict;
+  if (name == "permissive") return solids::Semantics::permissive;
+  if (name != "default" && name != "standard" && !value.is_undef())
+    warn("semantics are \"default\", \"strict\" or \"permissive\", not " + value_text(value, true, meter_), where);
+  return solids::Semantics::standard;
+}
+
+solids::TreePtr Evaluator::run_builtin(const Module& module, const ast::CallStatement& statement,
+                                       const ScopePtr& scope) {
+  ModuleCall call(*this, statement, scope);
+  const SpecialsMark mark(*this);
+  bind_builtin(module, statement.arguments, scope, call, mark.size());
+  at_ = statement.span;
+  if (module.warns_of_children && !statement.children.statements.empty())
+    warn("module " + statement.name.text() + "() does not support child modules", statement.span);
+  return module.make(call);
+}
+
+void Evaluator::bind_builtin(const Module& module, const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
+                             ModuleCall& call, size_t specials_from) {
+  const ast::Span& where = call.statement_.span;
+  size_t position = 0;
+  bool has_too_many = false;
+  const auto give = [&](std::string_view name, Value value) {
+    for (auto& [known, old] : call.values_) {
+      if (known != name) continue;
+      warn("argument " + std::string(name) + " supplied more than once", where);
+      old = std::move(value);
+      return;
+    }
+    call.values_.emplace_back(name, std::move(value));
+  };
+  for (const ast::Argument& argument : arguments) {
+    const Symbol name = argument.name.symbol;
+    if (!name && position >= module.positional.size()) {
+      if (!module.takes_anything && !std::exchange(has_too_many, true))
+        warn("Too many unnamed arguments supplied", where);
+      if (module.takes_anything) (void)eval(*argument.value, scope);
+      continue;
+    }
+    if (!name) {
+      give(module.positional[position++], eval(*argument.value, scope));
+      continue;
+    }
+    Value value = eval(*argument.value, scope);
+    if (name->front() == '$') {
+      set_special(name, std::move(value), specials_from);
+      continue;
+    }
+    if (*name == "semantics" && module.is_operation) {
+      call.semantics_ = semantics_of(value, where);
+      continue;
+    }
+    const auto is_declared = [&](const std::vector<std::string_view>& names) {
+      return std::ranges::find(names, *name) != names.end();
+    };
+    if (!module.takes_anything && !is_declared(module.positional) && !is_declared(module.named))
+      warn("variable " + *name + " not specified as parameter", where);
+    give(*name, std::move(value));
+  }
+}
+
+const Value& ModuleCall::operator[](std::string_view parameter) const {
+  static const Value undef;
+  for (const auto& [name, value] : values_)
+    if (name == parameter) return value;
+  return undef;
+}
+
+bool ModuleCall::has(std::string_view parameter) const { return !(*this)[parameter].is_undef(); }
+
+std::optional<double> ModuleCall::number(std::string_view parameter) const {
+  const double* number = (*this)[parameter].number();
+  return number ? std::optional(*number) : std::nullopt;
+}
+
+bool ModuleCall::flag(std::string_view parameter, bool otherwise) const {
+  const bool* flag = (*this)[parameter].boolean();
+  return flag ? *flag : otherwise;
+}
+
+std::string ModuleCall::text(std::string_view parameter, const std::string& otherwise) const {
+  const Text* text = (*this)[parameter].text();
+  return text ? text->text : otherwise;
+}
+
+std::string ModuleCall::shown(std::string_view parameter) const {
+  return value_text((*this)[parameter], true, evaluator_.meter_);
+}
+
+void ModuleCall::warn(const std::string& text) const { evaluator_.warn(text, statement_.span); }
+void ModuleCall::deprecate(const std::string& text) const {
+  evaluator_.messages_.add({Message::Kind::deprecated, text, "", 0});
+}
+
+void ModuleCall::deprecate_here(const std::string& text) const {
+  evaluator_.say(Message::Kind::deprecated, text, statement_.span);
+}
+void ModuleCall::note(const std::string& text) const { evaluator_.messages_.add({Message::Kind::note, text, "", 0}); }
+
+solids::Fragments ModuleCall::fragments() const {
+  return {evaluator_.special_number(evaluator_.fn_), evaluator_.special_number(evaluator_.fa_),
+          evaluator_.special_number(evaluator_.fs_)};
+}
+
+solids::Fragments ModuleCall::checked_fragments() const {
+  constexpr double least = 0.01;
+  solids::Fragments result = fragments();
+  if (result.size < least) {
+    warn("$fs too small - clamping to 0.010000");
+    result.size = least;
+  }
+  if (result.angle < least) {
+    warn("$fa too small - clamping to 0.010000");
+    result.angle = least;
+  }
+  return result;
+}
+
+std::string path_beside(const ast::Span& where, const std::string& path) {
+  namespace fs = std::filesystem;
+  if (path.empty() || fs::path(path).is_absolute()) return path;
+  const fs::path folder = where.source ? fs::path((*where.source)->name()).parent_path() : fs::path();
+  return (folder / path).lexically_normal().generic_string();
+}
+
+std::string ModuleCall::complete_path(const std::string& path) const { return path_beside(statement_.span, path); }
+
+const Trees& ModuleCall::children() {
+  if (!children_) {
+    children_.emplace();
+    evaluator_.run_block(statement_.children, scope_, *children_);
+  }
+  return *children_;
+}
+
+std::shared_ptr<solids::Tree> ModuleCall::node(solids::Operation operation) const {
+  auto result = evaluator_.tree(std::move(operation), statement_.span);
+  if (semantics_) result->semantics = *semantics_;
+  return result;
+}
+
+solids::TreePtr ModuleCall::with_children(solids::Operation operation) {
+  auto result = node(std::move(operation));
+  result->children = children();
+  return result;
+}
+
+}  // namespace ombre::lang::openscad

@@ -1,0 +1,49 @@
+// The builtin functions of OpenSCAD.
+#pragma once
+
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lang/engine/ast.h"
+#include "lang/openscad/script_operators.h"
+
+namespace ombre::lang::openscad {
+
+// One call. Of most functions arguments count by their order, whatever their names.
+struct FunctionCall {
+  std::string_view name;
+  std::vector<Value> arguments;
+  Meter& meter;
+  Problems& problems;
+  const std::vector<std::string>& modules;  // names of the modules being evaluated, outermost first
+  std::mt19937& random;                     // for rands() without a seed
+  const ast::Call& written;
+
+  size_t size() const { return arguments.size(); }
+  const Value& operator[](size_t i) const { return arguments[i]; }
+  // Undef, with a warning.
+  Value fail(std::string text) const {
+    problems.push_back(std::move(text));
+    return {};
+  }
+  Value wrong_count() const { return fail(std::string(name) + "() number of parameters does not match"); }
+  Value wrong_type() const { return fail(std::string(name) + "() parameter could not be converted"); }
+};
+
+using Function = Value (*)(const FunctionCall& call);
+
+// A path that a script gives, from the folder of the file where it stands.
+std::string path_beside(const ast::Span& where, const std::string& path);
+
+struct NamedFunction {
+  const char* name;
+  Function call;
+};
+
+std::vector<NamedFunction> math_functions();
+std::vector<NamedFunction> value_functions();
+std::vector<NamedFunction> drawing_functions();
+
+}  // namespace ombre::lang::openscad

@@ -1,0 +1,275 @@
+#include "lang/openscad/script_operators.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "base/math/math.h"
+#include "lang/openscad/value_text.h"
+
+namespace ombre::lang::openscad {
+namespace {
+
+using ast::Operator;
+
+class Computation {
+ public:
+  Computation(Meter& meter, Problems& problems) : meter_(meter), problems_(problems) {}
+
+  Value binary(Operator op, const Value& left, const Value& right) {
+    meter_.spend();
+    switch (op) {
+      case Operator::equal:
+        return equal(left, right, meter_);
+      case Operator::not_equal:
+        return !equal(left, right, meter_);
+      case Operator::less:
+      case Operator::less_equal:
+      case Operator::greater:
+      case Operator::greater_equal:
+        return comparison(op, left, right);
+      case Operator::multiply:
+        return product(left, right);
+      default:
+        return arithmetic(op, left, right);
+    }
+  }
+
+  Value unary(Operator op, const Value& operand) {
+    meter_.spend();
+    if (op == Operator::logical_not) return !truth(operand);
+    if (op == Operator::plus) return operand;
+    if (const double* n = operand.number()) return op == Operator::negate ? -*n : static_cast<double>(~to_integer(*n));
+    if (const List* list = operand.list(); list && op == Operator::negate)
+      return of_each(*list, [&](const Value& item) { return unary(op, item); });
+    problems_.push_back(std::string("undefined operation (") + ast::spelling(op) + type_name(operand) + ')');
+    return {};
+  }
+
+ private:
+  Value undefined(Operator op, const Value& left, const Value& right) {
+    return fail(std::string("undefined operation (") + type_name(left) + ' ' + ast::spelling(op) + ' ' +
+                type_name(right) + ')');
+  }
+  Value fail(std::string text) {
+    problems_.push_back(std::move(text));
+    return {};
+  }
+
+  // Elements without a meaning become undef without a word.
+  template <class F>
+  Value of_each(const List& list, const F& f) {
+    ListBuilder result(meter_);
+    result.reserve(list.items.size());
+    const size_t reported = problems_.size();
+    for (const Value& item : list.items) {
+      result.push(f(item));
+      problems_.resize(reported);
+    }
+    return result.finish();
+  }
+
+  static int64_t to_integer(double n) {
+    constexpr double most = 0x1p63;
+    return n >= most ? INT64_MAX : n < -most ? INT64_MIN : std::isnan(n) ? 0 : static_cast<int64_t>(n);
+  }
+
+  static Value bits(Operator op, double left, double right) {
+    const int64_t a = to_integer(left), b = to_integer(right);
+    if (op == Operator::bit_or) return static_cast<double>(a | b);
+    if (op == Operator::bit_and) return static_cast<double>(a & b);
+    constexpr int64_t width = 64;
+    if (b < 0 || b >= width) return b < 0 ? Value() : Value(op == Operator::shift_right && a < 0 ? -1.0 : 0.0);
+    if (op == Operator::shift_right) return static_cast<double>(a >> b);
+    return static_cast<double>(static_cast<int64_t>(static_cast<uint64_t>(a) << b));
+  }
+
+  static Value of_numbers(Operator op, double a, double b) {
+    switch (op) {
+      case Operator::add:
+        return a + b;
+      case Operator::subtract:
+        return a - b;
+      case Operator::divide:
+        return a / b;
+      case Operator::modulo:
+        return std::fmod(a, b);
+      case Operator::power:
+        return math::pow(a, b);
+      default:
+        return bits(op, a, b);
+    }
+  }
+
+  Value arithmetic(Operator op, const Value& left, const Value& right) {
+    if (left.number() && right.number()) return of_numbers(op, *left.number(), *right.number());
+    const List *a = left.list(), *b = right.list();
+    if ((op == Operator::add || op == Operator::subtract) && a && b) return zip(op, *a, *b);
+    if (op == Operator::divide && a && right.number())
+      return of_each(*a, [&](const Value& item) { return binary(op, item, right); });
+    if (op == Operator::divide && left.number() && b)
+      return of_each(*b, [&](const Value& item) { return binary(op, left, item); });
+    return undefined(op, left, right);
+  }
+
+  Value zip(Operator op, const List& a, const List& b) {
+    ListBuilder result(meter_);
+    const size_t size = std::min(a.items.size(), b.items.size());
+    result.reserve(size);
+    const size_t reported = problems_.size();
+    for (size_t i = 0; i < size; ++i) {
+      result.push(binary(op, a.items[i], b.items[i]));
+      problems_.resize(reported);
+    }
+    return result.finish();
+  }
+
+  Value product(const Value& left, const Value& right) {
+    if (left.number() && right.number()) return *left.number() * *right.number();
+    const List *a = left.list(), *b = right.list();
+    if (left.number() && b) return of_each(*b, [&](const Value& item) { return product(left, item); });
+    if (a && right.number()) return of_each(*a, [&](const Value& item) { return product(item, right); });
+    if (!a || !b) return undefined(Operator::multiply, left, right);
+    return of_lists(*a, *b);
+  }
+
+  Value of_lists(const List& a, const List& b) {
+    if (a.items.empty() || b.items.empty()) return fail("Multiplication is undefined on empty vectors");
+    const Value &first = a.items.front(), &other = b.items.front();
+    if (first.number() && other.number()) return vector_by_vector(a, b);
+    if (first.list() && other.number()) return matrix_by_vector(a, b);
+    if (first.number() && other.list()) return vector_by_matrix(a, b);
+    if (first.list() && other.list()) return matrix_by_matrix(a, b);
+    return fail(std::string("undefined vector*vector multiplication where first elements are types ") +
+                type_name(first) + " and " + type_name(other));
+  }
+
+  static std::string sizes(size_t a, size_t b) { return " (" + std::to_string(a) + " != " + std::to_string(b) + ")"; }
+
+  Value vector_by_vector(const List& a, const List& b) {
+    if (a.items.size() != b.items.size())
+      return fail("vector*vector requires matching lengths" + sizes(a.items.size(), b.items.size()));
+    double sum = 0;
+    for (size_t i = 0; i < a.items.size(); ++i) {
+      meter_.spend();
+      const double *x = a.items[i].number(), *y = b.items[i].number();
+      if (!x || !y) return undefined(Operator::multiply, a.items[i], b.items[i]);
+      sum += *x * *y;
+    }
+    return sum;
+  }
+
+  Value matrix_by_vector(const List& a, const List& b) {
+    const size_t columns = a.items.front().list()->items.size();
+    if (columns != b.items.size())
+      return fail("matrix*vector requires matrix column count to match vector length" + sizes(columns, b.items.size()));
+    ListBuilder result(meter_);
+    for (size_t row = 0; row < a.items.size(); ++row) {
+      const List* line = a.items[row].list();
+      if (!line || line->items.size() != columns)
+        return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
+      Value sum = vector_by_vector(*line, b);
+      if (!sum.number()) return {};
+      result.push(std::move(sum));
+    }
+    return result.finish();
+  }
+
+  Value vector_by_matrix(const List& a, const List& b) {
+    if (a.items.size() != b.items.size())
+      return fail("vector*matrix requires vector length to match matrix row count" +
+                  sizes(a.items.size(), b.items.size()));
+    const size_t columns = b.items.front().list()->items.size();
+    ListBuilder result(meter_);
+    for (size_t column = 0; column < columns; ++column) {
+      double sum = 0;
+      for (size_t row = 0; row < b.items.size(); ++row) {
+        meter_.spend();
+        const List* line = b.items[row].list();
+        if (!line || line->items.size() != columns)
+          return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
+        const double *x = a.items[row].number(), *y = line->items[column].number();
+        if (!x || !y) return undefined(Operator::multiply, a.items[row], line->items[column]);
+        sum += *x * *y;
+      }
+      result.push(sum);
+    }
+    return result.finish();
+  }
+
+  Value matrix_by_matrix(const List& a, const List& b) {
+    const size_t columns = a.items.front().list()->items.size();
+    if (columns != b.items.size())
+      return fail("matrix*matrix requires left operand column count to match right operand row count" +
+                  sizes(columns, b.items.size()));
+    ListBuilder result(meter_);
+    for (size_t row = 0; row < a.items.size(); ++row) {
+      const List* line = a.items[row].list();
+      if (!line || line->items.size() != columns)
+        return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
+      Value product = vector_by_matrix(*line, b);
+      if (!product.list()) return {};
+      result.push(std::move(product));
+    }
+    return result.finish();
+  }
+
+  template <class T>
+  static bool ordered(Operator op, const T& a, const T& b) {
+    if (op == Operator::less) return a < b;
+    if (op == Operator::less_equal) return a <= b;
+    if (op == Operator::greater) return a > b;
+    return a >= b;
+  }
+
+  Value comparison(Operator op, const Value& left, const Value& right) {
+    if (left.number() && right.number()) return ordered(op, *left.number(), *right.number());
+    if (left.text() && right.text()) return ordered(op, left.text()->text, right.text()->text);
+    if (left.boolean() && right.boolean()) return ordered<int>(op, *left.boolean(), *right.boolean());
+    if (left.list() && right.list()) return of_vectors(op, *left.list(), *right.list());
+    if (const Range* a = left.range(), *b = right.range(); a && b) {
+      const std::array<double, 3> x{a->begin, a->step, a->end}, y{b->begin, b->step, b->end};
+      return ordered(op, x, y);
+    }
+    if (left.is_undef() && right.is_undef())
+      return fail(std::string("operation undefined (undefined ") + ast::spelling(op) + " undefined)");
+    return undefined(op, left, right);
+  }
+
+  // As words are ordered: by the first elements that differ, else the shorter one first.
+  Value of_vectors(Operator op, const List& a, const List& b) {
+    const size_t size = std::min(a.items.size(), b.items.size());
+    for (size_t i = 0; i < size; ++i) {
+      for (const bool is_swapped : {false, true}) {
+        const Value &x = is_swapped ? b.items[i] : a.items[i], &y = is_swapped ? a.items[i] : b.items[i];
+        const Value is_less = binary(Operator::less, x, y);
+        if (is_less.is_undef()) {
+          problems_.back() += "\n\tin vector comparison at index " + std::to_string(i);
+          return {};
+        }
+        if (!truth(is_less)) continue;
+        const bool is_first = !is_swapped, is_less_wanted = op == Operator::less || op == Operator::less_equal;
+        return is_first == is_less_wanted;
+      }
+    }
+    return ordered(op, a.items.size(), b.items.size());
+  }
+
+  Meter& meter_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+Value binary(Operator op, const Value& left, const Value& right, Meter& meter, Problems& problems) {
+  return Computation(meter, problems).binary(op, left, right);
+}
+
+Value unary(Operator op, const Value& operand, Meter& meter, Problems& problems) {
+  return Computation(meter, problems).unary(op, operand);
+}
+
+bool truth(const Value& value) { return is_true(value); }
+
+}  // namespace ombre::lang::openscad

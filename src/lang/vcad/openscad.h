@@ -1,0 +1,21 @@
+// What users of OpenSCAD write first and .vcad spells otherwise: what to write here.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "design/registry.h"
+#include "lang/engine/vocabulary.h"
+
+namespace ombre::lang {
+
+// For a module of OpenSCAD that is no node; empty for other names.
+std::string openscad_module_hint(std::string_view name);
+
+// For a parameter of OpenSCAD that the node does not have; empty for others.
+std::string openscad_argument_hint(const design::NodeType& type, std::string_view name);
+
+// cube([30, 20, 10])
+bool is_block_of_openscad(std::string_view node, std::string_view parameter, const Data& value);
+
+}  // namespace ombre::lang

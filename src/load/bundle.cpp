@@ -1,0 +1,236 @@
+#include "load/bundle.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "base/system/temporary_folder.h"
+#include "base/text/error.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "export/output_file.h"
+#include "formats/containers/file.h"
+#include "formats/containers/zip_archive.h"
+#include "load/data_folder.h"
+#include "load/files_read.h"
+#include "load/load.h"
+
+namespace ombre::compile {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* note_name = "bundle.json";
+constexpr uint64_t any_ratio = 1100;  // deflate packs at most 1032 to 1; how much a bundle holds is bounded by itself
+
+bool is_within(const fs::path& file, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+fs::path common_folder(const fs::path& a, const fs::path& b) {
+  fs::path common;
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end() && *i == *j; ++i, ++j) common /= *i;
+  return common;
+}
+
+// The materials that every Ombre has.
+bool is_of_ombre(const fs::path& file) {
+  return is_within(file, fs::weakly_canonical(fs::path(data_folder()) / "materials"));
+}
+
+bool is_of_system(const fs::path& file) { return is_within(file, "/usr") || is_of_ombre(file); }
+
+// A path in the bundle that leads nowhere else, on any system.
+bool is_sound(const std::string& name) {
+  constexpr size_t longest = 1000;
+  if (name.empty() || name.size() > longest || name.front() == '/') return false;
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\\' || c == ':') return false;
+  return std::ranges::none_of(split(name, '/'),
+                              [](const std::string& part) { return part.empty() || part == "." || part == ".."; });
+}
+
+std::string note_of(const std::string& design, const std::string& materials) {
+  DataMembers members{{"ombre_bundle", 1.0}, {"design", design}};
+  if (!materials.empty()) members.emplace_back("materials", materials);
+  return print_json(Data(std::move(members))) + "\n";
+}
+
+class Packer {
+ public:
+  Packer(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics)
+      : design_(whole_path(path)), options_(options), diagnostics_(diagnostics) {
+    if (!options.materials.empty()) materials_ = whole_path(options.materials);
+  }
+
+  std::optional<BundleContents> pack(const std::string& output) {
+    const auto files = files_read(design_.string(), options_, diagnostics_);
+    if (!files) return std::nullopt;
+    choose(*files);
+    std::vector<formats::ZipEntry> entries;
+    for (const fs::path& file : chosen_) {
+      if (!is_sound(name_of(file))) return refuse(file.string() + " has a name that not every system allows");
+      add(name_of(file), formats::read_file(file.string()), entries);
+    }
+    add(note_name, note_of(name_of(design_), materials_.empty() ? "" : name_of(materials_)), entries);
+    exporting::PendingFile pending(output);
+    try {
+      formats::write_zip(pending.part(), entries);
+    } catch (const std::system_error& error) {
+      throw exporting::write_error(output, error.code().value());
+    }
+    if (!opens_by_itself(pending.part())) return std::nullopt;
+    pending.commit();
+    return contents_;
+  }
+
+ private:
+  void choose(const std::set<fs::path>& files) {
+    root_ = design_.parent_path();
+    for (const fs::path& file : files) {
+      if (is_of_system(file) && !is_within(file, design_.parent_path())) {
+        if (!is_of_ombre(file)) contents_.left_outside.push_back(file.string());
+        continue;
+      }
+      root_ = common_folder(root_, file.parent_path());
+      chosen_.insert(file);
+    }
+    chosen_.insert(design_);
+    contents_.design = name_of(design_);
+    for (const fs::path& file : chosen_) contents_.files.push_back(name_of(file));
+  }
+
+  std::string name_of(const fs::path& file) const { return file.lexically_relative(root_).generic_string(); }
+
+  static void add(const std::string& name, std::string bytes, std::vector<formats::ZipEntry>& entries) {
+    formats::LazyBytes lazy;
+    lazy.add(std::move(bytes));
+    entries.push_back({name, std::move(lazy)});
+  }
+
+  std::nullopt_t refuse(const std::string& problem, const Phrase& hint = {}) {
+    diagnostics_.error(Code::file_content, {make_source(design_.string(), ""), 0, 0}, problem, hint,
+                       {{"file", design_.string()}});
+    return std::nullopt;
+  }
+
+  // The bundle reads its own files and no others.
+  bool opens_by_itself(const std::string& bundle) {
+    const TemporaryFolder folder;
+    const auto unpacked = unpack_bundle(bundle, formats::read_file(bundle), folder.path() / "bundle", diagnostics_);
+    if (!unpacked) return false;
+    LoadOptions options = options_;
+    options.materials = unpacked->materials.string();
+    options.echo = nullptr;
+    const fs::path own = fs::canonical(folder.path());
+    Diagnostics found;
+    const auto files = files_read(unpacked->design.string(), options, found);
+    if (!files) {
+      diagnostics_.add_all(found);
+      refuse("the design does not find its files in the bundle",
+             "write their names relative to the script, as in mesh(\"models/part.stl\")");
+      return false;
+    }
+    for (const fs::path& file : *files) {
+      if (is_within(file, own) || is_of_system(file)) continue;
+      refuse("the design reads " + file.string() + ", which it would not find in a bundle",
+             "name it relative to the script, as in mesh(\"models/part.stl\")");
+      return false;
+    }
+    return true;
+  }
+
+  fs::path design_, materials_, root_;
+  LoadOptions options_;
+  Diagnostics& diagnostics_;
+  std::set<fs::path> chosen_;
+  BundleContents contents_;
+};
+
+// The paths that a note names; nothing, and a diagnostic, where it is none.
+std::optional<UnpackedBundle> read_note(const std::string& name, const std::string& text, const fs::path& folder,
+                                        Diagnostics& diagnostics) {
+  const auto wrong = [&](const std::string& problem) {
+    diagnostics.error(Code::file_content, {make_source(name, ""), 0, 0}, problem,
+                      "ombre bundle part.vcad -o part.ombre makes a bundle", {{"file", name}});
+    return std::nullopt;
+  };
+  const auto note = parse_json(make_source(name + "/" + note_name, text), diagnostics);
+  if (!note) return std::nullopt;
+  const auto path_of = [&](const char* member) {
+    const Data* found = note->find(member);
+    return found && found->string() ? *found->string() : std::string();
+  };
+  const std::string design = path_of("design"), materials = path_of("materials");
+  if (!is_sound(design)) return wrong("its " + std::string(note_name) + " names no design");
+  if (!materials.empty() && !is_sound(materials)) return wrong("its materials have a name that leads out of it");
+  UnpackedBundle unpacked{folder / design, materials.empty() ? fs::path() : folder / materials};
+  for (const fs::path& file : {unpacked.design, unpacked.materials})
+    if (!file.empty() && !fs::is_regular_file(file)) return wrong("it lacks its file " + file.filename().string());
+  return unpacked;
+}
+
+void unpack_all(formats::ZipReader& archive, const fs::path& folder,
+                const std::function<void(const std::string&)>& wrong) {
+  for (const std::string& entry : archive.names()) {
+    if (entry.ends_with('/') && is_sound(entry.substr(0, entry.size() - 1))) continue;
+    if (!is_sound(entry)) wrong("it has a file whose name leads out of it, or that not every system allows: " + entry);
+    if (archive.is_link(entry)) wrong("its file " + entry + " is a link, which could lead out of it");
+    const fs::path file = folder / entry;
+    if (fs::exists(file)) wrong("it has two files called " + entry);
+    fs::create_directories(file.parent_path());
+    exporting::write_file(file.string(), archive.read(entry));
+  }
+}
+
+}  // namespace
+
+bool is_bundle(const std::string& path) { return to_lower(path).ends_with(bundle_ending); }
+
+std::optional<BundleContents> write_bundle(const std::string& path, const std::string& output,
+                                           const LoadOptions& options, Diagnostics& diagnostics) {
+  return Packer(path, options, diagnostics).pack(output);
+}
+
+std::optional<UnpackedBundle> unpack_bundle(const std::string& name, std::string_view bytes, const fs::path& folder,
+                                            Diagnostics& diagnostics) {
+  const auto wrong = [&](const std::string& problem) {
+    diagnostics.error(Code::file_content, {make_source(name, ""), 0, 0}, problem, {}, {{"file", name}});
+    throw DesignError();
+  };
+  try {
+    if (!formats::is_zip(bytes)) wrong("this is no bundle: expected a zip archive, as ombre bundle makes it");
+    formats::ZipReader archive(name, bytes, diagnostics, any_ratio);
+    if (!archive.has(note_name)) wrong("this zip archive is no bundle: it has no " + std::string(note_name));
+    fs::create_directories(folder);
+    unpack_all(archive, folder, wrong);
+    return read_note(name, formats::read_file((folder / note_name).string()), folder, diagnostics);
+  } catch (const DesignError&) {
+    return std::nullopt;
+  } catch (const fs::filesystem_error& error) {
+    throw exporting::write_error(folder.string(), error.code().value());
+  }
+}
+
+std::optional<UnpackedBundle> find_unpacked(const fs::path& folder) {
+  Diagnostics ignored;
+  if (!fs::is_regular_file(folder / note_name)) return std::nullopt;
+  return read_note(folder.string(), formats::read_file((folder / note_name).string()), folder, ignored);
+}
+
+LoadedPtr load_bundle(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  const auto folder = std::make_shared<const TemporaryFolder>();
+  // Messages show the name of the bundle in the paths of its files.
+  const fs::path inside = folder->path() / fs::path(path).filename();
+  const auto unpacked = unpack_bundle(path, formats::read_file(path), inside, diagnostics);
+  if (!unpacked) return nullptr;
+  LoadOptions own = options;
+  if (own.materials.empty()) own.materials = unpacked->materials.string();
+  LoadedPtr loaded = load_design(unpacked->design.string(), own, diagnostics);
+  if (!loaded) return nullptr;
+  const auto kept = std::make_shared<std::pair<std::shared_ptr<const TemporaryFolder>, LoadedPtr>>(folder, loaded);
+  return {kept, kept->second.get()};
+}
+
+}  // namespace ombre::compile

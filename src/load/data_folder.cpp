@@ -1,0 +1,37 @@
+// Where the printer profiles and materials that come with Ombre lie.
+#include "load/data_folder.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/system/own_folders.h"
+#include "base/text/error.h"
+
+namespace ombre::compile {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds_data(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder / "printers", ignored) && fs::is_directory(folder / "materials", ignored);
+}
+
+}  // namespace
+
+std::string data_folder() {
+  if (const char* given = std::getenv("OMBRE_DATA"); given && *given) {  // NOLINT(concurrency-mt-unsafe)
+    if (holds_data(given)) return given;
+    throw Error(
+        Code::file_missing,
+        std::string("OMBRE_DATA names ") + given + ", which has no folders printers and materials; correct or unset it",
+        {{"file", given}});
+  }
+  for (const fs::path& folder : own_folders())
+    for (const fs::path& data : {folder / "share/ombre", folder})
+      if (holds_data(data)) return data;
+  throw Error(Code::file_missing,
+              "cannot find Ombre's printers and materials; set OMBRE_DATA to the folder that holds them");
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,22 @@
+#include "load/files_read.h"
+
+#include "load/load.h"
+
+namespace ombre::compile {
+
+namespace fs = std::filesystem;
+
+fs::path whole_path(const fs::path& file) { return fs::canonical(fs::absolute(file).parent_path()) / file.filename(); }
+
+std::optional<std::set<fs::path>> files_read(const std::string& path, const LoadOptions& options,
+                                             Diagnostics& diagnostics) {
+  sources::SourceCache cache;
+  LoadOptions own = options;
+  own.cache = &cache;
+  if (!load_design(path, own, diagnostics)) return std::nullopt;
+  std::set<fs::path> files;
+  for (const std::string& file : cache.files().paths()) files.insert(whole_path(file));
+  return files;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,33 @@
+// A design in memory, and how it is asked for.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/system/progress.h"
+#include "design/design.h"
+#include "sources/source_cache.h"
+
+namespace ombre::compile {
+
+struct LoadOptions {
+  std::string materials;                                   // path of a materials file; empty: the default set
+  std::vector<std::string> definitions;                    // "name=value", set before the script runs
+  std::vector<std::string> needed = {};                    // variables that a script must have
+  std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
+  const StopFlag* stop = nullptr;
+  int threads = 0;                        // 0: all cores
+  sources::SourceCache* cache = nullptr;  // of the running program; null: one that lasts as long as the call
+};
+
+// A design that was read and checked.
+struct Loaded {
+  std::string path;
+  SourcePtr source;
+  design::Design design;
+};
+using LoadedPtr = std::shared_ptr<const Loaded>;
+
+}  // namespace ombre::compile

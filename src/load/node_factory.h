@@ -1,0 +1,35 @@
+// Nodes made one by one by a program, as the calls of a .vcad file make them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "design/design.h"
+#include "load/design_sources.h"
+
+namespace ombre::compile {
+
+// Thread-safe, but for what the materials' owner does.
+class NodeFactory {
+ public:
+  NodeFactory(design::MaterialTable materials, std::shared_ptr<sources::SourceCache> cache)
+      : materials_(std::move(materials)), cache_(std::move(cache)), loader_(*cache_) {}
+
+  const design::MaterialTable& materials() const { return materials_; }
+
+  // An argument has a name, or an empty one when it is given by position. Null, and diagnostics, when the call is
+  // wrong. Throws Error for files that cannot be read.
+  using Arguments = std::vector<std::pair<std::string, Data>>;
+  design::NodePtr make(std::string_view type, Arguments arguments, std::vector<design::NodePtr> inputs,
+                       const SourceRange& where, Diagnostics& diagnostics);
+
+ private:
+  design::MaterialTable materials_;
+  std::shared_ptr<sources::SourceCache> cache_;
+  DesignSources loader_;
+};
+
+}  // namespace ombre::compile

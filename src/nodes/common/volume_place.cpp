@@ -1,0 +1,83 @@
+#include "nodes/common/volume_place.h"
+
+#include "base/system/assert.h"
+
+namespace ombre::nodes {
+namespace {
+
+using design::PatientSpace;
+
+// From the frame of a file to one that is wanted, or nothing where the file does not say enough.
+std::optional<Affine> turn_of(PatientSpace from, std::string_view wanted) {
+  const auto known = [&](double x, double y) { return std::optional(Affine::scaling({x, y, 1})); };
+  const bool is_ras = wanted == "RAS";
+  if (from == PatientSpace::ras) return is_ras ? known(1, 1) : known(-1, -1);
+  if (from == PatientSpace::lps) return is_ras ? known(-1, -1) : known(1, 1);
+  if (from == PatientSpace::las) return is_ras ? known(-1, 1) : known(1, -1);
+  return std::nullopt;
+}
+
+bool fail(const design::Reader& reader, const std::string& message, const Phrase& hint) {
+  reader.diagnostics.error(reader.where, message, hint);
+  return false;
+}
+
+}  // namespace
+
+bool VolumePlace::read_volume(const design::Reader& reader, const std::string& segment) {
+  if (!reader.loader) return fail(reader, "volumes cannot be read here", "");
+  design::VolumeRequest request{path, series, voxel_channel, segment};
+  grid = reader.loader->source(request, reader);
+  if (!grid) return false;
+  segment_label = request.label;
+  path = request.file;
+  if (!grid->space_from_index && !spacing && space != "index")
+    return fail(reader, "the volume \"" + path.path + "\" does not say how large its voxels are",
+                "write " + spelled::parameter("spacing", "(0.5, 0.5, 1)") + ", in mm along its axes");
+  here_from_index = placed();
+  if (!turn(reader)) return false;
+  index_from_here = inverse(here_from_index);
+  return true;
+}
+
+int VolumePlace::channel(const char* name) const {
+  const int number = grid->source->channel(name);
+  ASSERT(number >= 0);
+  return number;
+}
+
+// The file's directions, with the lengths and the origin that are given.
+Affine VolumePlace::placed() const {
+  Affine map = grid->space_from_index.value_or(Affine{});
+  if (spacing)
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 step{map.rows[0][axis], map.rows[1][axis], map.rows[2][axis]};
+      for (Vec3& row : map.rows) row[axis] *= (*spacing)[axis] / length(step);
+    }
+  if (origin) map.offset = *origin;
+  return map;
+}
+
+bool VolumePlace::turn(const design::Reader& reader) {
+  if (space == "index") {
+    if (spacing || origin)
+      return fail(reader, "space=\"index\" counts voxels, which have no spacing and no origin", "leave these out");
+    here_from_index = Affine{};
+    return true;
+  }
+  const std::string file = "the volume \"" + path.path + '"';
+  if (space == "file") {
+    if (grid->space == PatientSpace::las || grid->space == PatientSpace::left_handed)
+      return fail(reader, file + " has left-handed axes, in which it would be mirrored here",
+                  grid->space == PatientSpace::las ? "write " + spelled::parameter("space", "\"RAS\"") + " or " +
+                                                         spelled::parameter("space", "\"LPS\"")
+                                                   : Phrase("save it in a right-handed space"));
+    return true;
+  }
+  const auto map = turn_of(grid->space, space.text());
+  if (!map) return fail(reader, file + " does not say where the right side of a patient is", "leave space out");
+  here_from_index = *map * here_from_index;
+  return true;
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,231 @@
+// Lattices of struts: unit cells by name, or graphs of edges.
+#include "design/spec.h"
+#include "nodes/common/segments.h"
+#include "nodes/common/strut_families.h"
+#include "nodes/lattices/lattice_families.h"
+#include "nodes/lattices/unit_cells.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+Domain cell_choices() {
+  std::vector<std::string> names = unit_cell_names();
+  names.insert(names.begin(), "none");
+  return one_of(names);
+}
+
+// Struts with round ends, so that joints close.
+struct Lattice {
+  Choice cell = "none";
+  Vec3 size{10, 10, 10};
+  Number radius = 1;
+  std::optional<std::vector<Edge>> edges;
+  MaterialName material;
+
+  static Spec<Lattice> spec() {
+    return {"lattice",
+            "lattices",
+            "Struts with round ends: a unit cell, centred on the origin, or a graph of edges. tile repeats unit cells.",
+            {{"cell", &Lattice::cell, "Which unit cell; none: the edges", cell_choices()},
+             {"size", &Lattice::size, "Lengths of the unit cell along x, y and z", unit::positive_mm},
+             {"radius", &Lattice::radius, "Of the struts; t runs from 0 to 1 along each",
+              with_variables({"t"}, unit::positive_mm)},
+             {"edges", &Lattice::edges,
+              "Instead of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
+             {"material", &Lattice::material, "Its material"}},
+            no_inputs,
+            "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");"};
+  }
+
+  bool makes_nothing() const { return cell == "none" && edges && edges->empty(); }
+
+  bool complete(const Reader& reader) {
+    const bool is_cell = !(cell == "none"), has_edges = edges && !edges->empty();
+    if (is_cell != has_edges) {
+      segments_ = is_cell ? of_cell() : of_edges();
+      return true;
+    }
+    reader.diagnostics.error(
+        reader.where, is_cell ? "lattice has both a unit cell and edges" : "lattice has neither a unit cell nor edges",
+        "write " + spelled::call("lattice", {{"cell", "\"bcc\""}, {"size", "(10, 10, 10)"}, {"radius", "1"}}) + " or " +
+            spelled::call("lattice", {{"edges", "[[(0, 0, 0), (10, 0, 0)]]"}, {"radius", "1"}}));
+    return false;
+  }
+
+  Metric metric() const { return segments_.size() == 1 ? Metric::exact() : Metric::bounded(); }
+
+  Traits traits() const {
+    Traits traits{.instances = segments_.size()};
+    if (cell == "none") return traits;
+    traits.cell_size = size;
+    // Of a mirrored cell, the neighbours are mirror images, with their struts beyond the mirror.
+    if (is_mirrored()) traits.nearest_copy_is_enough_from = size;
+    return traits;
+  }
+
+  // Nothing where they are no conical frusta.
+  std::optional<std::vector<StrutShape>> shapes() const {
+    const auto common = end_radii(radius);
+    std::vector<StrutShape> shapes;
+    for (const Strut& strut : segments_) {
+      if (strut.own_radius == 0 && !common) return std::nullopt;
+      const auto radii = strut.own_radius > 0 ? std::array{strut.own_radius, strut.own_radius} : *common;
+      shapes.push_back({strut.start, strut.end, radii[0], radii[1]});
+    }
+    return shapes;
+  }
+
+  Box bounds(const Box& where) const {
+    Box box;
+    const double greatest = radius.range(where, {{"t", {0, 1}}}).hi;
+    for (const Strut& strut : segments_) box = hull(box, strut.reach(where, greatest, 0));
+    return box;
+  }
+
+  Field distance(const Inputs&, const Point& p) const {
+    const Point q = folded(p);
+    return nearest(q, struts_here());
+  }
+
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const PartQuery query = border == Border::included ? PartQuery::mix : PartQuery::interior;
+    if (const auto parts = table(in, query, p)) return parts->inside;
+    const std::vector<const Strut*> near = struts_near(p);
+    return near.empty() ? p.constant(0) : at_most(nearest(folded(p), near), 0, border);
+  }
+
+  // That of the strut whose surface is nearest; of very many the first that holds the point.
+  Field along(const Inputs& in, const Point& p) const {
+    if (const auto parts = table(in, PartQuery::along, p)) return parts->along;
+    const Point q = folded(p);
+    Field t, least;
+    for (const Strut* strut : struts_here()) {
+      const Field here = strut->along(q), d = strut->distance(q, radius);
+      t = t ? select(less(d, least), here, t) : here;
+      least = least ? min(d, least) : d;
+    }
+    return t;
+  }
+
+ private:
+  struct Strut : Segment {
+    double own_radius = 0;  // 0: the lattice's
+
+    Field radius_at(const Point& p, const Number& common) const {
+      if (own_radius > 0) return p.constant(own_radius);
+      return common.at(p, [&](std::string_view name) -> std::optional<Field> {
+        if (name != "t") return std::nullopt;
+        return along(p);
+      });
+    }
+    Field distance(const Point& p, const Number& common) const {
+      return sqrt(squared_distance(p)) - radius_at(p, common);
+    }
+    Box reach(const Box& where, double greatest, double margin) const {
+      const double r = (own_radius > 0 ? own_radius : greatest) + margin;
+      return reach_of_segment(start, end, {r, r, r}, where);
+    }
+  };
+
+  // Its struts as rows of a table.
+  class Rows : public PartList {
+   public:
+    explicit Rows(const Lattice& lattice) : lattice_(lattice) {}
+    size_t count() const override { return lattice_.segments_.size(); }
+    Box reach(size_t i, const Box& where, double margin) const override {
+      return tightened(where, [&](const Box& box) {
+        const double greatest = lattice_.radius.range(box, {{"t", {0, 1}}}).hi;
+        return intersect(lattice_.segments_[i].reach(box, greatest, margin), box);
+      });
+    }
+    bool uses_cell(size_t) const override { return lattice_.radius.uses_cell(); }
+    Field distance(const Inputs&, size_t i, const Point& p) const override {
+      return lattice_.segments_[i].distance(p, lattice_.radius);
+    }
+    Field membership(const Inputs& in, size_t i, const Point& p, Border border) const override {
+      return at_most(distance(in, i, p), 0, border);
+    }
+    Field along(const Inputs&, size_t i, const Point& p) const override { return lattice_.segments_[i].along(p); }
+    Composition composition(const Inputs& in, size_t, const Point& p, Demand) const override {
+      return in.composition_of(lattice_.material, p);
+    }
+
+   private:
+    const Lattice& lattice_;
+  };
+
+  bool is_mirrored() const { return !(cell == "none") && find_unit_cell(cell.text())->is_mirrored; }
+  // Then all is the same in each octant.
+  bool is_folded() const { return is_mirrored() && radius.constant(); }
+
+  std::vector<Strut> of_cell() const {
+    std::vector<Strut> struts;
+    for (const auto& [start, end] : find_unit_cell(cell.text())->struts)
+      struts.push_back({{scaled(start), scaled(end)}, 0});
+    return struts;
+  }
+
+  std::vector<Strut> of_edges() const {
+    std::vector<Strut> struts;
+    for (const Edge& edge : *edges) struts.push_back({{edge.start, edge.end}, edge.radius});
+    return struts;
+  }
+
+  Vec3 scaled(Vec3 p) const { return {p.x * size.x, p.y * size.y, p.z * size.z}; }
+
+  Point folded(const Point& p) const { return is_folded() ? p.moved_to(abs(p.x), abs(p.y), abs(p.z)) : p; }
+
+  // Those of the octant that points are folded into, or all.
+  std::vector<const Strut*> struts_here() const {
+    std::vector<const Strut*> found;
+    for (const Strut& strut : segments_)
+      if (!is_folded() || Box{{0, 0, 0}, size}.contains(strut.start + 0.5 * (strut.end - strut.start)))
+        found.push_back(&strut);
+    return found;
+  }
+
+  // Without those that cannot hold a point that lies where this one is known to.
+  std::vector<const Strut*> struts_near(const Point& p) const {
+    std::vector<const Strut*> found = struts_here();
+    if (is_folded() || p.within() == Box::everything()) return found;
+    const double greatest = radius.range(p.within(), {{"t", {0, 1}}}).hi;
+    std::erase_if(found, [&](const Strut* strut) {
+      return intersect(strut->reach(p.within(), greatest, 0), p.within()).is_empty();
+    });
+    return found;
+  }
+
+  std::optional<PartFields> table(const Inputs& in, PartQuery query, const Point& p) const {
+    return is_folded() ? std::nullopt : in.many_parts(query, p, Rows(*this));
+  }
+
+  // The least distance. One root for all where they are equally thick.
+  Field nearest(const Point& p, const std::vector<const Strut*>& struts) const {
+    const bool same =
+        radius.constant() && std::ranges::all_of(struts, [](const Strut* s) { return s->own_radius == 0; });
+    std::vector<Field> fields;
+    for (const Strut* strut : struts) fields.push_back(same ? strut->squared_distance(p) : strut->distance(p, radius));
+    const Field least = program::fold(fields, program::min);
+    return same ? sqrt(least) - *radius.constant() : least;
+  }
+
+  std::vector<Strut> segments_;
+};
+
+}  // namespace
+
+size_t lattice_strut_count(const design::Node& node) {
+  const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
+  return lattice ? lattice->data.traits().instances : 0;
+}
+
+std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node) {
+  const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
+  return lattice ? lattice->data.shapes() : std::nullopt;
+}
+
+void add_lattices(Registry& registry) { registry.add<Lattice>(); }
+
+}  // namespace ombre::nodes

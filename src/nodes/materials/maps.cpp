@@ -1,0 +1,186 @@
+// Solids laid along the surfaces of others.
+#include <algorithm>
+#include <cmath>
+
+#include "design/spec.h"
+#include "nodes/common/child_distance.h"
+#include "nodes/common/shapes.h"
+#include "nodes/materials/material_families.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+using program::Op;
+
+// A base and a pattern. In scripts, what one statement makes is one of them.
+constexpr InputInfo two_solids{2, 2, true};
+
+// The normals of the base are taken from differences over this length to both sides: finer than voxels, and coarse
+// enough for single precision.
+constexpr double normal_step_mm = 0.01;
+
+// Two surfaces and what stands on the first.
+constexpr InputInfo three_solids{3, 3, true};
+
+Field difference(const Inputs& in, size_t solid, const Point& p, Vec3 step) {
+  return in.distance(solid, p.mapped(Affine::translation(step))) -
+         in.distance(solid, p.mapped(Affine::translation(-step)));
+}
+
+// The point `way` along the normal of a solid's distance, from p.
+Point along_normal(const Inputs& in, size_t solid, const Point& p, const Point& from, Field way) {
+  const Field x = difference(in, solid, p, {normal_step_mm, 0, 0}),
+              y = difference(in, solid, p, {0, normal_step_mm, 0}),
+              z = difference(in, solid, p, {0, 0, normal_step_mm});
+  const Field size = max(length(x, y, z), 1e-9 * normal_step_mm);
+  // In intervals the quotients may be anything, but a normal has length one.
+  const auto part = [&](Field v) { return min(max(v / size, -1.0), p.constant(1)); };
+  return from.moved_to(from.x + way * part(x), from.y + way * part(y), from.z + way * part(z));
+}
+
+// The nearest point of a solid's surface, where its distance at p is known.
+Point on_surface(const Inputs& in, size_t solid, const Point& p, Field distance) {
+  return along_normal(in, solid, p, p, -distance);
+}
+
+// A pattern of which x and y are the place on a surface, and z is the height above it. The place is that of the
+// surface's nearest point q, in a frame whose third axis is `direction`:
+//   planar       the first two coordinates of q
+//   cylindrical  the arc around the third axis that ends in q, and q's third coordinate
+//   spherical    arcs on the ball around `around` that q lies on: along its equator, and from there to q
+struct ConformalMap {
+  Choice mapping = "planar";
+  Vec3 direction{0, 0, 1}, around;
+
+  static Spec<ConformalMap> spec() {
+    return {
+        "conformal_map",
+        "maps",
+        "Lays a flat pattern, its second child, along the surface of its first: the pattern's z is the height above "
+        "it, its x and y a place on it.",
+        {{"mapping", &ConformalMap::mapping,
+          "What x and y are: planar, as seen along ref_dir; cylindrical, the way around ref_dir and along it; "
+          "spherical, the way around ref_dir and from the equator to the poles",
+          one_of({"planar", "cylindrical", "spherical"})},
+         {"ref_dir", &ConformalMap::direction, "Reference direction; x begins along x, or along y where ref_dir is x"},
+         {"around", &ConformalMap::around, "Where x, y and ref_dir begin", unit::mm}},
+        two_solids,
+        "conformal_map(mapping=\"cylindrical\") { cylinder(10, 20); rectprism((30, 6, 2), \"red\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    warn_of_implicit_distance(reader, *inputs[0], "conformal_map");
+    if (length(direction) > 0) return true;
+    reader.diagnostics.error(reader.where, "the ref_dir of conformal_map has no direction",
+                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
+                                                        "for example (1, 1, 0)"));
+    return false;
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  // Of the base: at the point, and twice along each axis.
+  Traits traits() const { return {.most_evaluations_of_input = 7}; }
+
+  Field distance(const Inputs& in, const Point& p) const { return in.distance(1, place(in, p)); }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return in.membership(1, place(in, p), border);
+  }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return in.composition(1, place(in, p), demand);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return in.attribute(1, name, place(in, p), demand);
+  }
+  Field along(const Inputs& in, const Point& p) const { return in.along(1, place(in, p)); }
+
+  // Where a pattern reaches: so high above the base, and, since a height is the way to the surface's point, no farther
+  // from that point's place.
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    const Box pattern = in.reach(1, design_space(), margin);
+    if (pattern.is_empty()) return pattern;
+    const Box box = in.reach(0, where, std::max(0.0, pattern.hi.z));
+    const double farthest = std::max(std::abs(pattern.lo.z), std::abs(pattern.hi.z)) * (1 + 1e-9);
+    Box places = Box::centered({design_limit_mm, design_limit_mm, design_limit_mm});
+    if (mapping == "planar") {
+      places = {{pattern.lo.x, pattern.lo.y, -design_limit_mm}, {pattern.hi.x, pattern.hi.y, design_limit_mm}};
+    } else if (mapping == "cylindrical") {
+      places.lo.z = pattern.lo.y;
+      places.hi.z = pattern.hi.y;
+    }
+    return intersect(box, image(inverse(frame()), places.expanded(farthest)));
+  }
+
+ private:
+  // Takes points to the frame of the places.
+  Affine frame() const { return turned_to_z(direction) * Affine::translation(-around); }
+
+  // Where the pattern is evaluated.
+  Point place(const Inputs& in, const Point& p) const {
+    const Field height = in.distance(0, p);
+    const Point q = on_surface(in, 0, p, height).mapped(frame());
+    if (mapping == "planar") return q.moved_to(q.x, q.y, height);
+    const auto angle = [&](Field y, Field x) { return p.builder().apply(Op::atan2, y, x); };
+    const Field across = length(q.x, q.y), around_axis = angle(q.y, q.x);
+    if (mapping == "cylindrical") return q.moved_to(around_axis * across, q.z, height);
+    const Field radius = length(q.x, q.y, q.z);
+    return q.moved_to(around_axis * radius, angle(q.z, across) * radius, height);
+  }
+};
+
+// What stands on one surface, put onto another. A point p, at the height h over the second, belongs to the nearest
+// point q of it; q belongs to the nearest point of the first, over which the child is evaluated at the height h.
+struct SurfaceMap {
+  double height = 10;
+
+  static Spec<SurfaceMap> spec() {
+    return {
+        "surface_map",
+        "maps",
+        "Puts what stands on the surface of its first child onto that of its second, at the same heights; its "
+        "third child is what stands there.",
+        {{"height", &SurfaceMap::height, "How far over and under the surfaces it reaches; what is farther is cut off",
+          required(unit::positive_mm)}},
+        three_solids,
+        "surface_map(height=3) { sphere(8); ellipsoid((12, 9, 7)); translate(8, 0, 0) cube(2, \"red\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    for (size_t i = 0; i < 2; ++i) warn_of_implicit_distance(reader, *inputs[i], "surface_map");
+    return true;
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  // Of a surface: at a point, and twice along each axis, for two points.
+  Traits traits() const { return {.most_evaluations_of_input = 14}; }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    return max(in.distance(2, place(in, p)), abs(in.distance(1, p)) - height);
+  }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return logical_and(in.membership(2, place(in, p), border),
+                       at_most(abs(in.distance(1, p)), p.constant(height), border));
+  }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return in.composition(2, place(in, p), demand);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return in.attribute(2, name, place(in, p), demand);
+  }
+  Field along(const Inputs& in, const Point& p) const { return in.along(2, place(in, p)); }
+
+  Box reach(const Inputs& in, const Box& where, double margin) const { return in.reach(1, where, height + margin); }
+
+ private:
+  static Point place(const Inputs& in, const Point& p) {
+    const Field h = in.distance(1, p);
+    const Point there = on_surface(in, 1, p, h), here = on_surface(in, 0, there, in.distance(0, there));
+    return along_normal(in, 0, here, here, h);
+  }
+};
+
+}  // namespace
+
+void add_maps(Registry& registry) { registry.add<ConformalMap, SurfaceMap>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,362 @@
+// Solids joined, cut and complemented, sharply or with a blend along their seams.
+#include "design/spec.h"
+#include "nodes/common/mixtures.h"
+#include "nodes/solids/blends.h"
+#include "nodes/solids/solid_families.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+Field (*const greatest)(Field, Field) = program::max;
+
+Domain overlap_choices() { return one_of({"mix", "first", "last"}); }
+constexpr std::string_view overlap_doc =
+    "Where inputs overlap: mix adds their compositions and normalises, first and last let one take precedence";
+
+constexpr std::string_view blend_doc = "Radius of the fillet, or size of the chamfer, along seams; 0: sharp";
+constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat";
+Domain join_choices() { return one_of({"round", "chamfer"}); }
+
+constexpr std::string_view attributes_doc =
+    "How attributes combine where inputs overlap, in place of their own rules: [[\"modulus\", \"max\"]]";
+Domain attribute_rules() { return one_of({overlap_names.begin(), overlap_names.end()}); }
+
+// The attribute as it combines here.
+AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, const std::vector<NamedWord>& rules) {
+  AttributeDeclaration declaration = in.declaration(part);
+  for (const NamedWord& rule : rules)
+    if (rule.name == declaration.name) declaration.overlap = overlap_called(rule.word);
+  return declaration;
+}
+
+// Weights of inputs that contain the point; where none does and it matters, the nearest counts.
+std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
+  std::vector<Field> flags = in.memberships(p, Border::included);
+  if (demand == Demand::everywhere) {
+    const Field none = logical_not(program::fold(flags, program::logical_or));
+    const std::vector<Field> close = nearest(in.distances(p));
+    for (size_t i = 0; i < flags.size(); ++i) flags[i] = logical_or(flags[i], logical_and(none, close[i]));
+  }
+  if (rule == "first") return first_true(flags);
+  if (rule == "last") return last_true(flags);
+  return flags;
+}
+
+// Least and greatest distances are exact on one side of a surface, and bounds on the other.
+Metric joined_metric(const Inputs& in) {
+  if (in.count() == 1) return in.metric(0);
+  Metric metric = Metric::bounded();
+  for (size_t i = 0; i < in.count(); ++i) metric = weaker(metric, in.metric(i));
+  return metric;
+}
+
+Metric blended_metric(const Inputs& in, const Blend& blend) {
+  const Metric metric = joined_metric(in);
+  if (metric.is_implicit() || in.count() == 1 || blend.is_plain()) return metric;
+  return blend.radius.constant() ? Metric::bounded(metric.lipschitz * blend.lipschitz(in.count())) : Metric::implicit();
+}
+
+struct Union {
+  Choice materials = "mix";
+  Number blend_radius = 0;
+  Choice join = "round";
+  std::vector<NamedWord> attribute_words;
+
+  static Spec<Union> spec() {
+    return {"union",
+            "booleans",
+            "What is in any of its children.",
+            {{"materials", &Union::materials,
+              "Where inputs overlap: mix adds their compositions and normalises, first and last let one take "
+              "precedence; blend weighs them by how far inside the point is, across seams too",
+              one_of({"mix", "first", "last", "blend"})},
+             {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
+             {"join", &Union::join, join_doc, join_choices()},
+             {"attributes", &Union::attribute_words, attributes_doc, attribute_rules()}},
+            many_solids,
+            "union(blend=1) { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
+  }
+
+  bool complete(const Reader& reader) const {
+    if (!(materials == "blend") || !blend().is_plain()) return true;
+    reader.diagnostics.error(
+        reader.where, "materials=\"blend\" of union needs a radius to blend over",
+        "write for example " + spelled::call("union", {{"blend", "1"}, {"materials", "\"blend\""}}));
+    return false;
+  }
+
+  Blend blend() const { return {blend_radius, join == "chamfer"}; }
+  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
+
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    Box box;
+    if (blend().is_plain() || in.count() == 1) {
+      for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
+      return box;
+    }
+    const std::vector<size_t> counts = overlap_counts(in, where);
+    for (size_t i = 0; i < in.count(); ++i) {
+      const double farther = blend().reach(counts[i], where, margin);
+      box = hull(box, in.reach(i, where, counts[i] == 1 ? margin : farther));
+    }
+    return box;
+  }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    const Field least = program::fold(in.distances(p), program::min);
+    if (blend().is_plain() || in.count() == 1) return least;
+    const Field total = program::sum(weights(in, p, blend().falloff()));
+    return blend().distance(total, least, p);
+  }
+
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const PartQuery part_query = border == Border::included ? query() : PartQuery::interior;
+    if (!blend().is_plain() && in.count() > 1) {
+      const Influence all = influence_of(in, p, part_query, blend().falloff());
+      return blend().membership(all.total, all.any, p, border);
+    }
+    const auto parts = in.many_parts(part_query, p);
+    if (!parts) return program::fold(in.memberships(p, border), program::logical_or);
+    Field any = parts->inside;
+    for (const size_t i : parts->others) any = logical_or(any, in.membership(i, p, border));
+    return any;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    if (in.count() == 1) return in.composition(0, p, demand);
+    if (!blend().is_plain()) return blended_composition(in, p, demand, materials.text(), blend().falloff());
+    const auto parts = demand == Demand::inside ? in.many_parts(query(), p) : std::nullopt;
+    if (parts && materials == "mix") return mixed(in, p, *parts);
+    if (parts && parts->others.empty()) return parts->composition;
+    if (parts && are_together(*parts, in.count())) return in_order(in, p, *parts);
+    return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
+  }
+
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    if (in.count() == 1) return in.attribute(0, name, p, demand);
+    const AttributeDeclaration here = declaration_here(in, name, attribute_words);
+    if (!blend().is_plain()) return blended_attribute(in, name, p, demand, blend().falloff(), here);
+    return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), here);
+  }
+
+ private:
+  // For each input, the number of inputs whose influence may reach it, itself included; of very many all are counted.
+  std::vector<size_t> overlap_counts(const Inputs& in, const Box& where) const {
+    constexpr size_t few = 64;
+    const size_t count = in.count();
+    if (count > few) return std::vector<size_t>(count, count);
+    std::vector<Box> boxes;
+    for (size_t i = 0; i < count; ++i) boxes.push_back(in.reach(i, where, blend_radius.range(where).hi));
+    std::vector<size_t> counts(count, 1);
+    for (size_t i = 0; i < count; ++i)
+      for (size_t j = 0; j < i; ++j) {
+        if (intersect(boxes[i], boxes[j]).is_empty()) continue;
+        ++counts[i];
+        ++counts[j];
+      }
+    return counts;
+  }
+
+  // How many inputs stand before those of the table.
+  static size_t before(const PartFields& parts) {
+    size_t count = 0;
+    while (count < parts.others.size() && parts.others[count] == count) ++count;
+    return count;
+  }
+
+  // Do the inputs of the table follow one another?
+  static bool are_together(const PartFields& parts, size_t count) {
+    const size_t first = before(parts), end = first + count - parts.others.size();
+    return first == parts.others.size() || parts.others[first] == end;
+  }
+
+  // The first or last that holds the point, where those of the table count as one.
+  Composition in_order(const Inputs& in, const Point& p, const PartFields& parts) const {
+    std::vector<Composition> compositions;
+    std::vector<Field> flags;
+    for (const size_t i : parts.others) {
+      compositions.push_back(in.composition(i, p, Demand::inside));
+      flags.push_back(in.inside(i, p));
+    }
+    const auto at = static_cast<std::ptrdiff_t>(before(parts));
+    compositions.insert(compositions.begin() + at, parts.composition);
+    flags.insert(flags.begin() + at, parts.inside);
+    return weighted(compositions, materials == "first" ? first_true(flags) : last_true(flags));
+  }
+
+  PartQuery query() const {
+    return materials == "first" ? PartQuery::first : materials == "last" ? PartQuery::last : PartQuery::mix;
+  }
+};
+
+// The joint of what the solids leave: its complement.
+struct Carved {
+  std::vector<Field> depths;  // of each solid, how far inside the point is: its distance, negated
+  Blend blend;
+
+  Field total(const Point& p) const {
+    const Falloff falloff = blend.falloff();
+    std::vector<Field> values;
+    for (const Field depth : depths) values.push_back(falloff.weight(depth, p));
+    return program::sum(values);
+  }
+  Field distance(const Point& p) const { return -blend.distance(total(p), program::fold(depths, program::min), p); }
+  // In the whole where the joint is not; the border belongs to one of both.
+  Field membership(Field any_outside, const Point& p, Border border) const {
+    return logical_not(blend.membership(total(p), any_outside, p, other(border)));
+  }
+};
+
+struct Intersection {
+  Choice materials = "mix";
+  Number blend_radius = 0;
+  Choice join = "round";
+  std::vector<NamedWord> attribute_words;
+
+  static Spec<Intersection> spec() {
+    return {"intersection",
+            "booleans",
+            "What is in all of its children.",
+            {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
+             {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
+             {"join", &Intersection::join, join_doc, join_choices()},
+             {"attributes", &Intersection::attribute_words, attributes_doc, attribute_rules()}},
+            grouped_solids(OfNothing::gives_nothing),
+            "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
+  }
+
+  Blend blend() const { return {blend_radius, join == "chamfer"}; }
+  bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
+  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
+
+  // Children without bounds of their own are evaluated within those of the others.
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    Box box = where;
+    for (int round = 0; round < 2; ++round)
+      for (size_t i = 0; i < in.count() && !box.is_empty(); ++i) box = intersect(box, in.reach(i, box, margin));
+    return box;
+  }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    return is_sharp(in) ? program::fold(in.distances(p), greatest) : carved(in, p).distance(p);
+  }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const Field all = program::fold(in.memberships(p, border), program::logical_and);
+    return is_sharp(in) ? all : carved(in, p).membership(logical_not(all), p, border);
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
+    // Inside the whole is inside each.
+    if (materials == "first") return in.composition(0, p, demand);
+    if (materials == "last") return in.composition(in.count() - 1, p, demand);
+    return weighted(in, p, demand, std::vector<Field>(in.count(), p.constant(1)));
+  }
+
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    const auto flags = demand == Demand::inside ? std::vector<Field>(in.count(), p.constant(1))
+                                                : overlap_weights(in, p, demand, "mix");
+    return overlapping_attribute(in, name, p, demand, flags, declaration_here(in, name, attribute_words));
+  }
+
+ private:
+  Carved carved(const Inputs& in, const Point& p) const {
+    std::vector<Field> depths = in.distances(p);
+    for (Field& depth : depths) depth = -depth;
+    return {depths, blend()};
+  }
+};
+
+struct Difference {
+  Number blend_radius = 0;
+  Choice join = "round";
+
+  static Spec<Difference> spec() {
+    return {"difference",
+            "booleans",
+            "What is in its first child and in none of the others.",
+            {{"blend", &Difference::blend_radius, blend_doc, unit::not_negative_mm},
+             {"join", &Difference::join, join_doc, join_choices()}},
+            grouped_solids(OfNothing::cuts_nothing),
+            "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
+  }
+
+  Blend blend() const { return {blend_radius, join == "chamfer"}; }
+  bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
+  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    if (!is_sharp(in)) return carved(in, p).distance(p);
+    std::vector<Field> distances = in.distances(p);
+    for (size_t i = 1; i < distances.size(); ++i) distances[i] = -distances[i];
+    return program::fold(distances, greatest);
+  }
+
+  // The surface of what is cut away belongs to both.
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    std::vector<Field> flags = in.memberships(p, other(border));
+    flags[0] = in.membership(0, p, border);
+    const Field left = without(flags);
+    return is_sharp(in) ? left : carved(in, p).membership(logical_not(left), p, border);
+  }
+
+ private:
+  static Field without(std::vector<Field>& flags) {
+    for (size_t i = 1; i < flags.size(); ++i) flags[i] = logical_not(flags[i]);
+    return program::fold(flags, program::logical_and);
+  }
+
+  Carved carved(const Inputs& in, const Point& p) const {
+    std::vector<Field> depths = in.distances(p);
+    depths[0] = -depths[0];
+    return {depths, blend()};
+  }
+};
+
+struct Negate {
+  static Spec<Negate> spec() {
+    return {"negate",
+            "booleans",
+            "Everything that is not in its child. Without bounds: use it inside an intersection.",
+            {},
+            {1, 1, false, OfNothing::counts},
+            "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
+  }
+
+  Box reach(const Inputs&, const Box& where, double) const { return where; }
+  Field distance(const Inputs& in, const Point& p) const { return -in.distance(0, p); }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return logical_not(in.membership(0, p, other(border)));
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand) const {
+    return in.composition(0, p, Demand::everywhere);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand) const {
+    return in.attribute(0, name, p, Demand::everywhere);
+  }
+};
+
+// What a loop without passes, a condition that does not hold or a text without letters makes.
+struct Empty {
+  static constexpr bool is_nothing_itself = true;
+
+  static Spec<Empty> spec() {
+    return {
+        "empty", "booleans", "Nothing: a solid without a point. What is made from it or cut out of it is nothing too.",
+        {},      no_inputs,  "union() { sphere(4, \"red\"); empty(); }"};
+  }
+
+  Metric metric() const { return Metric::bounded(); }
+  Box bounds(const Box&) const { return Box::empty(); }
+  // Farther than any point of a design is from another.
+  Field distance(const Point& p) const { return p.constant(10 * design_limit_mm); }
+};
+
+}  // namespace
+
+void add_booleans(Registry& registry) { registry.add<Union, Intersection, Difference, Negate, Empty>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,391 @@
+// Solids whose composition, attributes or surface come from the voxels around.
+#include <algorithm>
+
+#include "base/text/text.h"
+#include "design/spec.h"
+#include "nodes/common/filter_stages.h"
+#include "nodes/common/shapes.h"
+#include "nodes/common/stage_fields.h"
+#include "nodes/common/whole_stages.h"
+#include "nodes/solids/solid_families.h"
+#include "nodes/stages/box_sum.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+// The shares of the filtered materials; negative ones count as 0. Where none is left, as in what is thinner than a
+// voxel, the child's own composition holds.
+Composition filtered_composition(const Inputs& in, const Point& p, Demand demand, const StagePtr& stage,
+                                 bool count_void) {
+  Composition own = in.composition(0, p, demand);
+  const bool has_void = !own.fractions.empty() && own.fractions[0].first == void_material;
+  if (count_void && !has_void) own.fractions.insert(own.fractions.begin(), {void_material, p.constant(0)});
+  if (own.fractions.size() == 1) return own;
+  std::vector<Field> parts;
+  for (const auto& [id, fraction] : own.fractions)
+    parts.push_back(max(read_channel(in, stage, sum_channel(id), p), 0.0));
+  const Field total = program::sum(parts), is_known = less(p.constant(0), total);
+  for (size_t n = 0; n < parts.size(); ++n) {
+    Field& fraction = own.fractions[n].second;
+    fraction = select(is_known, share(parts[n], total), fraction);
+  }
+  return own;
+}
+
+Field filtered_attribute(const Inputs& in, const std::string& name, const Point& p, Demand demand,
+                         const StagePtr& stage) {
+  const Field own = in.attribute(0, name, p, demand), weight = read_channel(in, stage, "share", p);
+  return select(less(p.constant(0), weight), read_channel(in, stage, "attribute " + name, p) / weight, own);
+}
+
+bool holds(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+// False, and a diagnostic, where the child does not have one of the attributes.
+bool check_attributes(const Reader& reader, const NodePtr& child, const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const Node* node : topological({child}))
+    if (const auto declared = node->declares()) known.push_back(declared->name);
+  for (const std::string& name : names) {
+    if (holds(known, name)) continue;
+    reader.diagnostics.error(reader.where,
+                             "the child of " + std::string(reader.node) + " has no attribute \"" + name + '"',
+                             known.empty() ? "it has none" : "it has " + join(known, ", "));
+    return false;
+  }
+  return true;
+}
+
+constexpr const char* about_attributes = "Names of its attributes that are filtered too";
+constexpr const char* about_void = "Whether voxels outside of the child count as void; else only those inside count";
+
+struct VoxelBlend {
+  Counts3 size{3, 3, 3};
+  bool count_void = false;
+  std::optional<Vec3> pitch;
+  StagePtr sums;  // known when the node is made
+
+  static Spec<VoxelBlend> spec() {
+    return {
+        "blend",
+        "convolutions",
+        "Gives each voxel of its child the mean composition of the voxels in a box around it; the shape stays.",
+        {{"size", &VoxelBlend::size, "Voxels of the box along x, y and z", required(from_to(1, 1000))},
+         {"count_void", &VoxelBlend::count_void, about_void},
+         {"pitch", &VoxelBlend::pitch, about_pitch, unit::positive_mm}},
+        one_solid,
+        "blend((10, 10, 1)) union() { translate(-3, 0, 0) cube(6, \"red\"); translate(3, 0, 0) cube(6, \"blue\"); }"};
+  }
+
+  bool complete(const Reader&, const std::vector<NodePtr>& inputs) {
+    sums = make_box_sums(inputs[0], {size, count_void, pitch});
+    return true;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return filtered_composition(in, p, demand, sums, count_void);
+  }
+};
+
+struct Convolve {
+  Kernel kernel;
+  bool count_void = false;
+  std::vector<std::string> attributes;
+  std::optional<Vec3> pitch;
+  StagePtr stage;
+
+  static Spec<Convolve> spec() {
+    return {
+        "convolve",
+        "convolutions",
+        "Gives each voxel of its child the weighted mean of the compositions around it; the shape stays.",
+        {{"kernel", &Convolve::kernel,
+          "Weights in lists along x of lists along y of lists along z; voxel floor(n / 2) is the one that they are for",
+          required()},
+         {"count_void", &Convolve::count_void, about_void},
+         {"attributes", &Convolve::attributes, about_attributes},
+         {"pitch", &Convolve::pitch, about_pitch, unit::positive_mm}},
+        one_solid,
+        "convolve([[[1]], [[2]], [[1]]]) union() { translate(-3, 0, 0) cube(6, \"red\"); translate(3, 0, 0) cube(6, "
+        "\"blue\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (!check_attributes(reader, inputs[0], attributes)) return false;
+    std::string key = "convolve";
+    for (const int n : kernel.size) key += ' ' + std::to_string(n);
+    for (const double weight : kernel.weights) key += ' ' + format_number(weight);
+    const FilterUse use{true, count_void, attributes, pitch};
+    stage = make_linear_stage(inputs[0], use, key, [filter = LinearFilter::of(kernel)](Vec3) { return filter; });
+    return true;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return filtered_composition(in, p, demand, stage, count_void);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return holds(attributes, name) ? filtered_attribute(in, std::string(name), p, demand, stage)
+                                   : in.attribute(0, name, p, demand);
+  }
+};
+
+// How wide a Gaussian is: in mm along all axes, or in voxels along each.
+struct Width {
+  double mm = 0;
+  std::optional<Vec3> voxels;
+
+  Vec3 in_cells(Vec3 cell_mm) const { return voxels ? *voxels : Vec3{mm / cell_mm.x, mm / cell_mm.y, mm / cell_mm.z}; }
+  std::string key() const {
+    return voxels
+               ? "voxels " + format_number(voxels->x) + ' ' + format_number(voxels->y) + ' ' + format_number(voxels->z)
+               : "mm " + format_number(mm);
+  }
+};
+
+constexpr const char* about_sigma = "Standard deviation of the weights, which end four of them away";
+constexpr const char* about_sigma_voxels = "The same in voxels along x, y and z, in the place of sigma";
+
+// False, and a diagnostic, unless one of the two is given.
+bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& voxels) {
+  const bool has_voxels = voxels && voxels->x + voxels->y + voxels->z > 0;
+  if ((sigma > 0) != has_voxels) return true;
+  reader.diagnostics.error(reader.where, std::string(reader.node) + " needs either sigma or sigma_voxels, more than 0",
+                           "write for example " + spelled::parameter("sigma", "0.5") + ", in mm");
+  return false;
+}
+
+LinearFilter gaussian_in(const Width& width, Vec3 cell_mm) { return LinearFilter::gaussian(width.in_cells(cell_mm)); }
+
+struct Gaussian {
+  double sigma = 0;
+  std::optional<Vec3> sigma_voxels;
+  bool count_void = false;
+  std::vector<std::string> attributes;
+  std::optional<Vec3> pitch;
+  StagePtr stage;
+
+  static Spec<Gaussian> spec() {
+    return {"gaussian",
+            "convolutions",
+            "Blurs its child's composition with weights of a normal distribution; the shape stays.",
+            {{"sigma", &Gaussian::sigma, about_sigma, unit::not_negative_mm},
+             {"sigma_voxels", &Gaussian::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
+             {"count_void", &Gaussian::count_void, about_void},
+             {"attributes", &Gaussian::attributes, about_attributes},
+             {"pitch", &Gaussian::pitch, about_pitch, unit::positive_mm}},
+            one_solid,
+            "gaussian(0.8) union() { translate(-3, 0, 0) cube(6, \"red\"); translate(3, 0, 0) cube(6, \"blue\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (!check_width(reader, sigma, sigma_voxels) || !check_attributes(reader, inputs[0], attributes)) return false;
+    const Width width{sigma, sigma_voxels};
+    stage = make_linear_stage(inputs[0], {true, count_void, attributes, pitch}, "gaussian " + width.key(),
+                              [width](Vec3 cell_mm) { return gaussian_in(width, cell_mm); });
+    return true;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return filtered_composition(in, p, demand, stage, count_void);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return holds(attributes, name) ? filtered_attribute(in, std::string(name), p, demand, stage)
+                                   : in.attribute(0, name, p, demand);
+  }
+};
+
+struct Sharpen {
+  double amount = 1, sigma = 0;
+  std::optional<Vec3> sigma_voxels, pitch;
+  StagePtr stage;
+
+  static Spec<Sharpen> spec() {
+    return {"sharpen",
+            "convolutions",
+            "Makes borders between its child's materials steeper, by unsharp masking; the shape stays.",
+            {{"amount", &Sharpen::amount, "How much of what a Gaussian blur takes away is added", positive("")},
+             {"sigma", &Sharpen::sigma, about_sigma, unit::not_negative_mm},
+             {"sigma_voxels", &Sharpen::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
+             {"pitch", &Sharpen::pitch, about_pitch, unit::positive_mm}},
+            one_solid,
+            "sharpen(2, sigma=0.5) fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"]) cube(10);"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (!check_width(reader, sigma, sigma_voxels)) return false;
+    const Width width{sigma, sigma_voxels};
+    const FilterUse use{true, false, {}, pitch};
+    stage = make_linear_stage(inputs[0], use, "sharpen " + format_number(amount) + ' ' + width.key(),
+                              [width, by = amount](Vec3 cell_mm) { return gaussian_in(width, cell_mm).sharpened(by); });
+    return true;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return filtered_composition(in, p, demand, stage, false);
+  }
+};
+
+struct Majority {
+  Counts3 size{3, 3, 3};
+  bool count_void = false;
+  std::optional<Vec3> pitch;
+  StagePtr stage;
+
+  static Spec<Majority> spec() {
+    return {
+        "majority",
+        "convolutions",
+        "Gives each voxel of its child the material that most of the box around it has; the shape stays.",
+        {{"size", &Majority::size, "Voxels of the box along x, y and z", from_to(1, 99)},
+         {"count_void", &Majority::count_void, about_void},
+         {"pitch", &Majority::pitch, about_pitch, unit::positive_mm}},
+        one_solid,
+        "majority((5, 5, 5)) union() { translate(-3, 0, 0) cube(6, \"red\"); translate(3, 0, 0) cube(6, \"blue\"); }"};
+  }
+
+  bool complete(const Reader&, const std::vector<NodePtr>& inputs) {
+    stage = make_majority_stage(inputs[0], {true, count_void, {}, pitch}, size);
+    return true;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return filtered_composition(in, p, demand, stage, count_void);
+  }
+};
+
+struct Median {
+  std::vector<std::string> attributes;
+  Counts3 size{3, 3, 3};
+  std::optional<Vec3> pitch;
+  StagePtr stage;
+
+  static Spec<Median> spec() {
+    return {"median",
+            "convolutions",
+            "Gives each voxel of its child the median of attributes in the box around it; the shape stays.",
+            {{"attributes", &Median::attributes, "Names of the attributes", required()},
+             {"size", &Median::size, "Voxels of the box along x, y and z", from_to(1, 99)},
+             {"pitch", &Median::pitch, about_pitch, unit::positive_mm}},
+            one_solid,
+            "median([\"infill\"]) attribute(\"infill\", \"x > 0\") cube(10);"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (!check_attributes(reader, inputs[0], attributes)) return false;
+    stage = make_median_stage(inputs[0], {false, false, attributes, pitch}, size);
+    return true;
+  }
+
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return holds(attributes, name) ? filtered_attribute(in, std::string(name), p, demand, stage)
+                                   : in.attribute(0, name, p, demand);
+  }
+};
+
+struct Smooth {
+  double sigma = 0;
+  bool keep_volume = false;
+  std::optional<Vec3> sigma_voxels, pitch;
+  StagePtr stage;
+
+  static Spec<Smooth> spec() {
+    return {"smooth",
+            "convolutions",
+            "Smooths the surface of its child: inside is where at least half of a Gaussian around the place is inside.",
+            {{"sigma", &Smooth::sigma, about_sigma, unit::not_negative_mm},
+             {"sigma_voxels", &Smooth::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
+             {"pitch", &Smooth::pitch, about_pitch, unit::positive_mm},
+             {"keep_volume", &Smooth::keep_volume,
+              "In place of half of the Gaussian, the part with which the volume stays"}},
+            one_solid,
+            "smooth(1) rectprism((10, 6, 4), \"red\");"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
+    if (!check_width(reader, sigma, sigma_voxels)) return false;
+    const Width width{sigma, sigma_voxels};
+    const auto filter = [width](Vec3 cell_mm) { return gaussian_in(width, cell_mm); };
+    if (keep_volume) return make_kept(reader, inputs[0], width, filter);
+    stage = make_linear_stage(inputs[0], {false, false, {}, pitch}, "smooth " + width.key(), filter);
+    return true;
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  // A flat side has half of the Gaussian beyond it: nothing leaves the child's box, unless more is kept.
+  Box reach(const Inputs&, const Box& where, double margin) const {
+    const Box box = stage->bounds();
+    return box.is_empty() ? box : intersect(box.expanded(margin), where);
+  }
+  Field distance(const Inputs& in, const Point& p) const {
+    const Box box = stage->bounds();
+    if (box.is_empty()) return p.constant(Box::inf);
+    const Vec3 c = box.center(), h = 0.5 * box.size();
+    const Field from_box = corner(abs(p.x - c.x) - h.x, abs(p.y - c.y) - h.y, abs(p.z - c.z) - h.z);
+    const Field rest = 0.5 - read_channel(in, stage, "share", p);
+    return select(from_box <= 0, rest, max(rest, from_box));
+  }
+  Composition composition(const Inputs& in, const Point& p, Demand) const {
+    return in.composition(0, p, Demand::everywhere);
+  }
+
+ private:
+  bool make_kept(const Reader& reader, const NodePtr& child, const Width& width,
+                 const std::function<LinearFilter(Vec3)>& filter) {
+    if (width.voxels && !pitch) {
+      reader.diagnostics.error(reader.where, "keep_volume needs to know how wide the Gaussian is in mm",
+                               "write for example " + spelled::parameter("sigma", "0.5") + " in place of sigma_voxels");
+      return false;
+    }
+    // Sides move out by less than a sigma, since they lose what corners and edges gain.
+    const Vec3 voxels = width.voxels.value_or(Vec3{});
+    const double widest =
+        width.voxels ? std::max({voxels.x * pitch->x, voxels.y * pitch->y, voxels.z * pitch->z}) : width.mm;
+    stage = make_kept_volume_stage(child, {widest, pitch}, width.key(), filter);
+    return is_bounded(reader, stage);
+  }
+};
+
+template <Morphology what>
+struct Morphed : StagedSolid {
+  double radius = 0;
+  std::optional<Vec3> pitch;
+
+  static Spec<Morphed> spec() {
+    struct Words {
+      std::string_view name, sentence, example;
+    };
+    static constexpr Words words[] = {
+        {"dilate", "Adds to its child all voxels that lie within a radius of it.", "dilate(1) cube(6, \"red\");"},
+        {"erode", "Takes from its child all voxels that lie within a radius of what is outside.",
+         "erode(1) cube(6, \"red\");"},
+        {"opening", "Takes from its child what a ball inside it cannot reach: spikes and thin walls.",
+         "opening(1) union() { cube(6, \"red\"); rectprism((12, 1, 1), \"red\"); }"},
+        {"closing", "Fills what a ball outside of its child cannot reach: holes, gaps and notches.",
+         "closing(1) difference() { cube(6, \"red\"); rectprism((12, 1, 1), \"red\"); }"}};
+    const Words& word = words[static_cast<size_t>(what)];
+    return {word.name,
+            "convolutions",
+            word.sentence,
+            {{"radius", &Morphed::radius, "Radius of the ball", required(positive("mm"))},
+             {"pitch", &Morphed::pitch, about_pitch, unit::positive_mm}},
+            one_solid,
+            word.example};
+  }
+
+  bool complete(const Reader&, const std::vector<NodePtr>& inputs) {
+    stage = make_morphology_stage(inputs[0], what, radius, pitch);
+    return true;
+  }
+};
+
+}  // namespace
+
+void add_convolutions(Registry& registry) {
+  registry.add<VoxelBlend, Convolve, Gaussian, Sharpen, Majority, Median, Smooth, Morphed<Morphology::dilate>,
+               Morphed<Morphology::erode>, Morphed<Morphology::opening>, Morphed<Morphology::closing>>();
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,321 @@
+// Solids from files.
+#include <algorithm>
+
+#include "base/system/assert.h"
+#include "design/source_loader.h"
+#include "design/spec.h"
+#include "nodes/common/mixtures.h"
+#include "nodes/solids/solid_families.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+// What a file has of one material.
+struct SolidPart {
+  MaterialName material;
+  program::SourceField source;
+};
+using Parts = std::vector<SolidPart>;
+
+// A part's material, where the use of the file says the one for parts without a name.
+MaterialName material_of(const std::string& name, const MaterialName& otherwise, const Reader& reader) {
+  return name.empty() ? otherwise : MaterialName{reader.materials.find(name)};
+}
+
+// A mixture is that of the whole solid, so it leaves no room for materials of the file.
+bool check_mixture(const MaterialName& material, const Choice& materials, const Reader& reader) {
+  if (!material.mixture || materials == "one") return true;
+  reader.diagnostics.error(
+      reader.where,
+      std::string(reader.node) +
+          " has a mixture, which is for the whole of it, and is asked for the materials of the file",
+      "leave out " + spelled::parameter("materials", '"' + std::string(materials.text()) + '"') +
+          ", or name one material for what has none in the file");
+  return false;
+}
+
+// The material that a request for a file names. A mixture makes no difference to what is read.
+MaterialName material_for_request(const MaterialName& material, const Reader& reader) {
+  return material.mixture ? MaterialName{&reader.materials.first()} : material;
+}
+
+Field read(const SolidPart& part, const char* channel, const Point& p) {
+  const int number = part.source->channel(channel);
+  ASSERT(number >= 0);
+  return p.builder().source(part.source, number, p.x, p.y, p.z);
+}
+
+std::vector<Field> distances(const Parts& parts, const Point& p) {
+  std::vector<Field> fields;
+  for (const SolidPart& part : parts) fields.push_back(read(part, "distance", p));
+  return fields;
+}
+
+std::vector<Field> insides(const Parts& parts, const Point& p) {
+  std::vector<Field> fields;
+  for (const SolidPart& part : parts) fields.push_back(truth(read(part, "inside", p)));
+  return fields;
+}
+
+Field least_distance(const Parts& parts, const Point& p) { return program::fold(distances(parts, p), program::min); }
+// Along voxel rows this needs no distances.
+Field inside_any(const Parts& parts, const Point& p) { return program::fold(insides(parts, p), program::logical_or); }
+
+// Which parts count at a point; one at least does where it matters.
+std::vector<Field> part_weights(const Parts& parts, const Point& p, Demand demand) {
+  std::vector<Field> flags = insides(parts, p);
+  if (demand == Demand::inside) {
+    flags.back() = p.constant(1);  // what is inside, and in none of the others
+    return flags;
+  }
+  const Field none = logical_not(program::fold(flags, program::logical_or));
+  const std::vector<Field> close = nearest(distances(parts, p));
+  for (size_t n = 0; n < flags.size(); ++n) flags[n] = logical_or(flags[n], logical_and(none, close[n]));
+  return flags;
+}
+
+Composition composition_of(const Parts& parts, const Inputs& in, const Point& p, Demand demand) {
+  if (parts.size() == 1) return in.composition_of(parts[0].material, p);
+  const std::vector<Field> shares = first_true(part_weights(parts, p, demand));
+  if (std::ranges::any_of(parts, [](const SolidPart& part) { return part.material.mixture; })) {
+    std::vector<Composition> own;
+    for (const SolidPart& part : parts) own.push_back(in.composition_of(part.material, p));
+    return weighted(own, shares);
+  }
+  Composition result;
+  for (size_t n = 0; n < parts.size(); ++n) result.fractions.emplace_back(in.material(parts[n].material), shares[n]);
+  std::sort(result.fractions.begin(), result.fractions.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  return result;
+}
+
+// Of all parts' sources.
+template <class AnyParts>
+Hash content_of(const AnyParts& parts) {
+  if (parts.size() == 1) return parts[0].source->content();
+  std::string all;
+  for (const auto& part : parts) all += part.source->content().hex();
+  return hash_bytes(all);
+}
+
+template <class AnyParts>
+Box bounds_of(const AnyParts& parts) {
+  Box box;
+  for (const auto& part : parts) box = hull(box, part.source->bounds());
+  return box;
+}
+
+// A solid whose parts are known when the node is made.
+struct SolidOfParts {
+  Parts parts;
+
+  Box bounds(const Box&) const { return bounds_of(parts); }
+  Field distance(const Point& p) const { return least_distance(parts, p); }
+  Field membership(const Inputs&, const Point& p, Border) const { return inside_any(parts, p); }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return composition_of(parts, in, p, demand);
+  }
+};
+
+struct Mesh : SolidOfParts {
+  FilePath path;
+  MaterialName material;
+  Choice inside_rule = "nonzero";
+  std::string object;
+  Choice materials = "one";
+  std::vector<MaterialForName> material_map;
+  double deform = 0;
+  std::shared_ptr<const std::vector<MeshPart>> loaded;  // when the node is made
+
+  static Spec<Mesh> spec() {
+    return {"mesh",
+            "imported",
+            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in "
+            "their own unit; or by the outer sides of a mesh of results, VTU, XDMF, FRD or INP.",
+            {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
+             {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there",
+              mixable()},
+             {"inside", &Mesh::inside_rule,
+              "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
+              "open meshes)",
+              one_of({"nonzero", "parity", "generalized"})},
+             {"object", &Mesh::object, "The name of one of the file's objects; none: all of them"},
+             {"materials", &Mesh::materials,
+              "Whose materials: one (the node's), names (the file's, by their names), or colours (those whose colours "
+              "are nearest to the file's); where they overlap, the file's first wins",
+              one_of({"one", "names", "colours"})},
+             {"material_map", &Mesh::material_map,
+              "Materials for names of the file, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+             {"deform", &Mesh::deform, "Of results: how many times their displacement moves the solid"}},
+            no_inputs,
+            "mesh(\"models/gear.stl\", \"red\");"};
+  }
+
+  bool complete(const Reader& reader) {
+    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
+      reader.diagnostics.error(reader.where, message, hint);
+      return false;
+    };
+    if (!reader.loader) return fail("meshes cannot be read here");
+    if (materials == "one" && !material_map.empty())
+      return fail("material_map of mesh: the materials of the file are not asked for",
+                  "write " + spelled::parameter("materials", "\"names\"") + " or " +
+                      spelled::parameter("materials", "\"colours\"") + " too");
+    if (!check_mixture(material, materials, reader)) return false;
+    const MaterialName named = material_for_request(material, reader);
+    MeshRequest request{path, {object, inside_rule, materials, named, material_map}, deform};
+    loaded = reader.loader->source(request, reader);
+    if (!loaded) return false;
+    path.path = request.file.path;
+    for (const MeshPart& part : *loaded) parts.push_back({material_of(part.material, material, reader), part.source});
+    path.content = content_of(parts);
+    return true;
+  }
+
+  // Walls between two parts are nearer than the surface of the whole.
+  Metric metric() const { return parts.size() == 1 && loaded->front().is_exact ? Metric::exact() : Metric::bounded(); }
+};
+
+struct Scad : SolidOfParts {
+  FilePath path;
+  std::string script;
+  MaterialName material;
+  std::string part;
+  Choice materials = "auto";
+  std::vector<MaterialForName> material_map;
+  ScriptVariables variables;
+  std::shared_ptr<const ScadSolids> loaded;  // when the node is made
+
+  static Spec<Scad> spec() {
+    return {
+        "scad",
+        "imported",
+        "Solid that an OpenSCAD script makes, in mm; arguments of other names are values for the script's "
+        "variables.",
+        {{"path", &Scad::path, "The script; relative to this one, then to the working directory", required()},
+         {"material", &Scad::material,
+          "Its material; beside the script's own, that of what has none there. A mixture is for the whole solid",
+          mixable()},
+         {"part", &Scad::part, "The name of one of the script's parts, rest for solids of no part; none: all of them"},
+         {"materials", &Scad::materials,
+          "Whose materials: one (the node's), names (those of material() in the script), colours (those whose "
+          "colours are nearest to color()), or auto: names if the script has some, else colours, else one; where "
+          "solids overlap, the script's first wins",
+          one_of({"auto", "one", "names", "colours"})},
+         {"material_map", &Scad::material_map,
+          "Materials for names of the script, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+         {"variables", &Scad::variables, "Values for the script's variables: scad(\"box.scad\", width=20)"},
+         {"script", &Scad::script,
+          "The script's text, in the place of the file's: path then says where its files are"}},
+        no_inputs,
+        "scad(\"openscad/handle.scad\", thickness=6);"};
+  }
+
+  bool complete(const Reader& reader) {
+    if (!reader.loader) {
+      reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be run here");
+      return false;
+    }
+    if (material.mixture && materials == "auto") materials = "one";
+    if (!check_mixture(material, materials, reader)) return false;
+    ScadRequest request{path, script, variables, part, materials, material_for_request(material, reader), material_map};
+    loaded = reader.loader->source(request, reader);
+    if (!loaded) return false;
+    if (loaded->parts.empty()) {
+      reader.diagnostics.error(reader.where, "the script makes no solid");
+      return false;
+    }
+    path.path = request.file.path;
+    for (const MeshPart& one : loaded->parts)
+      parts.push_back({material_of(one.material, material, reader), one.source});
+    path.content = content_of(parts);
+    return true;
+  }
+
+  // Walls between two parts are nearer than the surface of the whole.
+  Metric metric() const { return parts.size() == 1 ? Metric::exact() : Metric::bounded(); }
+};
+
+struct Cad {
+  FilePath path;
+  MaterialName material;
+  Choice mode = "fast";
+  double tolerance = 0;
+  std::string object;
+  Choice materials = "one";
+  std::vector<MaterialForName> material_map;
+  std::shared_ptr<const std::vector<CadPart>> parts;  // read when the node is made
+  std::vector<MaterialName> part_materials;
+
+  static Spec<Cad> spec() {
+    return {"cad",
+            "imported",
+            "Solid of a CAD file: STEP or IGES, in the file's own unit.",
+            {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
+             {"material", &Cad::material, "Its material; beside the file's materials, that of what has none there",
+              mixable()},
+             {"mode", &Cad::mode,
+              "fast (by triangles) or exact (by the surfaces themselves: slow, and distances are exact)",
+              one_of({"fast", "exact"})},
+             {"tolerance", &Cad::tolerance, "How far triangles may be from the surface; 0: a quarter of a voxel",
+              unit::not_negative_mm},
+             {"object", &Cad::object, "The name of one of the file's solids; none: all of them"},
+             {"materials", &Cad::materials,
+              "Whose materials: one (the node's), names (by the names of the file's solids), or colours (those whose "
+              "colours are nearest to the solids'); where solids overlap, the file's first wins",
+              one_of({"one", "names", "colours"})},
+             {"material_map", &Cad::material_map,
+              "Materials for names of solids, before all others: [[\"bracket\", \"gray\"], [\"bushing\", \"red\"]]"}},
+            no_inputs,
+            "cad(\"models/bracket.step\", \"gray\");"};
+  }
+
+  bool complete(const Reader& reader) {
+    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
+      reader.diagnostics.error(reader.where, message, hint);
+      return false;
+    };
+    if (!reader.loader) return fail("CAD files cannot be read here");
+    if (materials == "one" && !material_map.empty())
+      return fail("material_map of cad: the materials of the file are not asked for",
+                  "write " + spelled::parameter("materials", "\"names\"") + " or " +
+                      spelled::parameter("materials", "\"colours\"") + " too");
+    if (!check_mixture(material, materials, reader)) return false;
+    const MaterialName named = material_for_request(material, reader);
+    CadRequest request{path, {object, "nonzero", materials, named, material_map}, mode == "exact", tolerance};
+    parts = reader.loader->source(request, reader);
+    if (!parts) return false;
+    for (const CadPart& part : *parts) part_materials.push_back(material_of(part.material, material, reader));
+    path.path = request.file.path;
+    path.content = content_of(*parts);
+    return true;
+  }
+
+  // Walls between two solids are nearer than the surface of the whole.
+  Metric metric() const { return parts->size() == 1 && parts->front().is_single ? Metric::exact() : Metric::bounded(); }
+  Box bounds(const Box&) const { return bounds_of(*parts); }
+  Field distance(const Inputs& in, const Point& p) const { return least_distance(made(in), p); }
+  Field membership(const Inputs& in, const Point& p, Border) const { return inside_any(made(in), p); }
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return composition_of(made(in), in, p, demand);
+  }
+
+ private:
+  Parts made(const Inputs& in) const {
+    Parts sources;
+    for (size_t n = 0; n < parts->size(); ++n) {
+      const CadPart& part = (*parts)[n];
+      sources.push_back({part_materials[n], part.source->make(in.scale())});
+      for (const Remark& r : part.source->remarks(in.scale())) in.report(r.severity, r.message, r.hint);
+    }
+    return sources;
+  }
+};
+
+}  // namespace
+
+void add_imported(Registry& registry) { registry.add<Mesh, Scad, Cad>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,113 @@
+// Solids between level sets of a child's distance: grown, shrunk, hollowed.
+#include "design/spec.h"
+#include "nodes/common/child_distance.h"
+#include "nodes/solids/solid_families.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+// A level of an exact distance is again a distance on one side alone, and on the other a bound of it.
+Metric level_metric(const Inputs& in) {
+  const Metric metric = in.metric(0);
+  return metric.is_implicit() ? metric : Metric::bounded(metric.lipschitz);
+}
+
+// Encloses the points of `where` at which the input's g is `level` or less.
+Box level_reach(const Inputs& in, const Box& where, double level) {
+  if (level >= 0) return in.reach(0, where, level);
+  const Metric metric = in.metric(0);
+  if (metric.is_implicit()) return in.reach(0, where, 0);
+  // So deep inside, the box around the input is at least this far away.
+  const double depth = -level / metric.lipschitz * (1 - 1e-9);
+  return intersect(in.reach(0, where.expanded(depth), 0).expanded(-depth), where);
+}
+
+struct Offset {
+  Number distance_mm = 1;
+
+  static Spec<Offset> spec() {
+    return {"offset",
+            "offsets",
+            "Grows its child by a distance, or shrinks it. Edges and corners that grow become round.",
+            {{"distance", &Offset::distance_mm,
+              "How far the surface moves outward; negative: inward. A formula displaces it from point to point",
+              required(unit::mm)}},
+            one_solid,
+            "offset(2) { cube(6, \"red\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    warn_of_implicit_distance(reader, *inputs[0], "offset");
+    return true;
+  }
+
+  Metric metric(const Inputs& in) const { return level_metric(in); }
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    return level_reach(in, where, margin + distance_mm.range(where).hi);
+  }
+  Field distance(const Inputs& in, const Point& p) const { return in.distance(0, p) - distance_mm(p); }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return in.composition(0, p, grown(demand));
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return in.attribute(0, name, p, grown(demand));
+  }
+
+ private:
+  // What is inside may be outside of the child.
+  Demand grown(Demand demand) const {
+    return distance_mm.constant() && *distance_mm.constant() <= 0 ? demand : Demand::everywhere;
+  }
+};
+
+struct Shell {
+  Number thickness = 1;
+  Choice side = "inward";
+
+  static Spec<Shell> spec() {
+    return {"shell",
+            "offsets",
+            "A wall along the surface of its child.",
+            {{"thickness", &Shell::thickness, "How thick the wall is", required(unit::positive_mm)},
+             {"side", &Shell::side, "Where it lies: inward of the surface, outward, or centred on it",
+              one_of({"inward", "outward", "centred"})}},
+            one_solid,
+            "shell(1) { sphere(8, \"red\"); }"};
+  }
+
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    warn_of_implicit_distance(reader, *inputs[0], "shell");
+    return true;
+  }
+
+  Metric metric(const Inputs& in) const { return level_metric(in); }
+  Box reach(const Inputs& in, const Box& where, double margin) const {
+    return level_reach(in, where, margin + outward_share() * thickness.range(where).hi);
+  }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    const Field wall = thickness(p);
+    const Field from_middle = in.distance(0, p) - wall * (outward_share() - 0.5);
+    return abs(from_middle) - wall * 0.5;
+  }
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return in.composition(0, p, grown(demand));
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return in.attribute(0, name, p, grown(demand));
+  }
+
+ private:
+  double outward_share() const { return side == "inward" ? 0 : side == "outward" ? 1 : 0.5; }
+  Demand grown(Demand demand) const { return side == "inward" ? demand : Demand::everywhere; }
+};
+
+}  // namespace
+
+void add_offsets(Registry& registry) { registry.add<Offset, Shell>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,103 @@
+#include "nodes/values/colour_mixer.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "base/math/srgb.h"
+#include "base/system/assert.h"
+#include "nodes/common/number_table.h"
+
+namespace ombre::nodes {
+namespace {
+
+// Of the vectors' span, those whose product with one of them is 1 and with the others 0; nothing where they are
+// dependent.
+std::optional<std::vector<Vec3>> dual_basis(const std::vector<Vec3>& e) {
+  constexpr double least = 1e-12;  // squared lengths, areas and volumes of colours
+  if (e.empty()) return std::vector<Vec3>{};
+  if (e.size() == 1) {
+    const double square = dot(e[0], e[0]);
+    return square < least ? std::nullopt : std::optional(std::vector{(1 / square) * e[0]});
+  }
+  const Vec3 normal = cross(e[0], e[1]);
+  if (e.size() == 2) {
+    const double square = dot(normal, normal);
+    if (square < least) return std::nullopt;
+    return std::vector{(1 / square) * cross(e[1], normal), (1 / square) * cross(normal, e[0])};
+  }
+  const double volume = dot(normal, e[2]);
+  if (volume * volume < least) return std::nullopt;
+  return std::vector{(1 / volume) * cross(e[1], e[2]), (1 / volume) * cross(e[2], e[0]), (1 / volume) * normal};
+}
+
+double brightness(Vec3 linear) { return 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z; }
+
+}  // namespace
+
+ColourMixer::ColourMixer(std::vector<Vec3> colours) : colours_(std::move(colours)) {
+  ASSERT(!colours_.empty() && colours_.size() <= most_materials);
+  add_groups({}, 0);
+}
+
+void ColourMixer::add_groups(std::vector<size_t> members, size_t next) {
+  if (!members.empty()) {
+    std::vector<Vec3> edges;
+    for (size_t n = 1; n < members.size(); ++n) edges.push_back(colours_[members[n]] - colours_[members[0]]);
+    const auto slopes = dual_basis(edges);
+    if (!slopes) return;
+    groups_.push_back({members, *slopes});
+  }
+  if (members.size() == 4) return;
+  for (size_t n = next; n < colours_.size(); ++n) {
+    members.push_back(n);
+    add_groups(members, n + 1);
+    members.pop_back();
+  }
+}
+
+std::vector<double> ColourMixer::shares(Vec3 colour) const {
+  constexpr double slack = 1e-9, same = 1e-14;
+  double least_error = std::numeric_limits<double>::infinity(), least_variation = least_error;
+  std::vector<double> best(colours_.size());
+  for (const Group& group : groups_) {
+    const Vec3 origin = colours_[group.members[0]], rest = colour - origin;
+    std::array<double, 4> share{1, 0, 0, 0};
+    for (size_t n = 0; n < group.slopes.size(); ++n) {
+      share[n + 1] = dot(group.slopes[n], rest);
+      share[0] -= share[n + 1];
+    }
+    if (*std::min_element(share.begin(), share.end()) < -slack) continue;
+    Vec3 shown{};
+    double variation = 0;
+    for (size_t n = 0; n < group.members.size(); ++n) {
+      const Vec3 own = colours_[group.members[n]];
+      shown = shown + share[n] * own;
+      variation += share[n] * brightness(own) * brightness(own);
+    }
+    const double error = dot(shown - colour, shown - colour);
+    if (error > least_error + same || (error > least_error - same && variation >= least_variation)) continue;
+    least_error = std::min(error, least_error);
+    least_variation = variation;
+    std::fill(best.begin(), best.end(), 0);
+    for (size_t n = 0; n < group.members.size(); ++n) best[group.members[n]] = std::max(share[n], 0.0);
+  }
+  return best;
+}
+
+program::SourceField make_colour_table(const ColourMixer& mixer, size_t materials) {
+  constexpr size_t steps = 33;
+  std::vector<double> axis;
+  for (size_t n = 0; n < steps; ++n) axis.push_back(static_cast<double>(n) / (steps - 1));
+  TableKeys table{{axis, axis, axis}, std::vector<std::vector<double>>(materials)};
+  for (const double red : axis)
+    for (const double green : axis)
+      for (const double blue : axis) {
+        const auto shares = mixer.shares({linear_of_srgb(red), linear_of_srgb(green), linear_of_srgb(blue)});
+        for (size_t n = 0; n < materials; ++n) table.values[n].push_back(shares[n]);
+      }
+  return make_table(std::move(table), TableMode::linear);
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,137 @@
+// Results of simulations as values.
+#include <algorithm>
+#include <array>
+
+#include "base/text/text.h"
+#include "design/source_loader.h"
+#include "design/spec.h"
+#include "nodes/values/value_families.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+// Components by their names.
+std::vector<std::string> component_names(size_t count) {
+  if (count == 3) return {"x", "y", "z"};
+  if (count == 6) return {"xx", "yy", "zz", "xy", "yz", "zx"};
+  if (count == 9) return {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
+  std::vector<std::string> names;
+  for (size_t n = 0; n < count; ++n) names.push_back(std::to_string(n + 1));
+  return names;
+}
+
+struct Results {
+  FilePath path;
+  std::string field, component, values;
+  Choice outside = "none", between = "weights";
+  std::optional<double> within;
+  double otherwise = 0, deform = 0;
+  std::shared_ptr<const ResultNumbers> loaded;  // when the node is made
+  size_t chosen = 0;                            // component
+
+  static Spec<Results> spec() {
+    return {
+        "results",
+        "values",
+        "Results of a simulation at the place where they are used: a field of a mesh's nodes or elements.",
+        {{"path", &Results::path,
+          "The file: .vtu, as ombre fea writes it, .frd, .inp, or .csv; relative to the script, then to the working "
+          "directory",
+          required()},
+         {"field", &Results::field,
+          "Name of the field, or its beginning: displacement, von_mises; empty: the only one"},
+         {"component", &Results::component,
+          "Which number `value` is: of vectors x, y or z, empty: their length; of tensors xx, yy, zz, xy, yz or zx"},
+         {"outside", &Results::outside,
+          "Where there is no element: none (no number, which the job warns of), that of the nearest place, or "
+          "`otherwise`",
+          one_of({"none", "nearest", "value"})},
+         {"within", &Results::within, "How far the nearest place may be; none: however far", unit::positive_mm},
+         {"otherwise", &Results::otherwise, "The value outside, with outside=\"value\""},
+         {"values", &Results::values,
+          "Of an .inp file: a .csv with the numbers of nodes or elements, and their values"},
+         {"between", &Results::between,
+          "Between points of a .csv file: means of the nearest eight, weighted by the inverse of their squared "
+          "distances, or the nearest point's value",
+          one_of({"weights", "nearest"})},
+         {"deform", &Results::deform, "How many times the displacement moves the mesh, as of mesh(path, deform=5)"}},
+        no_inputs,
+        "sphere(8, mix(\"red\", \"blue\", results(\"models/bent_beam.vtu\", \"von_mises\", "
+        "outside=\"nearest\").value / 20));",
+        {{"value", &Results::value, "The number: between nodes by the elements' shape functions, else the element's"},
+         {"vector", &Results::vector, "Of vectors, their x, y and z"},
+         {"magnitude", &Results::magnitude, "The root of the sum of the components' squares"},
+         {"inside", &Results::is_inside, "1 where there is an element, else 0", {0, 1}}}};
+  }
+
+  bool complete(const Reader& reader) {
+    if (!reader.loader) return fail(reader, "results cannot be read here", "");
+    ResultsRequest request;
+    request.file = path;
+    request.values.path = values;
+    request.field = field;
+    request.outside = outside;
+    request.within_mm = within;
+    request.otherwise = otherwise;
+    request.between = between;
+    request.deform = deform;
+    loaded = reader.loader->source(request, reader);
+    if (!loaded) return false;
+    path.path = request.file.path;
+    path.content = loaded->source->content();  // of both files
+    values = request.values.path;
+    return choose(reader);
+  }
+
+  bool gives(size_t output) const { return output != 1 || loaded->channels.size() == 3; }
+
+  Field value(const Ask& ask) const {
+    return component.empty() && loaded->channels.size() > 1 ? magnitude(ask) : number(ask, chosen);
+  }
+  VectorField vector(const Ask& ask) const { return {number(ask, 0), number(ask, 1), number(ask, 2)}; }
+  Field magnitude(const Ask& ask) const {
+    Field sum = ask.p.constant(0);
+    for (size_t n = 0; n < loaded->channels.size(); ++n) {
+      const Field part = number(ask, n);
+      sum = sum + part * part;
+    }
+    return sqrt(sum);
+  }
+  Field is_inside(const Ask& ask) const {
+    return ask.p.builder().source(loaded->source, loaded->source->channel("inside"), ask.p.x, ask.p.y, ask.p.z);
+  }
+
+ private:
+  static bool fail(const Reader& reader, const std::string& message, const Phrase& hint) {
+    reader.diagnostics.error(reader.where, message, hint);
+    return false;
+  }
+
+  bool choose(const Reader& reader) {
+    const std::vector<std::string> names = component_names(loaded->channels.size());
+    const std::string what = "the field \"" + loaded->name + '"';
+    if (component.empty()) {
+      if (names.size() <= 3) return true;
+      return fail(reader, what + " has " + std::to_string(names.size()) + " components, and which is meant is not said",
+                  "write " + spelled::parameter("component", '"' + names.front() + '"') + ", or another of " +
+                      join(names, ", "));
+    }
+    const auto found = std::ranges::find(names, component);
+    chosen = static_cast<size_t>(found - names.begin());
+    if (found != names.end() && names.size() > 1) return true;
+    return fail(reader, what + " has no component \"" + component + '"',
+                names.size() > 1 ? "it has " + join(names, ", ") : "it is a single number: leave component out");
+  }
+
+  Field number(const Ask& ask, size_t n) const {
+    return ask.p.builder().source(loaded->source, loaded->channels[n], ask.p.x, ask.p.y, ask.p.z);
+  }
+};
+
+}  // namespace
+
+void add_results(Registry& registry) { registry.add<Results>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,187 @@
+// Values from numbers: ramps, changes of range, tables.
+#include <cmath>
+
+#include "base/system/assert.h"
+#include "design/source_loader.h"
+#include "design/spec.h"
+#include "nodes/common/field_math.h"
+#include "nodes/common/number_table.h"
+#include "nodes/values/value_families.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+bool decline(const Reader& reader, const std::string& message, const Phrase& hint) {
+  reader.diagnostics.error(reader.where, message, hint);
+  return false;
+}
+
+struct Ramp {
+  Number of;
+  double from = 0, to = 1;
+  Choice shape = "linear";
+
+  static Spec<Ramp> spec() {
+    return {"ramp",
+            "values",
+            "0 up to one number, 1 from another on, and between them a line or a smooth curve.",
+            {{"of", &Ramp::of, "The number, such as \"z\" or a value", required()},
+             {"lo", &Ramp::from, "Where it begins to rise, or to fall where it is the greater one"},
+             {"hi", &Ramp::to, "Where it ends"},
+             {"shape", &Ramp::shape,
+              "linear; smooth (3t^2 - 2t^3); smoother (6t^5 - 15t^4 + 10t^3); step (from the middle on)",
+              one_of({"linear", "smooth", "smoother", "step"})}},
+            no_inputs,
+            "cube(10, mix(\"red\", \"blue\", ramp(\"z\", -3, 3, \"smooth\")));",
+            {{"value", &Ramp::value, "From 0 to 1", Interval(0, 1)}}};
+  }
+
+  bool complete(const Reader& reader) const {
+    return from != to || decline(reader, "ramp begins where it ends",
+                                 "write for example " + spelled::either("ramp(\"z\", 0, 10)", "\"lo\": 0, \"hi\": 10",
+                                                                        "ombre.ramp(\"z\", 0, 10)"));
+  }
+
+  Field value(const Ask& ask) const {
+    const Field t = limited((of(ask.p) - from) / (to - from), 0, 1);
+    if (shape == "step") return less_equal(ask.p.constant(0.5), t);
+    if (shape == "smooth") return limited(smooth_step(t), 0, 1);
+    if (shape == "smoother") return limited(t * t * t * (t * (t * 6.0 - 15) + 10), 0, 1);
+    return t;
+  }
+};
+
+struct Rescale {
+  Number of;
+  double from_lo = 0, from_hi = 1, to_lo = 0, to_hi = 1;
+  bool clamped = false;
+
+  static Spec<Rescale> spec() {
+    return {"rescale",
+            "values",
+            "From one range of numbers to another, by a straight line.",
+            {{"of", &Rescale::of, "The number", required()},
+             {"from_lo", &Rescale::from_lo, "What becomes to_lo"},
+             {"from_hi", &Rescale::from_hi, "What becomes to_hi"},
+             {"to_lo", &Rescale::to_lo, "What from_lo becomes"},
+             {"to_hi", &Rescale::to_hi, "What from_hi becomes"},
+             {"clamp", &Rescale::clamped, "Keep within to_lo and to_hi"}},
+            no_inputs,
+            "sphere(rescale(\"z\", -8, 8, 5, 8, clamp=true));",
+            {{"value", &Rescale::value, "The number in the other range"}}};
+  }
+
+  bool complete(const Reader& reader) const {
+    return from_lo != from_hi ||
+           decline(reader, "the range that rescale begins with is empty",
+                   "write for example " + spelled::either("rescale(\"z\", 0, 10, 1, 2)",
+                                                          "other numbers for the two ends of that range",
+                                                          "ombre.rescale(\"z\", 0, 10, 1, 2)"));
+  }
+
+  Field value(const Ask& ask) const {
+    Field share = (of(ask.p) - from_lo) / (from_hi - from_lo);
+    if (clamped) share = limited(share, 0, 1);
+    return share * (to_hi - to_lo) + to_lo;
+  }
+};
+
+TableMode mode_called(const Choice& mode) {
+  return mode == "step" ? TableMode::step : mode == "cubic" ? TableMode::cubic : TableMode::linear;
+}
+
+struct TableValue {
+  NumberTable rows;
+  Number a;
+  SharedList<Number> more;
+  Choice mode = "linear", outside = "clamp";
+  double otherwise = 0;
+  program::SourceField source;  // made when the node is made
+  std::vector<Interval> keys;   // of each input, from the least to the greatest
+  size_t given = 1;             // outputs
+
+  static Spec<TableValue> spec() {
+    return {
+        "table",
+        "values",
+        "What a table gives for one, two or three numbers: rows of keys, and then of values.",
+        {{"rows", &TableValue::rows,
+          "Rows such as [[0, 1], [10, 5]], or the path of a CSV file. Keys of one input ascend; of several there is "
+          "a row for each combination",
+          required()},
+         {"a", &TableValue::a, "The number for the first column", required()},
+         {"more", &TableValue::more, "One or two numbers for the columns after it"},
+         {"mode", &TableValue::mode,
+          "Between keys: linear, step (the value of the key below), or cubic (smooth, and monotone where the values "
+          "are; of one input)",
+          one_of({"linear", "step", "cubic"})},
+         {"outside", &TableValue::outside,
+          "Beyond the keys: clamp (the value of the nearest key), value (that of otherwise), or error (not a number "
+          "there, of which jobs warn)",
+          one_of({"clamp", "value", "error"})},
+         {"otherwise", &TableValue::otherwise, "The value beyond the keys with outside=\"value\""}},
+        no_inputs,
+        "cylinder(table([[-5, 2], [0, 4], [5, 3]], \"z\"), 10);",
+        {{"value", &TableValue::value, "Of the first column behind the keys"},
+         {"values", &TableValue::values, "Of the first three; 0 where there are fewer"}}};
+  }
+
+  bool complete(const Reader& reader) {
+    if (more.size() > 2) return decline(reader, "a table has at most three inputs", "give more one or two numbers");
+    const size_t inputs = 1 + more.size();
+    if (mode == "cubic" && inputs > 1)
+      return decline(reader, "cubic tables have one input",
+                     "write " + spelled::parameter("mode", "\"linear\"") + " for several");
+    const auto read = rows_of(reader);
+    if (!read) return false;
+    auto made = table_of(*read, inputs);
+    if (const auto* problem = std::get_if<TableProblem>(&made)) return decline(reader, problem->message, problem->hint);
+    auto& table = std::get<TableKeys>(made);
+    keys.clear();
+    for (const auto& axis : table.axes) keys.emplace_back(axis.front(), axis.back());
+    given = table.values.size();
+    source = make_table(std::move(table), mode_called(mode));
+    return true;
+  }
+
+  Field value(const Ask& ask) const { return column(ask, 0); }
+  VectorField values(const Ask& ask) const {
+    const auto at = [&](size_t n) { return n < given ? column(ask, n) : ask.p.constant(0); };
+    return {at(0), at(1), at(2)};
+  }
+
+ private:
+  std::optional<std::vector<std::vector<double>>> rows_of(const Reader& reader) {
+    if (rows.file.path.empty()) return rows.rows;
+    if (!reader.loader) {
+      decline(reader, "tables in files cannot be read here", "write its rows out");
+      return std::nullopt;
+    }
+    TableRequest request{rows.file};
+    const auto loaded = reader.loader->source(request, reader);
+    rows.file = request.file;
+    return loaded ? std::optional(*loaded) : std::nullopt;
+  }
+
+  Field column(const Ask& ask, size_t output) const {
+    const Point& p = ask.p;
+    std::vector<Field> inputs{a(p)};
+    for (const Number& number : more) inputs.push_back(number(p));
+    Field within = p.constant(1);
+    for (size_t n = 0; n < inputs.size(); ++n)
+      within = logical_and(within, logical_and(less_equal(p.constant(keys[n].lo), inputs[n]),
+                                               less_equal(inputs[n], p.constant(keys[n].hi))));
+    const auto input = [&](size_t n) { return n < inputs.size() ? inputs[n] : p.constant(0); };
+    const Field found = p.builder().source(source, static_cast<int>(output), input(0), input(1), input(2));
+    if (outside == "clamp") return found;
+    return select(within, found, p.constant(outside == "value" ? otherwise : std::nan("")));
+  }
+};
+
+}  // namespace
+
+void add_value_curves(Registry& registry) { registry.add<Ramp, Rescale, TableValue>(); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,254 @@
+// Values of the place: coordinates in frames, distances to solids, points and paths, values at other places.
+#include <cmath>
+
+#include "base/system/assert.h"
+#include "design/source_loader.h"
+#include "design/spec.h"
+#include "nodes/common/child_distance.h"
+#include "nodes/common/field_math.h"
+#include "nodes/common/solid_values.h"
+#include "nodes/values/value_families.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+using program::Op;
+
+bool refuse(const Reader& reader, const std::string& message, const Phrase& hint) {
+  reader.diagnostics.error(reader.where, message, hint);
+  return false;
+}
+
+struct Coordinates {
+  Vec3 origin, axis{0, 0, 1}, toward{1, 0, 0};
+  Affine frame_from_here;  // found when the node is made
+
+  static Spec<Coordinates> spec() {
+    return {"coordinates",
+            "values",
+            "Where a point is in a frame of its own: as a vector, around an axis, and around the origin.",
+            {{"origin", &Coordinates::origin, "Where the frame begins", unit::points},
+             {"axis", &Coordinates::axis, "The direction of its z"},
+             {"toward", &Coordinates::toward, "A direction that its x points to, as far as z lets it"}},
+            no_inputs,
+            "sphere(8, mix(\"red\", \"blue\", coordinates(axis=(0, 1, 1)).rho / 8));",
+            {{"place", &Coordinates::place, "x, y and z in the frame, mm"},
+             {"rho", &Coordinates::rho, "Distance from its z axis, mm"},
+             {"azimuth", &Coordinates::azimuth, "Angle around that axis from its x, degrees from -180 to 180",
+              Interval(-180, 180)},
+             {"height", &Coordinates::height, "z in the frame, mm"},
+             {"r", &Coordinates::r, "Distance from the origin, mm"},
+             {"polar", &Coordinates::polar, "Angle from the axis, degrees from 0 to 180", Interval(0, 180)}}};
+  }
+
+  bool complete(const Reader& reader) {
+    const double along = length(axis);
+    if (!(along > 0))
+      return refuse(reader, "the axis of coordinates has no direction",
+                    "write for example " + spelled::parameter("axis", "(0, 0, 1)"));
+    const Vec3 z = (1 / along) * axis;
+    Vec3 x = toward - dot(toward, z) * z;
+    if (!(length(x) > 1e-9 * length(toward)))  // any direction will do
+      x = std::abs(z.x) < 0.9 ? Vec3{1, 0, 0} - z.x * z : Vec3{0, 1, 0} - z.y * z;
+    x = (1 / length(x)) * x;
+    const Vec3 y = cross(z, x);
+    frame_from_here.rows = {x, y, z};
+    frame_from_here.offset = {-dot(x, origin), -dot(y, origin), -dot(z, origin)};
+    return true;
+  }
+
+  VectorField place(const Ask& ask) const {
+    const Point q = ask.p.mapped(frame_from_here);
+    return {q.x, q.y, q.z};
+  }
+  Field rho(const Ask& ask) const {
+    const Point q = ask.p.mapped(frame_from_here);
+    return length(q.x, q.y);
+  }
+  Field azimuth(const Ask& ask) const {
+    const Point q = ask.p.mapped(frame_from_here);
+    return limited(to_degrees(q.builder().apply(Op::atan2, q.y, q.x)), -180, 180);
+  }
+  Field height(const Ask& ask) const { return ask.p.mapped(frame_from_here).z; }
+  Field r(const Ask& ask) const {
+    const Point q = ask.p.mapped(frame_from_here);
+    return length(q.x, q.y, q.z);
+  }
+  Field polar(const Ask& ask) const {
+    const Point q = ask.p.mapped(frame_from_here);
+    return limited(to_degrees(q.builder().apply(Op::atan2, length(q.x, q.y), q.z)), 0, 180);
+  }
+};
+
+struct At {
+  NumberOrMaterial what;
+  Numbers3 place;
+
+  static Spec<At> spec() {
+    return {"at",
+            "values",
+            "A value as it is at another place, which may vary: values that are warped, repeated or projected.",
+            {{"value", &At::what, "A number, an expression, a material or a mixture", required()},
+             {"place", &At::place, "Where it is evaluated, mm", required(any("mm"))}},
+            no_inputs,
+            "sphere(8, mix(\"red\", \"blue\", at(noise(size=4), [\"x\", \"y\", \"z + 2*sin(x)\"])));",
+            {{"value", &At::value, "Of a number, the number there"},
+             {"mixture", &At::mixture, "Of a mixture, the mixture there"}}};
+  }
+
+  bool gives(size_t output) const { return output == (what.material.is_given() ? 1 : 0); }
+  // What it asks lies at other points than itself.
+  Traits traits() const { return {.most_evaluations_of_input = 2}; }
+
+  Field value(const Ask& ask) const { return what.number(moved(ask.p)); }
+  Composition mixture(const Ask& ask) const { return ask.in.composition_of(what.material, moved(ask.p)); }
+
+ private:
+  Point moved(const Point& p) const { return p.moved_to(place.x(p), place.y(p), place.z(p)); }
+};
+
+void warn_of_sign_alone(const Reader& reader, const SolidName& solid, const std::string& use) {
+  warn_of_implicit_distance(reader, *solid.node, use);
+}
+
+struct DistanceTo {
+  SolidName solid;
+  double step = 0.01;
+
+  static Spec<DistanceTo> spec() {
+    return {"distance_to",
+            "values",
+            "The distance to the surface of a solid, and where that is.",
+            {{"solid", &DistanceTo::solid,
+              "A solid, such as sphere(5), translate([4, 0, 0], cube(2)) or mesh(\"a.stl\")", required()},
+             {"step", &DistanceTo::step, "Over which differences for normal and nearest are taken", unit::positive_mm}},
+            no_inputs,
+            "sphere(8, mix(\"red\", \"blue\", distance_to(cube(6)) / 4));",
+            {{"distance", &DistanceTo::distance, "mm, negative inside"},
+             {"inside", &DistanceTo::is_inside, "1 inside and on the surface, else 0", Interval(0, 1)},
+             {"normal", &DistanceTo::normal, "The direction away from the solid, of length 1"},
+             {"nearest", &DistanceTo::nearest_place, "The place on the surface that is nearest, mm"}}};
+  }
+
+  bool complete(const Reader& reader) const {
+    warn_of_sign_alone(reader, solid, "distance_to");
+    return true;
+  }
+
+  Field distance(const Ask& ask) const { return ask.in.distance_to(solid, ask.p); }
+  Field is_inside(const Ask& ask) const { return ask.in.inside_of(solid, ask.p); }
+  VectorField normal(const Ask& ask) const { return normal_of(ask, solid, step); }
+  VectorField nearest_place(const Ask& ask) const {
+    const VectorField n = normal(ask);
+    const Field d = distance(ask);
+    return {ask.p.x - d * n.x, ask.p.y - d * n.y, ask.p.z - d * n.z};
+  }
+};
+
+struct Mask {
+  SolidName solid;
+  double width = 0;
+
+  static Spec<Mask> spec() {
+    return {"mask",
+            "values",
+            "1 inside of a solid and 0 outside, with a border that may be soft.",
+            {{"solid", &Mask::solid, "The solid", required()},
+             {"width", &Mask::width, "Of the border, over which the value falls from 1 to 0", unit::not_negative_mm}},
+            no_inputs,
+            "cube(12, mix(\"red\", \"blue\", mask(sphere(7), width=1)));",
+            {{"value", &Mask::value, "From 0 to 1", Interval(0, 1)}}};
+  }
+
+  bool complete(const Reader& reader) const {
+    if (width > 0) warn_of_sign_alone(reader, solid, "mask");
+    return true;
+  }
+
+  Field value(const Ask& ask) const {
+    if (width == 0) return ask.in.inside_of(solid, ask.p);
+    return limited(0.5 - ask.in.distance_to(solid, ask.p) / width, 0, 1);
+  }
+};
+
+Field channel_of(const program::SourceField& source, const char* channel, const Point& p) {
+  const int number = source->channel(channel);
+  ASSERT(number >= 0);
+  return p.builder().source(source, number, p.x, p.y, p.z);
+}
+
+bool load_path(PathRequest request, program::SourceField& source, const Reader& reader) {
+  if (!reader.loader) return refuse(reader, "distances to points cannot be made here", "");
+  source = reader.loader->source(request, reader);
+  return source != nullptr;
+}
+
+struct PointDistance {
+  Points points;
+  program::SourceField source;  // made when the node is made
+
+  static Spec<PointDistance> spec() {
+    return {"point_distance",
+            "values",
+            "The distance to the nearest of some points, and which one that is.",
+            {{"points", &PointDistance::points, "One point or more", required(unit::points)}},
+            no_inputs,
+            "sphere(8, mix(\"red\", \"blue\", point_distance([[4, 0, 0], [-4, 2, 0]]) / 6));",
+            {{"distance", &PointDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
+             {"index", &PointDistance::index, "The number of the nearest, from 0 on"}}};
+  }
+
+  bool complete(const Reader& reader) {
+    if (points.at.empty())
+      return refuse(reader, "point_distance needs a point",
+                    "write for example " + spelled::either("point_distance([[0, 0, 0]])", "\"points\": [[0, 0, 0]]",
+                                                           "ombre.point_distance([[0, 0, 0]])"));
+    return load_path({points.at, true}, source, reader);
+  }
+
+  Field distance(const Ask& ask) const { return channel_of(source, "distance", ask.p); }
+  Field index(const Ask& ask) const { return channel_of(source, "index", ask.p); }
+};
+
+struct PathDistance {
+  Points points;
+  bool closed = false;
+  program::SourceField source;  // made when the node is made
+
+  static Spec<PathDistance> spec() {
+    return {"path_distance",
+            "values",
+            "The distance to the straight lines from point to point, and how far along them the nearest place is.",
+            {{"points", &PathDistance::points, "Two points or more", required(unit::points)},
+             {"closed", &PathDistance::closed, "Does the last point lead back to the first?"}},
+            no_inputs,
+            "sphere(8, mix(\"red\", \"blue\", path_distance([[-6, 0, 0], [0, 5, 0], [6, 0, 0]]).along));",
+            {{"distance", &PathDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
+             {"along", &PathDistance::share_along, "By length, 0 at the first point, 1 at the end", Interval(0, 1)}}};
+  }
+
+  bool complete(const Reader& reader) {
+    std::vector<Vec3> way = points.at;
+    if (closed && !way.empty()) way.push_back(way.front());
+    double whole = 0;
+    for (size_t n = 1; n < way.size(); ++n) whole += length(way[n] - way[n - 1]);
+    if (!(whole > 0))
+      return refuse(reader, "path_distance needs two different points",
+                    "write for example " + spelled::either("path_distance([[0, 0, 0], [10, 0, 0]])",
+                                                           "\"points\": [[0, 0, 0], [10, 0, 0]]",
+                                                           "ombre.path_distance([[0, 0, 0], [10, 0, 0]])"));
+    return load_path({std::move(way), false}, source, reader);
+  }
+
+  Field distance(const Ask& ask) const { return channel_of(source, "distance", ask.p); }
+  Field share_along(const Ask& ask) const { return channel_of(source, "along", ask.p); }
+};
+
+}  // namespace
+
+void add_value_places(Registry& registry) {
+  registry.add<Coordinates, At, DistanceTo, Mask, PointDistance, PathDistance>();
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,24 @@
+// The attributes of a design, with the values that they have in it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/math/interval.h"
+#include "base/text/diagnostic.h"
+#include "design/design.h"
+
+namespace ombre::compile {
+
+struct SurveyedAttribute {
+  design::AttributeDeclaration declaration;
+  // Each of its numbers with the range found by samples on a coarse lattice; no range where no sample lies inside, or
+  // none is a number.
+  std::vector<std::pair<std::string, std::optional<Interval>>> ranges;
+};
+
+// Nothing, and diagnostics, when the design has no bounds or is too large.
+std::optional<std::vector<SurveyedAttribute>> survey_attributes(const design::Design& of, Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

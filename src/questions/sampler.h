@@ -1,0 +1,56 @@
+// What a design says at many points at once, in double precision.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/system/progress.h"
+#include "design/design.h"
+#include "program/program.h"
+#include "stages/job_stages.h"
+
+namespace ombre::compile {
+
+struct SampleQuery {
+  bool inside = false;    // 1 inside, 0 outside
+  bool distance = false;  // g, mm; negative inside
+  bool fractions = false;
+  bool parts = false;  // 1 in the part, 0 outside of it
+  std::vector<std::string> attributes;
+  bool checks = false;  // 1 where something is wrong with the composition; meant inside only
+};
+
+// Thread-safe. Values have the bits of the reference evaluator.
+class Sampler {
+ public:
+  // What one column of the answer is.
+  struct Column {
+    enum class Kind { inside, distance, fraction, attribute, part, check } kind;
+    std::string name;  // of the material, attribute or part; what the check tells
+    MaterialId material = 0;
+    SourceRange where = {};  // of the node that checks
+  };
+
+  // Columns in the order of the query; fractions by id. Nothing, and diagnostics, when the design is too large or
+  // has no such attribute.
+  static std::optional<Sampler> build(const design::Design& design, const SampleQuery& query, Diagnostics& diagnostics);
+
+  const std::vector<Column>& columns() const { return columns_; }
+
+  // columns[c][n] gets column c at points[n], mm. Fractions are meant inside only. On up to `threads` threads, 0 for
+  // all cores. Throws Cancelled.
+  void sample(std::span<const Vec3> points, std::span<double* const> columns, int threads = 0,
+              const StopFlag* stop = nullptr) const;
+
+ private:
+  void sample_block(std::span<const Vec3> points, const uint32_t* order, size_t count,
+                    std::span<double* const> columns) const;
+
+  program::Program program_;
+  JobStagesPtr stages_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace ombre::compile

@@ -1,0 +1,36 @@
+#include "solids/piece_attributes.h"
+
+#include <algorithm>
+
+namespace ombre::solids {
+
+bool do_match(const Attributes& a, const Attributes& b, Matching matching) {
+  switch (matching) {
+    case Matching::all:
+      return a == b;
+    case Matching::material:
+      return a.material == b.material && a.part == b.part;
+    case Matching::none:
+      break;
+  }
+  return true;
+}
+
+std::vector<PieceGroup> grouped(const Pieces& pieces, Matching matching) {
+  std::vector<PieceGroup> groups;
+  for (const Piece& piece : pieces) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const PieceGroup& g) { return do_match(g.attributes, piece.attributes, matching); });
+    if (group == groups.end()) {
+      groups.push_back({piece.attributes, {piece}});
+      continue;
+    }
+    const bool was_empty = std::all_of(group->members.begin(), group->members.end(),
+                                       [](const Piece& member) { return member.dimension() == 0; });
+    if (was_empty && piece.dimension() != 0) group->attributes = piece.attributes;
+    group->members.push_back(piece);
+  }
+  return groups;
+}
+
+}  // namespace ombre::solids

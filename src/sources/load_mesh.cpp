@@ -1,0 +1,213 @@
+// Mesh files of designs.
+#include "cad/solids.h"
+
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
+#include "formats/mesh/mesh_objects.h"
+#include "formats/packages/read_mesh.h"
+#include "import/fields/beam_source.h"
+#include "import/fields/combined_source.h"
+#include "import/surfaces/mesh_source.h"
+#include "sources/loading.h"
+#include "sources/mesh_closing.h"
+#include "sources/mesh_materials.h"
+#include "sources/result_border.h"
+
+namespace ombre::design {
+namespace {
+
+importing::InsideRule rule_of(std::string_view name) {
+  if (name == "parity") return importing::InsideRule::parity;
+  return name == "generalized" ? importing::InsideRule::generalized : importing::InsideRule::nonzero;
+}
+
+// False, and a diagnostic, when the file has no object of that name.
+bool choose_object(const std::string& path, formats::Mesh& mesh, const std::string& object, const Reader& reader) {
+  if (object.empty() || formats::keep_object(mesh, object)) return true;
+  constexpr size_t most_listed = 20;
+  std::vector<std::string> names = formats::object_names(mesh);
+  std::string hint = did_you_mean(object, names);
+  const bool is_cut = names.size() > most_listed;
+  if (is_cut) names.resize(most_listed);
+  if (hint.empty())
+    hint = names.empty() ? "its objects have no names: leave object out"
+                         : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
+  reader.diagnostics.error(Code::unknown_object, reader.where,
+                           "the mesh \"" + path + "\" has no object \"" + object + '"', hint,
+                           {{"file", path}, {"name", object}});
+  return false;
+}
+
+formats::Mesh moved(formats::Mesh mesh, const Affine& map) {
+  for (Vec3& p : mesh.vertices) p = map(p);
+  if (determinant(map) < 0)
+    for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
+program::SourceField source_of(const std::string& path, const formats::PlacedLattice& placed, Hash content,
+                               importing::InsideRule rule) {
+  program::SourceField beams = importing::make_beam_source(path, placed, content);
+  const formats::BeamLattice& lattice = *placed.lattice;
+  if (!lattice.clip) return beams;
+  program::SourceField clip =
+      importing::make_mesh_source(path, moved(*lattice.clip, placed.mm_from_lattice), content, {rule});
+  return importing::make_clipped_source(beams, clip, lattice.clipping == formats::LatticeClipping::inside);
+}
+
+// The triangles and the lattices of one material. `content` is the hash of what they are.
+MeshPart part_of(const std::string& path, const std::string& material, formats::Mesh mesh, Hash content,
+                 importing::InsideRule rule) {
+  std::vector<program::SourceField> sources;
+  const std::vector<formats::PlacedLattice> lattices = std::move(mesh.lattices);
+  if (!mesh.triangles.empty()) sources.push_back(importing::make_mesh_source(path, std::move(mesh), content, {rule}));
+  for (size_t n = 0; n < lattices.size(); ++n)
+    sources.push_back(source_of(path, lattices[n], hash_bytes(content.hex() + " lattice " + std::to_string(n)), rule));
+  return {material, importing::make_union_source(std::move(sources)), lattices.empty()};
+}
+
+std::optional<std::vector<sources::MaterialMesh>> cut_by_use(const std::string& path, formats::Mesh mesh,
+                                                             const MeshUse& use, const Reader& reader) {
+  if (!choose_object(path, mesh, use.object, reader)) return std::nullopt;
+  if (!sources::make_closed(sources::mesh_called(path), mesh, use.inside.text(), reader)) return std::nullopt;
+  if (!sources::close_clips(path, mesh, use.inside.text(), reader)) return std::nullopt;
+  std::vector<sources::MaterialMesh> parts;
+  if (use.materials == "one") {
+    parts.push_back({use.material, std::move(mesh)});
+    return parts;
+  }
+  auto found = sources::by_material(path, mesh, use, reader);
+  if (!found) return std::nullopt;
+  for (const sources::MaterialMesh& part : *found)
+    if (!sources::check_part_closed(path, part, use.inside.text(), reader)) return std::nullopt;
+  return found;
+}
+
+// An estimate: the mesh, and the trees for distances and for what is inside.
+size_t bytes_of(const formats::Mesh& mesh) {
+  constexpr size_t per_vertex = 24, per_triangle = 250, per_beam = 300;
+  size_t bytes = per_vertex * mesh.vertices.size() + per_triangle * mesh.triangles.size();
+  for (const formats::PlacedLattice& placed : mesh.lattices) bytes += per_beam * placed.lattice->beams.size();
+  return bytes;
+}
+
+using MadeParts = sources::Loading::Made<std::vector<MeshPart>>;
+
+// `all` is the hash of what the mesh was made from.
+MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all, const MeshUse& use,
+                   const Reader& reader) {
+  auto meshes = cut_by_use(path, std::move(mesh), use, reader);
+  if (!meshes) return {};
+  const Hash content = use.object.empty() ? all : hash_bytes(all.hex() + use.object);
+  auto parts = std::make_shared<std::vector<MeshPart>>();
+  size_t size = 0;
+  for (sources::MaterialMesh& part : *meshes) {
+    size += bytes_of(part.mesh);
+    const std::string material = use.materials == "one" ? "" : part.material.material->name;
+    const Hash own = material.empty() ? content : hash_bytes(content.hex() + material);
+    parts->push_back(part_of(path, material, std::move(part.mesh), own, rule_of(use.inside.text())));
+  }
+  if (parts->front().source->channel("distance") >= 0) return {std::move(parts), size};
+  reader.diagnostics.error(Code::library_missing, reader.where,
+                           "meshes are not available: this build has no library for their distances");
+  return {};
+}
+
+// The file of a request, and the numbers of a grid where they are in another file.
+struct MeshFiles {
+  std::string_view bytes;
+  std::optional<formats::ResultsFile> numbers;
+  Hash content;  // of both
+};
+
+MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const Reader& reader) {
+  const std::string& path = request.file.path;
+  auto mesh = sources::has_elements(path)
+                  ? sources::result_border(path, files.bytes, files.numbers, request.deform, reader.diagnostics)
+                  : formats::read_mesh(path, files.bytes, reader.diagnostics);
+  const Hash content =
+      request.deform == 0 ? files.content : sources::Key("deformed").add(files.content).add(request.deform).hash();
+  if (mesh) return parts_of(path, std::move(*mesh), content, request.use, reader);
+  reader.diagnostics.note(reader.where, "the file is used here");
+  return {};
+}
+
+// All solids as one mesh, each a group.
+formats::Mesh joined(const std::vector<MadeSolid>& solids) {
+  formats::Mesh mesh;
+  for (const MadeSolid& solid : solids) {
+    if (solid.triangles.empty()) continue;
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    formats::MeshGroup group{solid.part, static_cast<uint32_t>(mesh.triangles.size()),
+                             static_cast<uint32_t>(solid.triangles.size())};
+    group.material = solid.material;
+    group.object = solid.part;
+    group.colour = solid.colour;
+    mesh.groups.push_back(std::move(group));
+    mesh.vertices.insert(mesh.vertices.end(), solid.points.begin(), solid.points.end());
+    for (const auto& [a, b, c] : solid.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+  return mesh;
+}
+
+Hash content_of(const formats::Mesh& mesh) {
+  const auto bytes = [](const auto& list) {
+    return std::string_view(reinterpret_cast<const char*>(list.data()), list.size() * sizeof list[0]);
+  };
+  sources::Key key("solids");
+  key.add(bytes(mesh.vertices)).add(bytes(mesh.triangles));
+  for (const formats::MeshGroup& group : mesh.groups) {
+    key.add(group.name).add(group.material).add(static_cast<double>(group.triangle_count));
+    if (group.colour) key.add(bytes(*group.colour));
+  }
+  return key.hash();
+}
+
+}  // namespace
+
+std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading& loading) {
+  if (!loading.find(file)) return nullptr;
+  if (cad::is_cad_file(file.path)) {
+    loading.reader().diagnostics.error(Code::file_kind, loading.reader().where,
+                                       "\"" + file.path + "\" is no mesh but a CAD file", "write cad in place of mesh");
+    return nullptr;
+  }
+  if (deform != 0 && !sources::has_elements(file.path)) {
+    loading.reader().diagnostics.error(loading.reader().where,
+                                       "\"" + file.path + "\" has no results that could deform it",
+                                       "leave deform out, or take a .vtu, .xdmf or .frd file");
+    return nullptr;
+  }
+  FilePath numbers{sources::numbers_beside(file.path), {}};
+  const bool has_numbers = !numbers.path.empty();
+  if (!loading.read_content(file) || (has_numbers && !loading.read_content(numbers))) return nullptr;
+  const Hash content =
+      has_numbers ? sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash() : file.content;
+  sources::Key key("mesh");
+  key.add(content).add(deform).add(ending_of(file.path)).add(use.inside.text());
+  sources::add_use(key, use, loading.reader());
+  return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
+    const auto bytes = loading.bytes(file);
+    const auto beside = has_numbers ? loading.bytes(numbers) : nullptr;
+    MeshFiles files{*bytes, std::nullopt, content};
+    if (beside) files.numbers = formats::ResultsFile{numbers.path, *beside};
+    return read_parts(*this, files, reader);
+  });
+}
+
+std::shared_ptr<const std::vector<MeshPart>> SolidsRequest::load(sources::Loading& loading) {
+  const Reader& reader = loading.reader();
+  formats::Mesh mesh = joined(*solids);
+  if (mesh.triangles.empty()) {
+    reader.diagnostics.error(Code::file_content, reader.where, '"' + name + "\" gives no solids", {}, {{"file", name}});
+    return nullptr;
+  }
+  const Hash content = content_of(mesh);
+  sources::Key key("made solids");
+  key.add(content).add(use.inside.text());
+  sources::add_use(key, use, reader);
+  return loading.cached<Result>(key.hash(), name,
+                                [&](const Reader& own) { return parts_of(name, std::move(mesh), content, use, own); });
+}
+
+}  // namespace ombre::design

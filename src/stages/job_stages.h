@@ -1,0 +1,66 @@
+// The stages of a job: their sources, what they share, and the order in which they are computed.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <tuple>
+#include <vector>
+
+#include "stages/prepared_source.h"
+
+namespace ombre::compile {
+
+// Is a sweep possible over cells of this size?
+bool is_sensible_sweep(const Box& bounds, Vec3 cell);
+std::string too_many_cells(Vec3 cell);
+
+// Thread-safe.
+class JobStages final : public design::StageHost {
+ public:
+  explicit JobStages(MakeStageInput make_input);
+
+  program::SourceField source(const design::StagePtr& stage, const design::StagePlace& place) override;
+
+  // Sets the threads, memory and stop flag that halo stages use from now on. Where values are kept stays as it is, if
+  // the loan does not say.
+  void lend(const StageLoan& loan);
+  // Throws Error when a stage needs more memory than the job may take.
+  void check_memory(const StageLoan& loan) const;
+  // Lends, and computes those stages that are computed as a whole, in the order in which they read each other. Does
+  // nothing where it is done. Throws Error when memory does not suffice, and Cancelled.
+  void prepare(const StageLoan& loan);
+  bool is_prepared() const;
+  // Makes stages that are not prepared 0 everywhere, for estimates.
+  void leave_out_unprepared();
+  // The most that stages hold while the job goes through its layers on so many threads.
+  size_t memory_bytes(const StageLoan& loan) const;
+  BlockCache::Counts block_counts() const { return shared_->blocks.counts(); }
+
+ private:
+  using Key = std::tuple<const design::Stage*, std::array<double, 3>, std::array<double, 3>>;
+  struct Made {
+    design::StagePtr stage;  // whose address is in the key
+    std::weak_ptr<const program::FieldSource> source;
+  };
+  program::SourceField make(const design::StagePtr& stage, const design::StagePlace& place,
+                            const design::StageLattice& lattice);
+  std::vector<std::shared_ptr<const PreparedSource>> prepared() const;
+  void keep(const program::SourceField& source);
+  double block_bytes(const StageLoan& loan) const;
+  double kept_bytes() const;
+
+  MakeStageInput make_input_;
+  std::shared_ptr<SharedStageWork> shared_;
+  mutable std::mutex mutex_;
+  std::map<Key, Made> sources_;
+  // The stages that are computed as a whole; one that another reads comes before it. A job may ask for one and not need
+  // it.
+  std::vector<std::weak_ptr<const PreparedSource>> prepared_;
+  std::vector<program::SourceField> kept_;  // whose values are worth keeping
+  double halo_bytes_ = 0;                   // of one thread that computes a block
+  bool has_halos_ = false;
+};
+using JobStagesPtr = std::shared_ptr<JobStages>;
+
+}  // namespace ombre::compile

@@ -1,0 +1,30 @@
+// Where edges of cells cross the borders of regions, and how the borders lie there.
+#pragma once
+
+#include <vector>
+
+#include "base/system/progress.h"
+#include "surface/cells/crossed_edges.h"
+#include "surface/cells/partition.h"
+
+namespace ombre::surface {
+
+struct Crossing {
+  static constexpr uint32_t none = ~uint32_t{0};
+  CrossedEdge edge;
+  Vec3 at;                 // mm
+  Vec3 normal;             // unit; from the edge's region `from` into region `to`
+  uint32_t before = none;  // its number before the last cut, if its edge was crossed already
+};
+
+// All crossings, in order of their leaves, then axes. Throws Cancelled.
+std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads,
+                                     Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+// The same after the tree grew; what was found before is taken over. `leaves` are the numbers that leaves have now.
+std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,
+                                                  const std::vector<Crossing>& before,
+                                                  const std::vector<uint32_t>& leaves, int threads,
+                                                  const StopFlag* stop = nullptr);
+
+}  // namespace ombre::surface

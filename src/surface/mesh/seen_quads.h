@@ -1,0 +1,36 @@
+// Which quads are unchanged since they were last checked, by hashes of their shapes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "surface/cells/crossings.h"
+
+namespace ombre::surface {
+
+class SeenQuads {
+ public:
+  // Those whose hash has changed, in order; from now on they count as seen.
+  std::vector<uint32_t> see(const std::vector<uint64_t>& shape_hashes) {
+    std::vector<uint32_t> different;
+    seen_.resize(shape_hashes.size());
+    for (uint32_t n = 0; n < shape_hashes.size(); ++n)
+      if (seen_[n] != shape_hashes[n]) different.push_back(n);
+    seen_ = shape_hashes;
+    return different;
+  }
+  void forget(uint32_t quad) { seen_[quad] = 0; }
+
+  // After a cut the quads around crossings have other numbers.
+  void renumber(const std::vector<Crossing>& crossings) {
+    std::vector<uint64_t> seen(crossings.size());
+    for (size_t n = 0; n < crossings.size(); ++n)
+      if (crossings[n].before != Crossing::none) seen[n] = seen_[crossings[n].before];
+    seen_ = std::move(seen);
+  }
+
+ private:
+  std::vector<uint64_t> seen_;
+};
+
+}  // namespace ombre::surface
