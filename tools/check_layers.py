@@ -106,7 +106,7 @@ def circle_problems(room, paths):
 def crowd_problems(paths):
     folders = collections.Counter(path.parent for path in paths)
     for folder, count in folders.items():
-        if count > rules["crowded"].get(name_of(folder), MOST_FILES):
+        if count > MOST_FILES:
             yield f"{folder.relative_to(root)} has {count} files, at most {MOST_FILES} are a room"
 
 

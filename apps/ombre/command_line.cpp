@@ -5,15 +5,25 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <string_view>
 #include <vector>
 
 #include "base/text/error.h"
+#include "export/output_file.h"
+#include "formats/containers/file.h"
+#include "jobs/all_jobs.h"
+#include "jobs/common/overwrite.h"
+#include "jobs/common/run_reported.h"
+#include "jobs/saved_job.h"
+#include "load/load.h"
+#include "ombre/command_options.h"
 #include "ombre/commands.h"
 #include "ombre/completion.h"
 #include "ombre/interrupt.h"
 #include "ombre/suggest.h"
+#include "options/members.h"
 
 namespace ombre::cli {
 namespace {
@@ -26,25 +36,56 @@ constexpr const char* program_footer =
     "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
     "3 a check failed, 130 interrupted.\n";
 
-// Adds what only the options of jobs say of their values.
-void add_kind(const Command& command, DataMembers& described) {
-  for (const options::Option& option : command.options) {
-    if (option.name() != *described.front().second.string()) continue;
-    DataList choices(option.choices.begin(), option.choices.end());
-    described.emplace_back("kind", option.kind);
-    described.emplace_back("choices", std::move(choices));
-  }
+// A job on the command line, whose options are set while the arguments are read.
+struct JobCommand {
+  CLI::App* app = nullptr;
+  const jobs::JobKind* kind = nullptr;
+  std::shared_ptr<void> job;
+  std::shared_ptr<std::string> saved;  // the file that the job is to be saved in; empty: it is run
+};
+
+JobCommand add_job(CLI::App& program, const jobs::JobKind& kind, OutputOptions& output) {
+  JobCommand command{program.add_subcommand(kind.name, kind.help), &kind, kind.make(), std::make_shared<std::string>()};
+  add_options(*command.app, kind.options, command.job.get());
+  command.app->add_option("--save-job", *command.saved, "Write the job to a file, which ombre job runs, and do nothing")
+      ->type_name("FILE");
+  add_output_options(*command.app, output);
+  if (!kind.footer.empty()) command.app->footer(kind.footer);
+  return command;
 }
 
-DataList described_options(const Command& command) {
+// The options that were given, as their texts.
+DataMembers given_options(const CLI::App& app, const jobs::JobKind& kind) {
+  DataMembers given;
+  for (const options::Option& option : kind.options) {
+    const CLI::Option* known = app.get_option(option.name());
+    if (known->count() == 0) continue;
+    const std::vector<std::string> texts = known->results();
+    const std::string name = options::member_name(option.name());
+    if (option.takes == options::Takes::nothing)
+      given.emplace_back(name, true);
+    else if (option.takes == options::Takes::several)
+      given.emplace_back(name, DataList(texts.begin(), texts.end()));
+    else
+      given.emplace_back(name, texts.front());
+  }
+  return given;
+}
+
+DataList described_options(const CLI::App& app, const jobs::JobKind* kind) {
   DataList list;
-  for (const CLI::Option* option : command.app->get_options()) {
+  for (const CLI::Option* option : app.get_options()) {
     DataMembers described{{"name", option->get_name()},
                           {"help", option->get_description()},
                           {"type", option->get_type_name()},
                           {"is_flag", option->get_items_expected_max() == 0},
                           {"is_list", option->get_items_expected_max() > 1}};
-    add_kind(command, described);
+    const auto row = kind ? std::ranges::find(kind->options, option->get_name(), &options::Option::name)
+                          : std::vector<options::Option>::const_iterator();
+    if (kind && row != kind->options.end()) {  // what only the options of jobs say of their values
+      described.emplace_back("kind", row->kind);
+      described.emplace_back("choices", DataList(row->choices.begin(), row->choices.end()));
+    }
     list.emplace_back(std::move(described));
   }
   return list;
@@ -56,13 +97,12 @@ class CommandLine {
     program_.footer(program_footer);
     program_.set_version_flag("--version", "ombre " OMBRE_VERSION);
     program_.require_subcommand(0, 1);
-    commands_ = {add_slice(program_, output_),    add_layer(program_, output_),      add_render(program_, output_),
-                 add_voxels(program_, output_),   add_mesh(program_, output_),       add_contours(program_, output_),
-                 add_fea(program_, output_),      add_homogenise(program_, output_), add_sheet(program_, output_),
-                 add_probe(program_, output_),    add_info(program_, output_),       add_nodes(program_, output_),
-                 add_printers(program_, output_), add_materials(program_, output_),  add_scad(program_, output_),
-                 add_studio(program_, output_),   add_bundle(program_, output_),     add_optimise(program_, output_),
-                 add_codes(program_, output_),    add_completion(program_)};
+    for (const jobs::JobKind& kind : jobs::all_jobs()) jobs_.push_back(add_job(program_, kind, output_));
+    commands_ = {add_studio(program_, output_), add_commands(program_, output_), add_completion(program_)};
+    job_ = program_.add_subcommand("job", "Run a job that --save-job saved");
+    job_->add_option("file", saved_job_, "The saved job")->required()->type_name("FILE");
+    add_output_options(*job_, output_);
+    job_->footer("Examples:\n  ombre mesh part.vcad --tolerance 0.01 --save-job part.json\n  ombre job part.json\n");
     // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
     program_.add_subcommand("run",
                             "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");
@@ -70,10 +110,12 @@ class CommandLine {
 
   Data describe() const {
     DataList list;
-    for (const Command& command : commands_)
-      list.emplace_back(DataMembers{{"name", command.app->get_name()},
-                                    {"help", command.app->get_description()},
-                                    {"options", described_options(command)}});
+    const auto add = [&](const CLI::App& app, const jobs::JobKind* kind) {
+      list.emplace_back(DataMembers{
+          {"name", app.get_name()}, {"help", app.get_description()}, {"options", described_options(app, kind)}});
+    };
+    for (const JobCommand& job : jobs_) add(*job.app, job.kind);
+    for (const Command& command : commands_) add(*command.app, nullptr);
     return list;
   }
 
@@ -91,42 +133,69 @@ class CommandLine {
       return program_.exit(success);
     } catch (const CLI::ParseError& error) {
       return wrong(explain(program_, error));
-    } catch (const WrongArgument& error) {
+    } catch (const options::WrongValue& error) {
       return wrong(error.message(), error.code());
     }
     if (!host_.on_event)
       console_.set_voice(output_.json ? Voice::programs : output_.quiet ? Voice::quiet : Voice::people);
+    for (const JobCommand& job : jobs_)
+      if (program_.got_subcommand(job.app)) return run([&](const StopFlag& stop) { return run_job(job, stop); });
+    if (program_.got_subcommand(job_)) return run([&](const StopFlag& stop) { return run_saved(stop); });
     for (const Command& command : commands_)
-      if (program_.got_subcommand(command.app)) return run(command);
+      if (program_.got_subcommand(command.app))
+        return run([&](const StopFlag& stop) {
+          sources::SourceCache own;
+          CommandSession session{console_, stop, host_.cache ? *host_.cache : own};
+          return command.run(session);
+        });
     console_.print(program_.help());
-    return wrong_input;
+    return jobs::wrong_input;
   }
 
  private:
-  int run(const Command& command) {
-    if (host_.stop) return run(command, *host_.stop);
-    const InterruptGuard interrupt;
-    return run(command, interrupt.flag());
+  using Work = std::function<int(const StopFlag&)>;
+
+  int run_job(const JobCommand& job, const StopFlag& stop) {
+    if (!job.saved->empty()) return save_job(job);
+    return in_session(stop, [&](jobs::Session& session) { return job.kind->run(job.job.get(), session); });
   }
 
-  int run(const Command& command, const StopFlag& stop) {
+  int save_job(const JobCommand& job) const {
+    const CLI::Option* force = job.app->get_option_no_throw("--force");
+    jobs::refuse_to_overwrite(*job.saved, force && force->count() > 0);
+    exporting::write_file(*job.saved,
+                          jobs::saved_text({job.kind, given_options(*job.app, *job.kind)}, "ombre " OMBRE_VERSION));
+    console_.say("the job is in " + *job.saved + "; ombre job " + *job.saved + " runs it");
+    console_.event("saved", {{"file", *job.saved}});
+    return jobs::done;
+  }
+
+  int run_saved(const StopFlag& stop) {
+    Diagnostics diagnostics;
+    const auto job = jobs::read_saved_job(make_source(saved_job_, formats::read_file(saved_job_)), diagnostics);
+    console_.diagnose(diagnostics);
+    if (!job) return jobs::wrong_input;
+    return in_session(stop, [&](jobs::Session& session) { return jobs::run_saved_job(*job, session); });
+  }
+
+  int in_session(const StopFlag& stop, const std::function<int(jobs::Session&)>& work) {
     sources::SourceCache own;
-    Session session{console_, stop, host_.load ? host_.load : compile::load_design, host_.cache ? *host_.cache : own};
-    try {
-      return command.run(session);
-    } catch (const WrongArgument& error) {
-      return wrong(error.message(), error.code());
-    } catch (const Cancelled&) {
-      console_.say("interrupted");
-      return interrupted;
-    } catch (const Error& error) {
-      console_.error(error.code(), error.message(), error.values());
-      return failed;
-    } catch (const std::bad_alloc&) {
-      console_.error(Code::memory, "not enough memory; try fewer " + spelled::option("--threads") + ", or a smaller " +
-                                       spelled::option("--memory"));
-      return failed;
-    }
+    jobs::Session session{console_, stop, host_.load ? host_.load : compile::load_design,
+                          host_.cache ? *host_.cache : own, "ombre " OMBRE_VERSION};
+    if (!host_.stop) session.quit_at_once = [] { return std::make_shared<QuitAtOnce>(); };
+    return work(session);
+  }
+
+  int run(const Work& work) {
+    if (host_.stop) return run(work, *host_.stop);
+    const InterruptGuard interrupt;
+    return run(work, interrupt.flag());
+  }
+
+  int run(const Work& work, const StopFlag& stop) {
+    const int code = jobs::run_reported(console_, [&] { return work(stop); });
+    if (code == jobs::interrupted) console_.say("interrupted");
+    return code;
   }
 
   // Prints a word and what it is on each line, which the scripts of `ombre completion` read.
@@ -135,18 +204,21 @@ class CommandLine {
     for (const Completion& c : completions(program_, words))
       text += c.word + (c.description.empty() ? "" : '\t' + c.description) + '\n';
     console_.print(text);
-    return done;
+    return jobs::done;
   }
 
   int wrong(const Phrase& problem, Code code = Code::option) {
     console_.error(code, problem);
-    return wrong_input;
+    return jobs::wrong_input;
   }
 
   CLI::App program_;
   const Host& host_;
   Console console_;
   OutputOptions output_;
+  std::vector<JobCommand> jobs_;
+  CLI::App* job_ = nullptr;
+  std::string saved_job_;
   std::vector<Command> commands_;
 };
 
@@ -167,7 +239,7 @@ int run(int argc, const char* const* argv, const Host& host) {
     return CommandLine(host).run(argc, argv);
   } catch (const std::exception& error) {
     Console(host).error(Code::machine, error.what());
-    return failed;
+    return jobs::failed;
   }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/text/data.h"
-#include "ombre/exit_codes.h"
+#include "jobs/common/exit_codes.h"
 #include "ombre/host.h"
 
 namespace ombre::cli {

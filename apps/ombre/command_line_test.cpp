@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "base/system/temporary_folder.h"
 #include "base/text/text.h"
+#include "export/output_file.h"
+#include "formats/containers/file.h"
+#include "jobs/slice/slice_report.h"
 #include "ombre/arguments.h"
 #include "ombre/commands.h"
 #include "ombre/progress_line.h"
-#include "ombre/slice_report.h"
 
 namespace ombre::cli {
 namespace {
@@ -29,7 +34,7 @@ Outcome run_with(std::vector<const char*> arguments) {
 
 void expect_wrong(const std::vector<const char*>& arguments, const std::string& part) {
   const Outcome outcome = run_with(arguments);
-  EXPECT_EQ(outcome.code, wrong_input);
+  EXPECT_EQ(outcome.code, jobs::wrong_input);
   EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
   EXPECT_EQ(outcome.out, "");
 }
@@ -39,7 +44,7 @@ void expect_wrong(const std::vector<const char*>& arguments, const std::string& 
 TEST(CommandLine, HelpAndVersionAreData) {
   EXPECT_EQ(run_with({"--version"}).out.substr(0, 6), "ombre ");
   const Outcome help = run_with({"slice", "--help"});
-  EXPECT_EQ(help.code, done);
+  EXPECT_EQ(help.code, jobs::done);
   EXPECT_NE(help.out.find("--layer-height"), std::string::npos);
   EXPECT_EQ(help.err, "");
 }
@@ -103,7 +108,7 @@ TEST(CommandLine, PicturesSayWhatToWrite) {
 
 TEST(CommandLine, MissingFilesAreFailuresOfTheMachine) {
   const Outcome outcome = run_with({"sheet", "/nowhere/at/all"});
-  EXPECT_EQ(outcome.code, failed);
+  EXPECT_EQ(outcome.code, jobs::failed);
   EXPECT_NE(outcome.err.find("/nowhere/at/all"), std::string::npos);
 }
 
@@ -121,15 +126,16 @@ TEST(Arguments, LengthsAreExact) {
   EXPECT_FALSE(parse_dpi("600")[2]);
   EXPECT_EQ(parse_layer_height("0.014"), (Pitch{7, 500}));
   for (const char* wrong : {"", "0", "-1", "1,2", "1,2,3,4", "1,,2", "1 mm"})
-    EXPECT_THROW(parse_voxel(wrong), WrongArgument) << wrong;
-  EXPECT_THROW(parse_dpi("1,2,3,4"), WrongArgument);
+    EXPECT_THROW(parse_voxel(wrong), options::WrongValue) << wrong;
+  EXPECT_THROW(parse_dpi("1,2,3,4"), options::WrongValue);
 }
 
 TEST(Arguments, MemoryHasUnits) {
   EXPECT_EQ(parse_memory("2G"), size_t{2} << 30);
   EXPECT_EQ(parse_memory("512 MiB"), size_t{512} << 20);
   EXPECT_EQ(parse_memory("1.5gb"), size_t{3} << 29);
-  for (const char* wrong : {"", "G", "2X", "1k", "-1G"}) EXPECT_THROW(parse_memory(wrong), WrongArgument) << wrong;
+  for (const char* wrong : {"", "G", "2X", "1k", "-1G"})
+    EXPECT_THROW(parse_memory(wrong), options::WrongValue) << wrong;
 }
 
 TEST(ProgressLine, SaysShareRateAndTimeLeft) {
@@ -138,9 +144,43 @@ TEST(ProgressLine, SaysShareRateAndTimeLeft) {
   EXPECT_EQ(progress_text({0.25, 0, 61, true}), " 25%  checking what is there  1:01 left");
   EXPECT_EQ(progress_text({0.4, 0, 12, false, "supports"}), " 40%  supports  0:12 left");
   EXPECT_EQ(progress_bar({0.5, 0, -1}), "[===============>              ]  50%");
-  EXPECT_EQ(duration_text(3723.4), "1:02:03");
-  EXPECT_EQ(rate_text(2.5e9), "2.5 G voxels/s");
+  EXPECT_EQ(jobs::duration_text(3723.4), "1:02:03");
+  EXPECT_EQ(jobs::rate_text(2.5e9), "2.5 G voxels/s");
   EXPECT_EQ(format_bytes(1536), "1.5 KiB");
+}
+
+TEST(SavedJobs, RunAsTheyWouldHave) {
+  const TemporaryFolder folder;
+  const std::string design = folder.file("part.vcad"), direct = folder.file("direct.off"),
+                    made = folder.file("made.off"), job = folder.file("part.json");
+  exporting::write_file(design, "sphere(5, red);\n");
+  const std::vector<const char*> options{"mesh", design.c_str(), "--tolerance", "0.1", "--keep-all", "-o"};
+  const auto with = [&](std::vector<const char*> more) {
+    more.insert(more.begin(), options.begin(), options.end());
+    return more;
+  };
+  EXPECT_EQ(run_with(with({direct.c_str()})).code, jobs::done);
+  EXPECT_EQ(run_with(with({made.c_str(), "--save-job", job.c_str()})).code, jobs::done);
+  EXPECT_FALSE(std::filesystem::exists(made));
+  EXPECT_EQ(run_with({"job", job.c_str()}).code, jobs::done);
+  EXPECT_EQ(formats::read_file(made), formats::read_file(direct));
+  EXPECT_NE(run_with(with({made.c_str(), "--save-job", job.c_str()})).err.find("exists already"), std::string::npos);
+}
+
+TEST(SavedJobs, SayWhatIsWrong) {
+  const TemporaryFolder folder;
+  const std::string job = folder.file("job.json");
+  const auto wrong = [&](const std::string& text, const std::string& part) {
+    exporting::write_file(job, text);
+    expect_wrong({"job", job.c_str()}, part);
+  };
+  const std::string begin = R"({"format": "ombre job, version 1", )";
+  wrong("{}", "this is no job");
+  wrong("[1", "job.json:1:");
+  wrong(begin + R"("kind": "mehs", "options": {}})", "did you mean \"mesh\"?");
+  wrong(begin + R"("options": {}})", "does not say its kind");
+  wrong(begin + R"("kind": "mesh", "options": {"design": "a.vcad", "tolerence": "1"}})", "did you mean \"tolerance\"?");
+  wrong(begin + R"("kind": "mesh", "options": {"tolerance": 1}})", "\"design\" is required");
 }
 
 }  // namespace ombre::cli

@@ -27,6 +27,10 @@ void add_options(CLI::App& app, const std::vector<options::Option>& options, voi
     if (!option.choices.empty()) made->check(one_of(option.choices));
     if (option.limits) made->check(within(*option.limits));
     if (option.is_required) made->required();
+  }
+  // Once all are there: they may need those behind them.
+  for (const options::Option& option : options) {
+    CLI::Option* made = app.get_option(option.name());
     for (const std::string& name : option.needs) made->needs(app.get_option(name));
     for (const std::string& name : option.excludes) made->excludes(app.get_option(name));
   }

@@ -19,9 +19,9 @@ Command add_completion(CLI::App& program) {
       "Examples:\n  source <(ombre completion bash)    in ~/.bashrc\n"
       "  source <(ombre completion zsh)     in ~/.zshrc, after compinit\n"
       "  ombre completion fish | source     in ~/.config/fish/config.fish\n");
-  return {app, [shell](Session& session) {
+  return {app, [shell](CommandSession& session) {
             session.console.print(completion_script(*shell));
-            return done;
+            return jobs::done;
           }};
 }
 

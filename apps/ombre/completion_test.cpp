@@ -16,7 +16,7 @@ namespace {
 std::vector<std::string> lines_for(std::vector<const char*> words) {
   words.insert(words.begin(), {"ombre", "completion", "words"});
   testing::internal::CaptureStdout();
-  EXPECT_EQ(run(static_cast<int>(words.size()), words.data()), done);
+  EXPECT_EQ(run(static_cast<int>(words.size()), words.data()), jobs::done);
   std::vector<std::string> lines;
   std::istringstream text(testing::internal::GetCapturedStdout());
   for (std::string line; std::getline(text, line);) lines.push_back(line);

@@ -10,7 +10,7 @@
 
 #include "base/text/error.h"
 #include "base/text/json.h"
-#include "ombre/host.h"
+#include "ombre/progress_line.h"
 
 namespace ombre::cli {
 namespace {
@@ -37,30 +37,24 @@ std::string labelled(const std::string& severity, const char* colour, bool has_c
   return "ombre: " + (has_colour ? colour + severity + "\033[0m" : severity) + ": ";
 }
 
-DataMembers message_members(std::string_view severity, const std::string& message, Code code,
-                            const CodeValues& values) {
-  DataMembers named;
-  for (const auto& [name, value] : values) named.emplace_back(name, value);
-  return {{"severity", std::string(severity)},
-          {"message", message},
-          {"code", std::string(name_of(code))},
-          {"values", Data(std::move(named))}};
-}
+class Silence final : public jobs::ShownProgress {
+ public:
+  void update(const HowFar&) override {}
+  void finish() override {}
+};
 
 }  // namespace
 
 Console::Console(const Host& host)
     : voice_(host.on_event ? Voice::programs : Voice::people),
       front_end_(host.front_end),
-      on_event_(host.on_event),
-      on_data_(host.on_data) {}
+      data_(
+          host.front_end,
+          host.on_event ? host.on_event : [](const DataMembers& event) { put_data(print_json_line(event) + '\n'); },
+          host.on_data ? host.on_data : put_data) {}
 
-void Console::print(const std::string& text) const { on_data_ ? on_data_(text) : put_data(text); }
-
-void Console::event(const std::string& event_name, DataMembers members) const {
-  if (voice_ != Voice::programs) return;
-  members.emplace(members.begin(), "event", event_name);
-  on_event_ ? on_event_(members) : put_data(print_json_line(members) + '\n');
+void Console::event(const std::string& name, DataMembers members) const {
+  if (wants_data()) data_.event(name, std::move(members));
 }
 
 void Console::say(const Phrase& text) const {
@@ -68,35 +62,27 @@ void Console::say(const Phrase& text) const {
 }
 
 void Console::warn(const Phrase& message, Code code) const {
-  const std::string text = message.in({{}, front_end_});
-  if (voice_ == Voice::programs) return event("message", message_members("warning", text, code, {}));
-  if (voice_ == Voice::people) put(stderr, labelled("warning", "\033[1;33m", has_colour()) + text + '\n');
+  if (wants_data()) return data_.warn(message, code);
+  if (voice_ == Voice::people)
+    put(stderr, labelled("warning", "\033[1;33m", has_colour()) + message.in({{}, front_end_}) + '\n');
 }
 
 void Console::error(Code code, const Phrase& message, const CodeValues& values) const {
-  const std::string text = message.in({{}, front_end_});
-  if (voice_ == Voice::programs) return event("message", message_members("error", text, code, values));
-  put(stderr, labelled("error", "\033[1;31m", has_colour()) + text + '\n');
+  if (wants_data()) return data_.error(code, message, values);
+  put(stderr, labelled("error", "\033[1;31m", has_colour()) + message.in({{}, front_end_}) + '\n');
 }
 
 void Console::diagnose(const Diagnostics& diagnostics) const {
+  if (wants_data()) return data_.diagnose(diagnostics);
   if (voice_ == Voice::people) return put(stderr, to_text(diagnostics, front_end_));
-  for (const Diagnostic& diagnostic : diagnostics.list()) {
-    if (voice_ == Voice::programs) event("message", members_of(diagnostic));
-    if (voice_ == Voice::quiet && diagnostic.severity == Severity::error) put(stderr, to_text(diagnostic, front_end_));
-  }
+  for (const Diagnostic& diagnostic : diagnostics.list())
+    if (diagnostic.severity == Severity::error) put(stderr, to_text(diagnostic, front_end_));
 }
 
-DataMembers Console::members_of(const Diagnostic& diagnostic) const {
-  DataMembers members =
-      message_members(name_of(diagnostic.severity), diagnostic.message, diagnostic.code, diagnostic.values);
-  members.emplace_back("hint", hint_of(diagnostic, front_end_));
-  if (!diagnostic.where.source) return members;
-  const Place place = diagnostic.where.source->place(diagnostic.where.begin);
-  members.emplace_back("file", diagnostic.where.source->name());
-  members.emplace_back("line", static_cast<double>(place.line));
-  members.emplace_back("column", static_cast<double>(place.column));
-  return members;
+std::unique_ptr<jobs::ShownProgress> Console::progress(jobs::Counted counted) const {
+  if (wants_data()) return data_.progress(counted);
+  if (voice_ == Voice::quiet) return std::make_unique<Silence>();
+  return std::make_unique<ProgressLine>(is_terminal(), counted);
 }
 
 bool Console::is_terminal() const { return ::isatty(STDERR_FILENO) != 0; }

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/system/assert.h"
-#include "ombre/exit_codes.h"
+#include "jobs/common/exit_codes.h"
 
 namespace ombre::cli {
 namespace {
@@ -20,7 +20,7 @@ static_assert(std::atomic<StopFlag*>::is_always_lock_free && std::atomic<bool>::
 // Only what a signal handler may do.
 void on_signal(int) {
   StopFlag* flag = current_flag.load();
-  if (!flag || flag->requested() || quits_at_once) ::_exit(interrupted);
+  if (!flag || flag->requested() || quits_at_once) ::_exit(jobs::interrupted);
   flag->request();
   constexpr std::string_view text =
       "\nstopping, once what is under way is finished; press Ctrl-C again to quit at once\n";

@@ -6,17 +6,7 @@
 #include <vector>
 
 #include "base/text/text.h"
-#include "jobs/check/bundle_choices.h"
-#include "jobs/fea/fea_choices.h"
-#include "jobs/grid/grid_choices.h"
-#include "jobs/homogenise/homogenise_choices.h"
-#include "jobs/mesh/mesh_choices.h"
-#include "jobs/optimise/optimise_choices.h"
-#include "jobs/outline/contour_choices.h"
-#include "jobs/picture/picture_choices.h"
-#include "jobs/probe/probe_choices.h"
-#include "jobs/slice/sheet_choices.h"
-#include "jobs/slice/slice_choices.h"
+#include "jobs/all_jobs.h"
 #include "ombre/command_line.h"
 
 namespace ombre::cli {
@@ -25,18 +15,11 @@ namespace {
 using Rows = std::vector<options::Option>;
 
 const std::map<std::string, Rows>& rows_of_jobs() {
-  static const std::map<std::string, Rows> rows{{"bundle", compile::BundleChoices::options().options()},
-                                                {"contours", compile::ContourChoices::options().options()},
-                                                {"fea", compile::FeaChoices::options().options()},
-                                                {"homogenise", compile::HomogeniseChoices::options().options()},
-                                                {"layer", compile::LayerChoices::options().options()},
-                                                {"mesh", compile::MeshChoices::options().options()},
-                                                {"optimise", compile::OptimiseChoices::options().options()},
-                                                {"probe", compile::ProbeChoices::options().options()},
-                                                {"render", compile::PictureChoices::options().options()},
-                                                {"sheet", compile::SheetChoices::options().options()},
-                                                {"slice", compile::SliceChoices::options().options()},
-                                                {"voxels", compile::GridChoices::options().options()}};
+  static const std::map<std::string, Rows> rows = [] {
+    std::map<std::string, Rows> made;
+    for (const jobs::JobKind& kind : jobs::all_jobs()) made.emplace(kind.name, kind.options);
+    return made;
+  }();
   return rows;
 }
 
@@ -101,10 +84,10 @@ TEST(JobOptions, AreAllThatTheirCommandsHave) {
     ++jobs;
     for (const Data& option : *command.find("options")->list()) {
       const std::string name = *option.find("name")->string();
-      const bool is_of_all = name == "--help" || name == "--quiet" || name == "--json";
+      const bool is_of_all = name == "--help" || name == "--quiet" || name == "--json" || name == "--save-job";
       EXPECT_EQ(option.find("kind") == nullptr, is_of_all) << found->first << ' ' << name;
     }
-    EXPECT_EQ(command.find("options")->list()->size(), found->second.size() + 3) << found->first;
+    EXPECT_EQ(command.find("options")->list()->size(), found->second.size() + 4) << found->first;
   }
   EXPECT_EQ(jobs, rows_of_jobs().size());
 }

@@ -85,10 +85,10 @@ int become_python(int argc, char** argv) {
   arguments.insert(arguments.end(), argv + 1, argv + argc);
   arguments.push_back(nullptr);
   ::execvp(python.c_str(), arguments.data());
-  Console().error(Code::other_program, "designs in Python need Python: cannot run " + python + ": " +
-                                           std::generic_category().message(errno) +
-                                           "; OMBRE_PYTHON names another interpreter");
-  return failed;
+  Console(Host()).error(Code::other_program, "designs in Python need Python: cannot run " + python + ": " +
+                                                 std::generic_category().message(errno) +
+                                                 "; OMBRE_PYTHON names another interpreter");
+  return jobs::failed;
 }
 
 }  // namespace ombre::cli

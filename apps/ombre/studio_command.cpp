@@ -45,12 +45,13 @@ std::string environment(const char* name) {
 }
 
 // Returns the token that the environment sets, so that a page finds a server again that was started anew; empty for a
-// random one. Throws WrongArgument.
+// random one. Throws options::WrongValue.
 std::string chosen_token() {
   std::string token = environment("OMBRE_STUDIO_TOKEN");
   constexpr size_t shortest = 32;
   if (!token.empty() && (token.size() < shortest || token.find_first_not_of("0123456789abcdefABCDEF") != token.npos))
-    throw WrongArgument("OMBRE_STUDIO_TOKEN is not at least 32 hexadecimal digits; leave it out for a random one");
+    throw options::WrongValue(
+        "OMBRE_STUDIO_TOKEN is not at least 32 hexadecimal digits; leave it out for a random one");
   return token;
 }
 
@@ -105,7 +106,7 @@ void tell_address(const studio::Address& address, const Console& console) {
 }
 
 // The design of a bundle, in the folder beside it with its name: that of an earlier call if it is there, with all that
-// was changed since. Throws WrongArgument and Error.
+// was changed since. Throws options::WrongValue and Error.
 std::filesystem::path opened_bundle(const std::filesystem::path& bundle, const Console& console) {
   const std::filesystem::path folder = std::filesystem::path(bundle).replace_extension();
   if (const auto known = compile::find_unpacked(folder)) {
@@ -113,7 +114,7 @@ std::filesystem::path opened_bundle(const std::filesystem::path& bundle, const C
     return known->design;
   }
   if (std::filesystem::exists(folder))
-    throw WrongArgument(folder.string() + " is there, and is not this bundle unpacked; rename it, or the bundle");
+    throw options::WrongValue(folder.string() + " is there, and is not this bundle unpacked; rename it, or the bundle");
   Diagnostics diagnostics;
   const auto unpacked =
       compile::unpack_bundle(bundle.string(), formats::read_file(bundle.string()), folder, diagnostics);
@@ -121,12 +122,12 @@ std::filesystem::path opened_bundle(const std::filesystem::path& bundle, const C
   if (!unpacked) {
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
-    throw WrongArgument(bundle.string() + " cannot be opened");
+    throw options::WrongValue(bundle.string() + " cannot be opened");
   }
   return unpacked->design;
 }
 
-int run_studio(const StudioArguments& a, Session& session) {
+int run_studio(const StudioArguments& a, CommandSession& session) {
   namespace fs = std::filesystem;
   std::error_code error;
   fs::path place = fs::weakly_canonical(a.place, error);
@@ -137,7 +138,7 @@ int run_studio(const StudioArguments& a, Session& session) {
     options.open_folder = [](const std::string& shown) { return studio::start_program({"xdg-open", shown}); };
   fs::path folder = place;
   if (!fs::is_directory(place)) {
-    if (!fs::exists(place)) throw WrongArgument(a.place + " is neither a folder nor a file");
+    if (!fs::exists(place)) throw options::WrongValue(a.place + " is neither a folder nor a file");
     folder = place.parent_path();
     if (compile::is_bundle(a.place)) {
       folder = fs::path(place).replace_extension();
@@ -158,12 +159,12 @@ int run_studio(const StudioArguments& a, Session& session) {
     signpost.emplace(address.url());
     studio::start_program({"xdg-open", signpost->path()});  // where it fails, the address is printed anyway
   });
-  return done;
+  return jobs::done;
 }
 
 #else
 
-int run_studio(const StudioArguments&, Session&) {
+int run_studio(const StudioArguments&, CommandSession&) {
   throw Error(Code::library_missing,
               "this ombre was built without the studio; install nodejs and npm (apt), and build it again");
 }
@@ -186,7 +187,7 @@ Command add_studio(CLI::App& program, OutputOptions& output) {
   app->add_flag("--no-browser", arguments->no_browser, "Print the address, and open no browser");
   add_output_options(*app, output);
   app->footer(studio_footer);
-  return {app, [arguments](Session& session) { return run_studio(*arguments, session); }};
+  return {app, [arguments](CommandSession& session) { return run_studio(*arguments, session); }};
 }
 
 }  // namespace ombre::cli

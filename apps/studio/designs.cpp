@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace ombre::studio {
 
 RequestError design_error(const Diagnostics& diagnostics) {

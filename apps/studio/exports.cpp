@@ -4,7 +4,11 @@
 
 #include "base/system/stopwatch.h"
 #include "base/text/error.h"
+#include "jobs/common/data_events.h"
+#include "jobs/common/run_reported.h"
 #include "jobs/slice/slice.h"
+#include "load/load.h"
+#include "options/members.h"
 
 namespace ombre::studio {
 
@@ -16,6 +20,8 @@ struct Exports::Job {
   HowFar how_far;
   int64_t layers = 0;
   std::string message;
+  DataList report;  // events of the kind's job, but for progress and messages
+  Stopwatch since_report = {};
   std::shared_ptr<StopFlag> stop = std::make_shared<StopFlag>();
 };
 
@@ -42,7 +48,8 @@ class Exports::Watch : public Progress {
   Stopwatch since_report_;
 };
 
-Exports::Exports(Report report) : report_(std::move(report)), thread_([this] { run(); }) {}
+Exports::Exports(Report report, sources::SourceCache& cache, std::string program)
+    : report_(std::move(report)), cache_(cache), program_(std::move(program)), thread_([this] { run(); }) {}
 
 Exports::~Exports() {
   {
@@ -64,7 +71,9 @@ DataMembers Exports::describe(const Job& job) {
           {"folder", job.request.name},
           {"path", job.request.folder},
           {"file", job.request.file},
-          {"options", job.request.choices.given},
+          {"kind", job.request.kind ? job.request.kind->name : "slice"},
+          {"options", job.request.kind ? job.request.shown : job.request.choices.given},
+          {"report", job.report},
           {"layers", number(job.layers)},
           {"done", number(job.how_far.done)},
           {"total", number(job.how_far.total)},
@@ -89,6 +98,16 @@ DataMembers Exports::start(const ExportRequest& request) {
   }
   news_.notify_all();
   return made;
+}
+
+// Makes the request one that goes on with what is there, if its kind can.
+void Exports::go_on(ExportRequest& request) {
+  if (!request.kind) return;
+  const auto& options = request.kind->options;
+  if (std::ranges::find(options, "--resume", &options::Option::name) == options.end()) return;
+  std::erase_if(request.members,
+                [](const auto& member) { return member.first == "force" || member.first == "resume"; });
+  request.members.emplace_back("resume", true);
 }
 
 Exports::JobPtr Exports::find(int64_t id) {
@@ -125,8 +144,10 @@ void Exports::resume(int64_t id) {
     const JobPtr job = find(id);
     if (job->state != State::paused && job->state != State::cancelled && job->state != State::failed)
       throw RequestError("state", "the job is not paused");
+    go_on(job->request);
     job->state = State::waiting;
     job->message.clear();
+    job->report.clear();
     job->stop = std::make_shared<StopFlag>();
     now = describe(*job);
   }
@@ -179,36 +200,101 @@ void Exports::end(Job& job, State state, const std::string& message) {
 }
 
 void Exports::work(Job& job) {
-  const ExportRequest& request = job.request;
   const std::shared_ptr<StopFlag> stop = job.stop;
   try {
-    const CutDesignPtr cut = request.design->cut(request.choices);
-    {
-      const std::lock_guard lock(mutex_);
-      job.layers = cut->plan.request.lattice.count[2];
-    }
-    compile::SliceOptions options;
-    options.folder = request.folder;
-    options.use = request.replace ? compile::FolderUse::replace : compile::FolderUse::resume;
-    options.stages = cut->plan.stages;
-    Watch watch(*this, job);
-    const compile::SliceReport report =
-        compile::slice(cut->plan.request, cut->plan.producer, options, &watch, stop.get());
-    std::string message;
-    for (const compile::CheckReport& check : report.checks) message += (message.empty() ? "" : "\n") + check.text;
-    {
-      const std::lock_guard lock(mutex_);
-      job.how_far.done = job.how_far.total = std::max<uint64_t>(job.how_far.total, 1);
-    }
-    end(job, State::done, message);
+    job.request.kind ? run_kind(job, *stop) : slice(job, *stop);
   } catch (const Cancelled&) {
     job.request.replace = false;  // a resumed job goes on with its own layers
     end(job, job.wanted, "");
+  } catch (const options::WrongValue& error) {
+    end(job, State::failed, wrong_value(error).what());
   } catch (const std::bad_alloc&) {
     end(job, State::failed, "not enough memory");
   } catch (const std::exception& error) {
     end(job, State::failed, error.what());
   }
+}
+
+void Exports::slice(Job& job, const StopFlag& stop) {
+  const ExportRequest& request = job.request;
+  const CutDesignPtr cut = request.design->cut(request.choices);
+  {
+    const std::lock_guard lock(mutex_);
+    job.layers = cut->plan.request.lattice.count[2];
+  }
+  compile::SliceOptions options;
+  options.folder = request.folder;
+  options.use = request.replace ? compile::FolderUse::replace : compile::FolderUse::resume;
+  options.stages = cut->plan.stages;
+  Watch watch(*this, job);
+  const compile::SliceReport report = compile::slice(cut->plan.request, cut->plan.producer, options, &watch, &stop);
+  std::string message;
+  for (const compile::CheckReport& check : report.checks) message += (message.empty() ? "" : "\n") + check.text;
+  {
+    const std::lock_guard lock(mutex_);
+    job.how_far.done = job.how_far.total = std::max<uint64_t>(job.how_far.total, 1);
+  }
+  end(job, State::done, message);
+}
+
+// Searches make a design anew from its file for each of their variables; other jobs take the design that is open.
+void Exports::run_kind(Job& job, const StopFlag& stop) {
+  const ExportRequest& request = job.request;
+  const jobs::JobKind& kind = *request.kind;
+  const std::shared_ptr<void> made = kind.make();
+  options::read_members(kind.options, made.get(), request.members);
+  std::string printed;
+  const jobs::DataEvents events(
+      FrontEnd::studio, [&](const DataMembers& event) { take(job, event); },
+      [&](const std::string& text) { printed += text; });
+  jobs::Session session{events, stop, compile::load_design, cache_, program_};
+  if (request.design)
+    session.load = [&](const std::string&, const compile::LoadOptions&, Diagnostics&) {
+      return request.design->loaded;
+    };
+  const int code = jobs::run_reported(events, [&] { return kind.run(made.get(), session); });
+  if (code == jobs::interrupted) throw Cancelled();
+  const bool is_done = code == jobs::done;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!printed.empty()) job.report.emplace_back(DataMembers{{"event", "text"}, {"text", printed}});
+    if (is_done) job.how_far.done = job.how_far.total = std::max<uint64_t>(job.how_far.total, 1);
+  }
+  end(job, is_done ? State::done : State::failed, job.message);
+}
+
+void Exports::take(Job& job, const DataMembers& event) {
+  constexpr size_t most_events = 200;
+  constexpr double interval_s = 0.2;
+  const auto member = [&](std::string_view name) -> const Data* {
+    const auto found = std::ranges::find(event, name, [](const auto& m) { return m.first; });
+    return found == event.end() ? nullptr : &found->second;
+  };
+  const auto amount = [&](std::string_view voxels, std::string_view steps) {
+    const Data* data = member(voxels) ? member(voxels) : member(steps);
+    return data && data->number() ? static_cast<uint64_t>(std::max(0.0, *data->number())) : 0;
+  };
+  const std::string& name = *member("event")->string();
+  DataMembers now;
+  {
+    const std::lock_guard lock(mutex_);
+    if (name == "progress") {
+      job.how_far.done = amount("voxels_done", "steps_done");
+      job.how_far.total = amount("voxels_total", "steps_total");
+      const Data* left = member("seconds_left");
+      job.how_far.seconds_left = left && left->number() ? *left->number() : -1;
+    } else if (name == "message") {
+      job.message += (job.message.empty() ? "" : "\n") + *member("message")->string();
+      if (const Data* hint = member("hint"); hint && hint->string() && !hint->string()->empty())
+        job.message += "; " + *hint->string();
+    } else if (name != "checking" && name != "preparing" && job.report.size() < most_events) {
+      job.report.emplace_back(event);
+    }
+    if (job.since_report.seconds() < interval_s) return;
+    job.since_report = {};
+    now = describe(job);
+  }
+  report_(now);
 }
 
 }  // namespace ombre::studio

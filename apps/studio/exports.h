@@ -1,4 +1,4 @@
-// Slice jobs that the page started: one at a time, each of which may pause.
+// Jobs that the page started, of any kind: one at a time, each of which may pause.
 #pragma once
 
 #include <condition_variable>
@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/system/progress.h"
+#include "jobs/common/job_kind.h"
 #include "studio/designs.h"
 
 namespace ombre::studio {
@@ -22,16 +23,20 @@ struct ExportRequest {
   std::string name;    // of the folder, likewise
   std::string folder;  // its path
   bool replace = false;
+  const jobs::JobKind* kind = nullptr;  // null: a slice stack by the choices
+  DataMembers members = {};             // of the kind's options, with whole paths
+  DataMembers shown = {};               // the same, as the page has them
 };
 
-// Thread-safe. A job writes the files that `ombre slice` would; what is finished stays when it pauses, ends or the
-// program is killed, and the same request goes on from there.
+// Thread-safe. A job writes the files that the command of its kind would. Of slice stacks and searches what is finished
+// stays when a job pauses, ends or the program is killed, and the same request goes on from there; others begin again.
 class Exports {
  public:
   // Called with a job's state when it changes, and now and then while it works, from any thread.
   using Report = std::function<void(const DataMembers& job)>;
 
-  explicit Exports(Report report);
+  // `program` is for job.json: "ombre 0.1.0".
+  Exports(Report report, sources::SourceCache& cache, std::string program);
   // Pauses what is at work, and waits for it.
   ~Exports();
   Exports(const Exports&) = delete;
@@ -55,6 +60,10 @@ class Exports {
 
   void run();
   void work(Job& job);
+  void slice(Job& job, const StopFlag& stop);
+  void run_kind(Job& job, const StopFlag& stop);
+  void take(Job& job, const DataMembers& event);
+  static void go_on(ExportRequest& request);
   void end(Job& job, State state, const std::string& message);
   JobPtr find(int64_t id);
   JobPtr next();
@@ -62,6 +71,8 @@ class Exports {
   static DataMembers describe(const Job& job);
 
   Report report_;
+  sources::SourceCache& cache_;
+  std::string program_;
   mutable std::mutex mutex_;
   std::condition_variable news_;
   std::list<JobPtr> jobs_;

@@ -20,6 +20,7 @@
 #include "studio/bundles.h"
 #include "studio/data_scripts.h"
 #include "studio/design_answer.h"
+#include "studio/kind_request.h"
 #include "studio/python_design.h"
 #include "studio/scad_design.h"
 #include "studio/views.h"
@@ -109,6 +110,7 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"compare", &Studio::compare},
                                       {"estimate", &Studio::estimate},
                                       {"export", &Studio::start_export},
+                                      {"run", &Studio::start_kind},
                                       {"change_export", &Studio::change_export},
                                       {"open_folder", &Studio::open_folder},
                                       {"jobs", &Studio::jobs}};
@@ -121,9 +123,11 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
       workspace_(folder),
       scans_(workspace_),
       presets_(workspace_),
-      exports_([this](const DataMembers& job) {
-        broadcast("job", {{"job", job}});
-      }),
+      exports_(
+          [this](const DataMembers& job) {
+            broadcast("job", {{"job", job}});
+          },
+          cache, options_.program),
       // A few at once, so that short questions are answered while a long one is at work; each uses all cores.
       queue_(std::max(4, core_count())) {}
 
@@ -236,6 +240,7 @@ Answer Studio::hello(const Request&, const StopFlag&) {
                  {"opens_folders", options_.open_folder != nullptr},
                  {"printers", describe_printers()},
                  {"job_options", describe_job_options()},
+                 {"kinds", describe_kinds()},
                  {"palettes", describe_palettes()},
                  {"nodes", describe_nodes()},
                  {"functions", describe_functions()}},
@@ -392,6 +397,10 @@ Answer Studio::start_export(const Request& request, const StopFlag&) {
                     workspace_.path(name).string(),
                     request.flag("replace")};
   return {{{"job", exports_.start(job)}}, {}};
+}
+
+Answer Studio::start_kind(const Request& request, const StopFlag&) {
+  return {{{"job", exports_.start(kind_request(request, workspace_, [&] { return design_of(request); }))}}, {}};
 }
 
 Answer Studio::change_export(const Request& request, const StopFlag&) {

@@ -88,6 +88,7 @@ class Studio {
   Answer compare(const Request& request, const StopFlag& stop);
   Answer estimate(const Request& request, const StopFlag& stop);
   Answer start_export(const Request& request, const StopFlag& stop);
+  Answer start_kind(const Request& request, const StopFlag& stop);
   Answer change_export(const Request& request, const StopFlag& stop);
   Answer open_folder(const Request& request, const StopFlag& stop);
   Answer jobs(const Request& request, const StopFlag& stop);

@@ -9,6 +9,7 @@
 #include "base/text/file_ending.h"
 #include "base/text/text.h"
 #include "export/output_file.h"
+#include "formats/mesh/mesh_writers.h"
 #include "formats/packages/package_writers.h"
 
 namespace ombre::exporting {

@@ -40,23 +40,28 @@ std::string header_of(VolumeFormat format, const Volume& volume) {
 }
 
 std::string description(const std::string& path, size_t header_bytes, const Volume& volume) {
-  DataList count;
-  for (const int64_t length : volume.count) count.emplace_back(static_cast<double>(length));
   DataMembers members{{"format", "ombre voxel grid, version 1"},
                       {"file", std::filesystem::path(path).filename().string()},
                       {"data_type", volume.is_float ? "float32" : "uint8"},
                       {"byte_order", "little"},
                       {"header_bytes", static_cast<double>(header_bytes)},
                       {"axes", DataList{"x", "y", "z"}},
-                      {"fastest_axis", "x"},
-                      {"dimensions", count},
-                      {"spacing_mm", list(volume.spacing_mm)},
-                      {"origin_mm", list(volume.origin_mm)}};
-  members.insert(members.end(), volume.about.begin(), volume.about.end());
+                      {"fastest_axis", "x"}};
+  const DataMembers of_volume = describe(volume);
+  members.insert(members.end(), of_volume.begin(), of_volume.end());
   return print_json(members);
 }
 
 }  // namespace
+
+DataMembers describe(const Volume& volume) {
+  DataList count;
+  for (const int64_t length : volume.count) count.emplace_back(static_cast<double>(length));
+  DataMembers members{
+      {"dimensions", count}, {"spacing_mm", list(volume.spacing_mm)}, {"origin_mm", list(volume.origin_mm)}};
+  members.insert(members.end(), volume.about.begin(), volume.about.end());
+  return members;
+}
 
 bool has_description(VolumeFormat format) { return format == VolumeFormat::raw || format == VolumeFormat::npy; }
 

@@ -36,6 +36,9 @@ struct Volume {
   uint64_t bytes() const { return layer_bytes() * static_cast<uint64_t>(count[2]); }
 };
 
+// What a program needs to know of the numbers: sizes, places and what they are.
+DataMembers describe(const Volume& volume);
+
 // Does a description lie beside the file, since it has no place for spacing, origin and names?
 bool has_description(VolumeFormat format);
 std::string description_path(const std::string& path);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "jobs/check/emit.h"
 #include "jobs/probe/probe.h"
 
 namespace ombre::compile {

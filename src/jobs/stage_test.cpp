@@ -9,6 +9,7 @@
 #include "base/text/error.h"
 #include "jobs/grid/grid_job.h"
 #include "jobs/test_designs.h"
+#include "questions/design_stages.h"
 #include "stages/job_stages.h"
 #include "voxel/place_sources.h"
 
@@ -206,7 +207,8 @@ class Stages : public testing::Test {
   void expect_values(const design::StagePtr& stage, const std::vector<float>& expected) const {
     for (const int threads : {1, 3})
       for (const Cell& piece : {Cell{160, 80, 42}, Cell{160, 80, 5}, Cell{33, 17, 8}}) {
-        JobStages stages;
+        const JobStagesPtr made = stages_of(design::Design());
+        JobStages& stages = *made;
         ASSERT_EQ(values(stages, stage, piece, threads), expected);
       }
   }
@@ -244,7 +246,8 @@ TEST_F(Stages, OfAHaloReadWhatIsAround) {
 TEST_F(Stages, OfAHaloGiveTheSameWhereBlocksAreDropped) {
   const Cell size{4, 3, 2};
   memory_ = 1;
-  JobStages stages;
+  const JobStagesPtr made = stages_of(design::Design());
+  JobStages& stages = *made;
   EXPECT_EQ(values(stages, std::make_shared<BoxCount>(solid(), size), {20, 10, 42}, 1), box_counts(size));
   EXPECT_GT(stages.block_counts().dropped, 0U);
 }
@@ -275,7 +278,8 @@ TEST_F(Stages, OfTheWholeSeeAllCells) {
 
 TEST_F(Stages, StandOnTheJobsLatticeAlsoWhereThePartIsMovedByWholeVoxels) {
   const auto stage = std::make_shared<BoxCount>(solid(), Cell{3, 3, 3});
-  JobStages stages;
+  const JobStagesPtr made = stages_of(design::Design());
+  JobStages& stages = *made;
   const program::SourceField source = stages.source(stage, place());
   Affine moved = voxel::design_from_index(lattice_);
   moved.offset = moved.offset + Vec3{0.7, -0.25, 0.4};
@@ -286,14 +290,16 @@ TEST_F(Stages, StandOnTheJobsLatticeAlsoWhereThePartIsMovedByWholeVoxels) {
 
 TEST_F(Stages, AreLinearBetweenCentres) {
   const auto stage = std::make_shared<BoxCount>(solid(), Cell{3, 3, 3});
-  JobStages stages;
+  const JobStagesPtr made = stages_of(design::Design());
+  JobStages& stages = *made;
   const program::SourceField source = stages.source(stage, place());
   const Vec3 a = lattice_.center(70, 40, 21), b = lattice_.center(71, 40, 21);
   EXPECT_NEAR(source->sample(0, 0.75 * a + 0.25 * b), 0.75 * source->sample(0, a) + 0.25 * source->sample(0, b), 1e-9);
 }
 
 TEST_F(Stages, ThatNeedMoreMemoryThanThereIsDoNotBegin) {
-  JobStages stages;
+  const JobStagesPtr made = stages_of(design::Design());
+  JobStages& stages = *made;
   const auto kept = stages.source(std::make_shared<PartSize>(solid()), place());
   StageLoan loan;
   loan.memory_bytes = 1000;
@@ -307,7 +313,8 @@ TEST_F(Stages, ThatNeedMoreMemoryThanThereIsDoNotBegin) {
 }
 
 TEST_F(Stages, StopOnRequest) {
-  JobStages stages;
+  const JobStagesPtr made = stages_of(design::Design());
+  JobStages& stages = *made;
   const auto kept = stages.source(std::make_shared<SumFromTop>(solid()), place());
   StopFlag stop;
   stop.request();

@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "questions/design_stages.h"
 #include "stages/job_stages.h"
 
 namespace ombre::compile {
@@ -71,8 +72,8 @@ class FlaggedCells : public testing::Test {
     const auto& pitch = lattice_.pitch;
     const auto stage = std::make_shared<const GivenStacks>(box_, pitch[0], pitch[1], pitch[2], stacks);
     const design::MaterialTable none;
-    source_ = stages_.source(stage, {none, {}, {}, {}});
-    stages_.prepare({});
+    source_ = stages_->source(stage, {none, {}, {}, {}});
+    stages_->prepare({});
   }
 
   double number(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random_); }
@@ -101,7 +102,7 @@ class FlaggedCells : public testing::Test {
   voxel::Lattice lattice_;
   Box box_;
   std::set<std::pair<int64_t, int64_t>> filled_;
-  JobStages stages_;
+  JobStagesPtr stages_ = stages_of(design::Design());
   program::SourceField source_;
   std::mt19937 random_{1};
 };

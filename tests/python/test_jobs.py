@@ -5,6 +5,7 @@ import sys
 import threading
 import time
 
+import numpy
 import pytest
 
 import ombre
@@ -169,3 +170,33 @@ def test_python_may_exit_during_a_job(tmp_path):
 
 
 # Behaviour as a library.
+
+
+def test_voxels_may_hold_attributes():
+    # The attribute grows by 1 a millimetre along x, from -5 at the left side; 7 is its default outside.
+    part = ombre.attribute("heat", "x", ombre.cube(10, "red"), unit="K", default=7)
+    grid = part.voxels(1, what="heat")
+    assert grid.about["attribute"] == {"name": "heat", "unit": "K", "default": 7}
+    assert grid.values.shape == (10, 10, 10) and grid.values.dtype == numpy.float32
+    assert grid.values[3, 4] == pytest.approx(numpy.arange(-4.5, 5))
+    assert grid.spacing == (1, 1, 1) and grid.origin == (-4.5, -4.5, -4.5)
+
+
+def test_voxels_of_a_material_that_the_design_lacks_are_zero():
+    assert not ombre.cube(2, "red").voxels(1, what="blue").values.any()
+    with pytest.raises(ombre.DesignError, match="'rde' is neither"):
+        ombre.cube(2, "red").voxels(1, what="rde")
+
+
+def test_every_kind_of_job_is_there(tmp_path):
+    part = ombre.cube(10, "red")
+    report = part.probe(at=["0,0,0", (9, 0, 0)])
+    assert [e["inside"] for e in report.events if e["event"] == "point"] == [True, False]
+    part.slice(tmp_path / "layers", voxel=1)
+    ombre.run_job("sheet", folder=tmp_path / "layers", output=tmp_path / "sheet.png")
+    assert (tmp_path / "sheet.png").read_bytes().startswith(b"\x89PNG")
+    assert "j750" in ombre.run_job("printers").events[0]["name"] + str(ombre.run_job("printers").events)
+    with pytest.raises(ombre.DesignError, match='"folder" is required'):
+        ombre.run_job("sheet", output=tmp_path / "other.png")
+    with pytest.raises(KeyError):
+        ombre.run_job("fly")

@@ -29,6 +29,9 @@ for (const name of ["bent_beam.vtu", "two_lobes.nrrd"]) copyFileSync(join(source
 writeFileSync(join(folder, "history.csv"), "round,elements,change,greatest von Mises stress [MPa]\n1,256,,13.5\n2,256,0.25,11.75\n3,256,0.03125,11.5\n");
 writeFileSync(join(folder, "drop.py"), "import ombre\nroot = ombre.sphere(3, 'blue')\n");
 
+// A brick of 100 mm3, whose edges are shortest where it is a cube.
+writeFileSync(join(folder, "brick.vcad"), "a = 3;\nb = 8;\necho(edges = a + b + 100 / (a * b));\nrectprism([a, b, 100 / (a * b)], red);\n");
+
 // From -10 on the left to 10 on the right.
 writeFileSync(join(folder, "warm.vcad"), 'attribute("heat", "x", unit="K") cube(20, red);\n');
 
@@ -100,6 +103,12 @@ const onDisk = () => readFileSync(file, "utf8");
 const untilOnDisk = async (part) => {
   for (let n = 0; n < 2400 && !onDisk().includes(part); ++n) await new Promise((done) => setTimeout(done, 50));
   assert.ok(onDisk().includes(part), `${part} is not in ${onDisk()}`);
+};
+const openInList = (name) => page.selectOption("select.file", name);
+const untilLonger = async (path, size) => {
+  const length = () => (existsSync(path) ? readFileSync(path).length : 0);
+  for (let n = 0; n < 2400 && length() <= size; ++n) await new Promise((done) => setTimeout(done, 50));
+  assert.ok(length() > size, `${path} has ${length()} bytes`);
 };
 const untilOnDiskIs = async (text) => {
   for (let n = 0; n < 2400 && onDisk() !== text; ++n) await new Promise((done) => setTimeout(done, 50));
@@ -491,6 +500,61 @@ const checks = {
     }
     assert.ok(new Set(probed.map((p) => p.material)).size > 1);
     await picture("job");
+  },
+
+  async "runs jobs of every kind"() {
+    await page.click("#tab-jobs");
+    const job = (name, state) => page.waitForSelector(`[data-folder="${name}"][data-state=${state}]`);
+    const option = async (name, value) => {
+      const input = page.locator(`.panel .option-${name} input, .panel .option-${name} select`);
+      if (!(await input.isVisible())) await page.click(".panel summary:has-text('More options')");
+      if ((await input.getAttribute("type")) === "checkbox") return input.check();
+      if ((await input.evaluate((element) => element.tagName)) === "SELECT") return input.selectOption(value);
+      await input.fill(value);
+      await input.press("Tab");
+    };
+    const start = async (kind, options) => {
+      await page.selectOption("select.kind", kind);
+      for (const [name, value] of Object.entries(options)) await option(name, value);
+      await page.click(".panel button[type=submit]");
+    };
+    await start("mesh", { output: "ball.3mf", tolerance: "0.2", by: "whole" });
+    await job("ball.3mf", "done");
+    assert.equal(readFileSync(join(folder, "ball.3mf")).subarray(0, 2).toString(), "PK");
+    await start("voxels", { output: "ball.nrrd", voxel: "1", what: "distance" });
+    await job("ball.nrrd", "done");
+    assert.match(readFileSync(join(folder, "ball.nrrd"), "latin1").slice(0, 400), /type: float[^]*sizes: 2[4-9] 2[4-9] 2[4-9]/);
+    const study = JSON.stringify({ materials: { red: { modulus_mpa: 2000, poissons_ratio: 0.3 }, blue: { modulus_mpa: 1000, poissons_ratio: 0.3 } },
+      supports: [{ on: "zmin", fix: "xyz" }], loads: [{ on: "zmax", force_n: [0, 0, -10] }] });
+    await start("fea", { output: "ball.vtu", study, cell: "3", solve: true });
+    await job("ball.vtu", "done");
+    assert.match(readFileSync(join(folder, "ball.vtu"), "latin1").slice(0, 4000), /displacement/i);
+    await start("probe", { at: "0,0,0" });
+    await page.waitForSelector("[data-kind=probe][data-state=done] pre:has-text('inside: true')");
+    await start("mesh", { output: "../out.stl", tolerance: "", by: "" });
+    await page.waitForSelector(".panel .error[role=alert]");
+    // A search of two variables.
+    const search = JSON.stringify({ variables: { a: { from: 1, to: 10, start: 3 }, b: { from: 1, to: 10, start: 8 } },
+      objectives: [{ minimise: "echo", name: "edges" }], evaluations: 200000, tolerance: 1e-9, method: "direct" });
+    await page.click("#tab-jobs");
+    await openInList("brick.vcad");
+    await status("[data-old=false]");
+    await start("optimise", { output: "found", study: search });
+    await job("found", "working");
+    await untilLonger(join(folder, "found/history.csv"), 200);
+    await page.click("[data-folder=found] >> text=Cancel");
+    await job("found", "cancelled");
+    const before = readFileSync(join(folder, "found/history.csv"), "utf8");
+    await page.click("[data-folder=found] >> text=Resume");
+    await job("found", "working");
+    await untilLonger(join(folder, "found/history.csv"), before.length);
+    await page.click("[data-folder=found] >> text=Pause");
+    await job("found", "paused");
+    assert.ok(readFileSync(join(folder, "found/history.csv"), "utf8").startsWith(before));
+    await page.click("[data-folder=found] >> text=Cancel");
+    await openInList("ball.vcad");
+    await status("[data-old=false]");
+    await picture("jobs");
   },
 
   async "turns the part on the tray"() {

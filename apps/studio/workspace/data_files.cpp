@@ -5,6 +5,7 @@
 
 #include "base/text/file_ending.h"
 #include "base/text/text.h"
+#include "formats/volumes/volume_endings.h"
 
 namespace ombre::studio {
 
@@ -15,11 +16,9 @@ DataKind data_kind(const std::string& name) {
   const auto ends_in_one_of = [&](const auto& endings) {
     return std::ranges::any_of(endings, [&](std::string_view ending) { return lower.ends_with(ending); });
   };
-  constexpr std::array<std::string_view, 11> scans{".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd",
-                                                   ".dcm", ".vti",    ".tif",  ".tiff", ".npy"};
   constexpr std::array<std::string_view, 3> results{".vtu", ".xdmf", ".frd"};
   constexpr std::array<std::string_view, 1> tables{".csv"};
-  if (ends_in_one_of(scans)) return DataKind::scan;
+  if (formats::has_volume_ending(name)) return DataKind::scan;
   if (ends_in_one_of(results)) return DataKind::results;
   return ends_in_one_of(tables) ? DataKind::table : DataKind::none;
 }

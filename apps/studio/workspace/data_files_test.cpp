@@ -4,6 +4,7 @@
 
 #include "base/text/json.h"
 #include "studio/test_studio.h"
+#include "studio/workspace/data_files.h"
 
 namespace ombre::studio {
 namespace {
@@ -99,4 +100,10 @@ TEST_F(StudioTest, OpensTablesAsTheyAre) {
 }
 
 }  // namespace
+TEST(DataKinds, OfVolumesAreThoseThatJobsRead) {
+  for (const char* name : {"a.nrrd", "b.NII.gz", "c.vdb", "d.raw", "e.hdr", "f.dcm"})
+    EXPECT_EQ(data_kind(name), DataKind::scan) << name;
+  for (const char* name : {"a.vcad", "raw", "b.png"}) EXPECT_EQ(data_kind(name), DataKind::none) << name;
+}
+
 }  // namespace ombre::studio

@@ -7,11 +7,11 @@
 
 #include "base/text/json.h"
 #include "base/text/text.h"
-#include "python_data.h"
 #include "host_function.h"
 #include "jobs/slice/slice_request.h"
 #include "load/load.h"
 #include "load/node_registry.h"
+#include "python_data.h"
 #include "questions/build.h"
 
 namespace ombre::python {

@@ -1,4 +1,4 @@
-// The command line inside of Python.
+// Jobs, and the command line, inside of Python.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -8,11 +8,16 @@
 #include <thread>
 
 #include "base/system/progress.h"
-#include "python_data.h"
 #include "design_objects.h"
 #include "expr/expression.h"
+#include "jobs/all_jobs.h"
+#include "jobs/common/data_events.h"
+#include "jobs/common/run_reported.h"
+#include "jobs/grid/voxels_in_memory.h"
 #include "load/load.h"
 #include "ombre/command_line.h"
+#include "options/members.h"
+#include "python_data.h"
 
 namespace ombre::python {
 namespace {
@@ -25,39 +30,42 @@ std::vector<const char*> pointers(const std::vector<std::string>& arguments) {
   return list;
 }
 
-// A command on a thread of its own. The thread keeps it, so that it may outlive who waits for it: Python ends threads
-// in the middle when it exits.
-struct RunningCommand {
-  std::vector<std::string> arguments;
-  compile::LoadedPtr design;
-  CachePtr cache;
-  StopFlag stop;
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::deque<DataMembers> events;  // not yet handed over
+// A job on a thread of its own. The thread keeps it, so that it may outlive who waits for it: Python ends threads in
+// the middle when it exits.
+struct RunningJob {
+  std::function<int(jobs::Session&)> run;
+  compile::LoadedPtr design = nullptr;  // in memory, in place of the option that names one
+  CachePtr cache = nullptr;
+  StopFlag stop = {};
+  std::mutex mutex = {};
+  std::condition_variable changed = {};
+  std::deque<DataMembers> events = {};  // not yet handed over
   bool is_done = false;
-  std::string data;
+  std::string data = {};
   int code = 0;
 };
 
-void work(RunningCommand& command) {
-  cli::Host host;
-  host.stop = &command.stop;
-  host.cache = command.cache.get();
-  host.front_end = FrontEnd::python;
-  host.on_event = [&](const DataMembers& event) {
-    const std::scoped_lock lock(command.mutex);
-    command.events.push_back(event);
-    command.changed.notify_one();
-  };
-  host.on_data = [&](const std::string& text) { command.data += text; };
-  if (command.design)
-    host.load = [&](const std::string&, const compile::LoadOptions&, Diagnostics&) { return command.design; };
-  const auto list = pointers(command.arguments);
-  command.code = cli::run(static_cast<int>(list.size()), list.data(), host);
-  const std::scoped_lock lock(command.mutex);
-  command.is_done = true;
-  command.changed.notify_one();
+// Returns an exit code, as the command line does.
+int run_job(RunningJob& running, const jobs::Events& events) {
+  jobs::Session session{events, running.stop, compile::load_design, *running.cache, "ombre " OMBRE_VERSION};
+  if (running.design)
+    session.load = [&](const std::string&, const compile::LoadOptions&, Diagnostics&) { return running.design; };
+  return jobs::run_reported(events, [&] { return running.run(session); });
+}
+
+void work(RunningJob& job) {
+  const jobs::DataEvents events(
+      FrontEnd::python,
+      [&](const DataMembers& event) {
+        const std::scoped_lock lock(job.mutex);
+        job.events.push_back(event);
+        job.changed.notify_one();
+      },
+      [&](const std::string& text) { job.data += text; });
+  job.code = run_job(job, events);
+  const std::scoped_lock lock(job.mutex);
+  job.is_done = true;
+  job.changed.notify_one();
 }
 
 // Stops a command whose end nobody waits for any more.
@@ -73,7 +81,7 @@ class StopAtEnd {
 };
 
 // The events since the last call, waiting for some a little while; false once the command has ended.
-bool next_events(RunningCommand& command, std::deque<DataMembers>& events) {
+bool next_events(RunningJob& command, std::deque<DataMembers>& events) {
   // Not by a guard: when Python exits it ends this thread in RestoreThread, which no destructor would survive.
   PyThreadState* const state = PyEval_SaveThread();
   bool is_running = true;
@@ -89,7 +97,7 @@ bool next_events(RunningCommand& command, std::deque<DataMembers>& events) {
 
 // Waits for the end, and hands events over as they come. Raises what `on_event` raises, and KeyboardInterrupt, once
 // the command has stopped in good order.
-void wait_for(RunningCommand& command, const py::object& on_event) {
+void wait_for(RunningJob& command, const py::object& on_event) {
   const StopAtEnd stop_at_end(command.stop);
   std::unique_ptr<py::error_already_set> raised;
   for (bool running = true; running;) {
@@ -107,17 +115,67 @@ void wait_for(RunningCommand& command, const py::object& on_event) {
   if (raised) throw py::error_already_set(*raised);
 }
 
-// (exit code, what would go to stdout); a design in memory stands for the argument that names one.
-py::tuple run_command(const CachePtr& cache, const std::vector<std::string>& arguments, DesignHandle* design,
+DataMembers members_of(const py::dict& options) {
+  DataMembers members;
+  for (const auto& [key, value] : options) {
+    const auto name = py::cast<std::string>(key);
+    members.emplace_back(name, to_data(value, call_site(), name));
+  }
+  return members;
+}
+
+// Runs it to its end; a design in memory stands for the option that names one.
+void run_to_end(const std::shared_ptr<RunningJob>& running, const CachePtr& cache, DesignHandle* design,
+                const py::object& on_event) {
+  running->cache = cache;
+  if (design) running->design = design->loaded();
+  std::thread([running] { work(*running); }).detach();
+  wait_for(*running, on_event);
+  if (running->code != jobs::done && design) design->raise_failures();
+}
+
+// (exit code, what is text or bytes)
+py::tuple run_kind(const CachePtr& cache, const std::string& kind, const py::dict& options, DesignHandle* design,
+                   const py::object& on_event) {
+  const jobs::JobKind* found = jobs::find_job(kind);
+  if (!found) throw py::key_error(kind);
+  const auto running = std::make_shared<RunningJob>();
+  running->run = [found, members = members_of(options)](jobs::Session& session) {
+    const std::shared_ptr<void> job = found->make();
+    options::read_members(found->options, job.get(), members);
+    return found->run(job.get(), session);
+  };
+  run_to_end(running, cache, design, on_event);
+  return py::make_tuple(running->code, py::bytes(running->data));
+}
+
+// (exit code, [(what the numbers are, the numbers)]) of the options of `ombre voxels`.
+py::tuple make_voxels(const CachePtr& cache, const py::dict& options, DesignHandle& design,
                       const py::object& on_event) {
-  const auto command = std::make_shared<RunningCommand>();
-  command->arguments = arguments;
-  command->cache = cache;
-  if (design) command->design = design->loaded();
-  std::thread([command] { work(*command); }).detach();
-  wait_for(*command, on_event);
-  if (command->code != cli::done && design) design->raise_failures();
-  return py::make_tuple(command->code, py::bytes(command->data));
+  const auto running = std::make_shared<RunningJob>();
+  const auto made = std::make_shared<std::vector<compile::VolumeInMemory>>();
+  running->run = [made, members = members_of(options)](jobs::Session& session) {
+    compile::GridChoices choices;
+    options::read_members(compile::GridChoices::options().options(), &choices, members);
+    return jobs::make_voxels(choices, session, *made);
+  };
+  run_to_end(running, cache, &design, on_event);
+  py::list grids;
+  if (running->code != jobs::done) return py::make_tuple(running->code, grids);
+  for (const compile::VolumeInMemory& grid : *made) {
+    DataMembers about = exporting::describe(grid.volume);
+    about.emplace_back("data_type", grid.volume.is_float ? "float32" : "uint8");
+    grids.append(py::make_tuple(to_python(about), py::bytes(grid.numbers)));
+  }
+  return py::make_tuple(running->code, grids);
+}
+
+py::list describe_jobs() {
+  py::list list;
+  for (const jobs::JobKind& kind : jobs::all_jobs())
+    list.append(
+        to_python(DataMembers{{"name", kind.name}, {"help", kind.help}, {"options", options::describe(kind.options)}}));
+  return list;
 }
 
 // The whole command line, on this process's own streams. `load_script` gives the design of a .py file, or None once
@@ -140,7 +198,7 @@ int run_main(const std::vector<std::string>& arguments, const py::function& load
     const py::gil_scoped_release unlocked;
     code = cli::run(static_cast<int>(list.size()), list.data(), host);
   }
-  if (code != cli::done && !script_design.is_none()) script_design.cast<DesignHandle&>().raise_failures();
+  if (code != jobs::done && !script_design.is_none()) script_design.cast<DesignHandle&>().raise_failures();
   return code;
 }
 
@@ -148,15 +206,18 @@ int run_main(const std::vector<std::string>& arguments, const py::function& load
 
 void add_commands(py::module_& module, const CachePtr& cache) {
   module.def(
-      "run_command",
-      [cache](const std::vector<std::string>& arguments, DesignHandle* design, const py::object& on_event) {
-        return run_command(cache, arguments, design, on_event);
+      "run_job",
+      [cache](const std::string& kind, const py::dict& options, DesignHandle* design, const py::object& on_event) {
+        return run_kind(cache, kind, options, design, on_event);
       },
-      py::arg("arguments"), py::arg("design") = nullptr, py::arg("on_event") = py::none());
+      py::arg("kind"), py::arg("options"), py::arg("design") = nullptr, py::arg("on_event") = py::none());
   module.def("run_main", [cache](const std::vector<std::string>& arguments, const py::function& load_script) {
     return run_main(arguments, load_script, cache);
   });
-  module.def("commands", [] { return to_python(cli::describe_commands()); });
+  module.def("voxels", [cache](const py::dict& options, DesignHandle& design, const py::object& on_event) {
+    return make_voxels(cache, options, design, on_event);
+  });
+  module.def("jobs", &describe_jobs);
   module.def("functions", [] {
     py::list list;
     for (const expr::FunctionInfo& function : expr::function_table())

@@ -3,9 +3,9 @@
 
 #include "base/system/progress.h"
 #include "base/text/error.h"
-#include "python_data.h"
 #include "design_objects.h"
 #include "load/data_folder.h"
+#include "python_data.h"
 
 namespace ombre::python {
 

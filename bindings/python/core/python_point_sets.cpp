@@ -3,8 +3,8 @@
 
 #include <pybind11/numpy.h>
 
-#include "python_data.h"
 #include "design_objects.h"
+#include "python_data.h"
 
 namespace ombre::python {
 namespace {

@@ -17,7 +17,7 @@ from . import _core
 _core.check_numpy()
 _core.set_package_folder(_os.path.dirname(_os.path.abspath(__file__)))
 
-from ._design import Design, Samples, Voxels, _document_jobs, load, load_text, optimise, source_memory
+from ._design import Design, Samples, Voxels, _document_jobs, load, load_text, optimise, run_job, source_memory
 from ._errors import CheckError, DesignError, DesignWarning, FunctionError, MachineError
 from ._expressions import Expression, d, t, where
 from ._expressions import coordinates as _coordinates, functions as _functions
@@ -37,7 +37,7 @@ _document_jobs()
 globals().update({**{n: f for n, f in _functions.items() if n != "if"},
                   **_coordinates, **_nodes})
 
-__all__ = ["Design", "Samples", "Voxels", "load", "load_text", "optimise", "source_memory",
+__all__ = ["Design", "Samples", "Voxels", "load", "load_text", "optimise", "run_job", "source_memory",
            "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
            "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "volume_info", "option", "Solid",
            "Value",

@@ -1,7 +1,8 @@
-"""Jobs: the commands of the command line, with their options as keyword arguments."""
+"""Jobs, with their options as keyword arguments."""
 import decimal
 import fractions
 import functools
+import json
 import keyword
 import os
 import sys
@@ -13,27 +14,27 @@ from . import _core
 from ._errors import CheckError, DesignError, DesignWarning, MachineError
 
 
-def _keyword(option):
-    """"--layer-height": layer_height; "--from": from_, since Python has the word for itself."""
-    name = option.lstrip("-").replace("-", "_")
+def _keyword(name):
+    """"layer-height": layer_height; "from": from_, since Python has the word for itself."""
+    name = name.replace("-", "_")
     return name + "_" if keyword.iskeyword(name) else name
 
 
 @functools.lru_cache(maxsize=None)
-def options_of(command):
-    """{keyword: option} of a command; an option has name, help, type, is_flag and is_list."""
-    for known in _core.commands():
-        if known["name"] == command:
-            return {_keyword(o["name"]): o for o in known["options"] if o["name"].startswith("--")}
-    raise KeyError(command)
+def options_of(kind):
+    """{keyword: option} of a kind of jobs; an option has name, help, kind, takes, choices and so on."""
+    for known in _core.jobs():
+        if known["name"] == kind:
+            return {_keyword(option["name"]): option for option in known["options"]}
+    raise KeyError(kind)
 
 
 # What Python has in another way.
-_own = {"help", "quiet", "json", "define", "emit", "output", "materials"}
+_own = {"design", "define", "emit", "output", "materials"}
 
 
-def keywords_of(command):
-    return {name: option for name, option in options_of(command).items() if name not in _own}
+def keywords_of(kind):
+    return {name: option for name, option in options_of(kind).items() if name not in _own}
 
 
 def length_text(value):
@@ -46,6 +47,8 @@ def length_text(value):
 
 
 def _text(value):
+    if isinstance(value, dict):
+        return json.dumps(value)
     if isinstance(value, (list, tuple)) or hasattr(value, "tolist") and getattr(value, "ndim", 0) > 0:
         return ",".join(_text(v) for v in value)
     if isinstance(value, (float, numpy.floating)):
@@ -53,30 +56,30 @@ def _text(value):
     return os.fspath(value) if hasattr(value, "__fspath__") else str(value)
 
 
-def _arguments(command, options):
-    known = keywords_of(command)
-    arguments = []
+def _members(kind, options):
+    """{name: value} of a job's options: texts, lists of them, or True."""
+    known = keywords_of(kind)
+    members = {}
     for name, value in options.items():
         if name not in known:
             import difflib
             close = difflib.get_close_matches(name, known, 1)
             hint = f"did you mean {close[0]!r}?" if close else "it has " + ", ".join(sorted(known))
-            raise TypeError(f"{command} has no option {name!r}; {hint}")
+            raise TypeError(f"{kind} has no option {name!r}; {hint}")
         option = known[name]
         if value is None or value is False:
             continue
-        if option["is_flag"]:
+        if option["takes"] == "nothing":
             if value is not True:
-                raise TypeError(f"{name} of {command} is True or False, not {value!r}")
-            arguments.append(option["name"])
-        elif option["is_list"]:
+                raise TypeError(f"{name} of {kind} is True or False, not {value!r}")
+            members[option["name"]] = True
+        elif option["takes"] == "several":
             if isinstance(value, dict):
                 value = [f"{key}={_text(v)}" for key, v in value.items()]
-            for element in [value] if isinstance(value, str) else value:
-                arguments += [f"{option['name']}={_text(element)}"]
+            members[option["name"]] = [_text(element) for element in ([value] if isinstance(value, str) else value)]
         else:
-            arguments += [f"{option['name']}={_text(value)}"]
-    return arguments
+            members[option["name"]] = _text(value)
+    return members
 
 
 class Report(dict):
@@ -128,11 +131,28 @@ class _Progress:
             print(file=sys.stderr)
 
 
-def run(command, arguments, options, design=None, progress=None):
-    """Runs a command. Returns its report and what it would have written to stdout.
+def run(kind, own, options, design=None, progress=None):
+    """Runs a job. `own` has members that are not keywords. Returns its report, and its text or bytes.
 
     Raises DesignError, MachineError, CheckError, KeyboardInterrupt.
     """
+    members = {**own, **_members(kind, options)}
+    if design is not None:
+        members["design"] = "design"
+    events, data = _watched(kind, progress, lambda take: _core.run_job(kind, members, design, take))
+    return Report(events), data
+
+
+def voxel_grids(options, design, progress=None):
+    """[(what the numbers are, array of the shape (z, y, x))] of the options of `ombre voxels`."""
+    members = {"design": "design", "output": "memory", **_members("voxels", options)}
+    _, grids = _watched("voxels", progress, lambda take: _core.voxels(members, design, take))
+    return [(about, numpy.frombuffer(numbers, dtype=about["data_type"]).reshape(
+        [int(n) for n in reversed(about["dimensions"])])) for about, numbers in grids]
+
+
+def _watched(kind, progress, work):
+    """Runs a job that tells its events; returns them, and what else it gives."""
     events = []
     shown = _Progress(progress)
 
@@ -141,32 +161,35 @@ def run(command, arguments, options, design=None, progress=None):
             events.append(event)
         else:
             shown.update(event)
-    words = [command, *([] if design is None else ["design"]), *arguments, *_arguments(command, options)]
     code = None
     try:
-        code, data = _core.run_command(words, design, take)
+        code, data = work(take)
     finally:
         shown.close(code == 0)
     messages = [e for e in events if e["event"] == "message"]
     if code == 130:
         raise KeyboardInterrupt
     if code:
-        text = "\n".join(_message_text(m) for m in messages if m["severity"] != "warning" or code == 3)
-        text = text or f"{command} failed with code {code}"
-        if code in (1, 3):
-            error = {1: DesignError, 3: CheckError}[code](text, messages)
-        else:
-            error = MachineError(text)
-            for message in messages:
-                if message["severity"] == "error":
-                    error.code, error.values = message["code"], message["values"]
-        if code == 3:
-            error.checks = [{k: v for k, v in e.items() if k != "event"} for e in events if e["event"] == "check"]
-        raise error
+        raise _error(kind, code, messages, events)
     for message in messages:
         if message["severity"] == "warning":
-            warnings.warn(_message_text(message), DesignWarning, stacklevel=3)
-    return Report(events), data
+            warnings.warn(_message_text(message), DesignWarning, stacklevel=4)
+    return events, data
+
+
+def _error(kind, code, messages, events):
+    text = "\n".join(_message_text(m) for m in messages if m["severity"] != "warning" or code == 3)
+    text = text or f"{kind} failed with code {code}"
+    if code in (1, 3):
+        error = {1: DesignError, 3: CheckError}[code](text, messages)
+    else:
+        error = MachineError(text)
+        for message in messages:
+            if message["severity"] == "error":
+                error.code, error.values = message["code"], message["values"]
+    if code == 3:
+        error.checks = [{k: v for k, v in e.items() if k != "event"} for e in events if e["event"] == "check"]
+    return error
 
 
 def _message_text(message):

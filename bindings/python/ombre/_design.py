@@ -1,5 +1,4 @@
 """Designs: parts and materials, queries, and jobs."""
-import contextlib
 import dataclasses
 import html
 import json
@@ -11,7 +10,7 @@ import textwrap
 import numpy
 
 from . import _core
-from ._commands import keywords_of, length_text, run
+from ._commands import keywords_of, length_text, options_of, run, voxel_grids
 from ._errors import DesignError
 from ._solid import Solid, _is_solid, _nodes, wrap
 
@@ -21,7 +20,7 @@ class Voxels:
     """A grid of voxels.
 
     Attributes:
-        values: array of the shape (z, y, x): `values[k, j, i]`. Material ids, fractions or distances (mm).
+        values: array of the shape (z, y, x): `values[k, j, i]`. Material ids, fractions, distances (mm) or an attribute.
         spacing: voxel sizes (x, y, z), mm.
         origin: centre of voxel (0, 0, 0), mm.
         about: what else `ombre voxels` says of it.
@@ -256,7 +255,7 @@ class Design:
         Args:
             voxel: size, mm: a length or three; without it, the design's own, or 0.1.
             what: "materials" (ids as slicing gives them, with its dithering), "distance" (mm), or the name of a
-                material, for its fraction.
+                material, for its fraction, or of an attribute, such as "modulus" or "fibre.x".
             progress: True for a bar, or a function of the share that is done, 0 to 1.
             **options: of `ombre voxels`: box, printer, dither, seed, threads, ...
 
@@ -265,19 +264,21 @@ class Design:
         """
         if voxel is not None:
             options["voxel"] = ",".join(_voxel_texts(voxel))
-        grids = what if what in ("materials", "distance") else "fractions"
-        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
-            path = os.path.join(folder, "grid.npy")
-            run("voxels", ["-o", path, *_grid_arguments(grids)], options, self._core, progress)
-            files = {json.loads(p.read_text(encoding="utf-8")).get("material", {}).get("name", grids): p
-                     for p in pathlib.Path(folder).glob("*.json")}
-            found = next((p for name, p in files.items() if grids != "fractions" or name.lower() == what.lower()), None)
-            if found is None:
-                raise DesignError(f"{what!r} is neither materials nor distance nor a material of the design, which has "
-                                  + ", ".join(sorted(files)))
-            about = json.loads(found.read_text(encoding="utf-8"))
-            values = numpy.load(found.with_suffix(""))
+        is_material = what not in ("materials", "distance") and self._material(what) is not None
+        if not is_material and what not in ("materials", "distance") and what.split(".")[0] not in self.attributes:
+            raise DesignError(f"{what!r} is neither materials nor distance nor a material nor an attribute of the design"
+                              + (", which has " + ", ".join(self.attributes) if self.attributes else ""))
+        grids = voxel_grids({**options, "what": "fractions" if is_material else what}, self._core, progress)
+        name = self._material(what) if is_material else None
+        about, values = next((g for g in grids if name is None or g[0]["material"]["name"] == name), (None, None))
+        if values is None:  # the design has the material nowhere
+            about, values = dict(grids[0][0]), numpy.zeros_like(grids[0][1])
+            about["material"] = {"name": name}
         return Voxels(values, tuple(about["spacing_mm"]), tuple(about["origin_mm"]), about)
+
+    def _material(self, name):
+        """The name of a material, whatever its case; None where it is no material."""
+        return next((known for known in self.materials.names if known.lower() == str(name).lower()), None)
 
     def volumes(self, voxel=None, **options):
         """{material: volume in mm3}, by counting voxels as slicing fills them."""
@@ -297,9 +298,9 @@ class Design:
 
     # Jobs.
 
-    def _job(self, command, path, progress, options):
-        arguments = [] if path is None else ["-o", os.fspath(path)]
-        return run(command, arguments, options, self._core, progress)[0]
+    def _job(self, kind, path, progress, options):
+        own = {} if path is None else {"output": os.fspath(path)}
+        return run(kind, own, options, self._core, progress)[0]
 
     def slice(self, folder, progress=None, **options):
         """Writes a printable slice stack to a folder; see `ombre slice`."""
@@ -324,8 +325,7 @@ class Design:
 
         `study` is a path, or what such a file holds, as a dict.
         """
-        with _study_file(options) as options:
-            return self._job("fea", path, progress, options)
+        return self._job("fea", path, progress, options)
 
     def homogenise(self, path=None, progress=None, **options):
         """Says how stiff a cell of the design is as a material, or how well it conducts; see `ombre homogenise`.
@@ -333,8 +333,7 @@ class Design:
         `path` is a chart (.svg); `study` a path, or what such a file holds, as a dict. The report has
         `stiffness_mpa`, `modulus_mpa` and so on.
         """
-        with _study_file(options) as options:
-            return self._job("homogenise", path, progress, options)
+        return self._job("homogenise", path, progress, options)
 
     def write_voxels(self, path, progress=None, **options):
         """Writes a grid (.vdb, .nvdb, .npy, .nrrd, .raw); see `ombre voxels`."""
@@ -344,10 +343,7 @@ class Design:
         """Writes a picture (.png), or returns it as bytes when there is no path; see `ombre render`."""
         if path is not None:
             return self._job("render", path, None, options)
-        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
-            file = pathlib.Path(folder) / "picture.png"
-            self._job("render", file, None, options)
-            return file.read_bytes()
+        return run("render", {"output": "-"}, options, self._core)[1]
 
     def view(self, frames=36, **options):
         """A page for the browser, as text, that holds pictures from all around and turns the part; options of `render`."""
@@ -375,23 +371,6 @@ class Design:
         names = html.escape(", ".join(name for name, _ in self.parts))
         return (f'<div><img alt="{names}" width="480" src="data:image/png;base64,{picture}"/><div>{names}: '
                 f"{x1 - x0:.4g} × {y1 - y0:.4g} × {z1 - z0:.4g} mm</div></div>")
-
-
-@contextlib.contextmanager
-def _study_file(options):
-    """The options, with a file in place of a study that is a dict."""
-    study = options.get("study")
-    if not isinstance(study, dict):
-        yield options
-        return
-    with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
-        file = pathlib.Path(folder) / "study.json"
-        file.write_text(json.dumps(study), encoding="utf-8")
-        yield {**options, "study": file}
-
-
-def _grid_arguments(grids):
-    return ["--what", grids]
 
 
 def _voxel_texts(voxel):
@@ -448,13 +427,12 @@ def optimise(script, folder, study, materials=None, progress=None, **options):
     Returns:
         What `--json` would tell; `events` has a "best" for each of the best designs, with `variables` and `measures`.
     """
-    arguments = [os.fspath(script), "-o", os.fspath(folder)]
+    own = {"design": os.fspath(script), "output": os.fspath(folder)}
     if materials is not None:
-        arguments += ["--materials", os.fspath(materials)]
+        own["materials"] = os.fspath(materials)
     if isinstance(study, dict) and isinstance(study.get("fea"), str):
         study = {**study, "fea": os.path.abspath(study["fea"])}
-    with _study_file({**options, "study": study}) as options:
-        return run("optimise", arguments, options, progress=progress)[0]
+    return run("optimise", own, {**options, "study": study}, progress=progress)[0]
 
 
 def source_memory(limit=None):
@@ -477,9 +455,57 @@ def _definition(value):
     return value if isinstance(value, str) else json.dumps(value)
 
 
-# Methods of designs and solids that are commands, with these names there.
+def run_job(kind, progress=None, **options):
+    """Runs a job of any kind, such as "sheet" or "info"; see `ombre commands`.
+
+    Args:
+        kind: its name.
+        progress: True for a bar, or a function of the share that is done, 0 to 1.
+        **options: those of the command, and what it takes without a name: file, folder, design.
+
+    Returns:
+        What `--json` would tell, with all `events`, and `text`: what the command would print.
+    """
+    known = options_of(kind)
+    own = {known[name]["name"]: _plain(options.pop(name)) for name in list(options) if name in known and name not in keywords_of(kind)}
+    report, text = run(kind, own, options, progress=progress)
+    report["text"] = text.decode("utf-8", "replace")
+    return report
+
+
+def _plain(value):
+    return [os.fspath(v) for v in value] if isinstance(value, (list, tuple)) else os.fspath(value)
+
+
+# Methods of designs and solids that are commands, with these names there. All kinds of jobs of a design that have no
+# method of their own get one.
 JOBS = {"slice": "slice", "layer": "layer", "mesh": "mesh", "contours": "contours", "fea": "fea",
         "homogenise": "homogenise", "write_voxels": "voxels", "render": "render"}
+_elsewhere = {"optimise", "bundle", "voxels"}
+
+
+def _method_of(kind, help_text, has_output):
+    if has_output:
+        def method(self, path=None, progress=None, **options):
+            return self._job(kind, path, progress, options)
+    else:
+        def method(self, progress=None, **options):
+            return self._job(kind, None, progress, options)
+    method.__name__ = kind
+    method.__doc__ = f"{help_text}; see `ombre {kind}`."
+    return method
+
+
+def _add_other_jobs():
+    for kind in _core.jobs():
+        name, options = kind["name"], {option["name"] for option in kind["options"]}
+        if "design" not in options or name in _elsewhere or hasattr(Design, name):
+            continue
+        setattr(Design, name, _method_of(name, kind["help"], "output" in options))
+        JOBS[name] = name
+
+
+_add_other_jobs()
 
 
 def _document_jobs():

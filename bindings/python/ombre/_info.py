@@ -22,5 +22,5 @@ def volume_info(path, series=None, channel=None, picture=None, force=False):
         force: replaces a picture that is there.
     """
     options = {"series": series, "channel": channel, "picture": picture, "force": force}
-    report, _ = run("info", [os.fspath(path)], options)
+    report, _ = run("info", {"file": os.fspath(path)}, options)
     return dict(report)

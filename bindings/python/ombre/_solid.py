@@ -303,7 +303,7 @@ def _doc(info):
 def node_infos():
     """What there is to know of every node, from the registry."""
     events = []
-    _core.run_command(["nodes"], None, events.append)
+    _core.run_job("nodes", {}, None, events.append)
     return [e for e in events if e["event"] == "node"]
 
 

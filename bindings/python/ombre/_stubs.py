@@ -88,6 +88,7 @@ class Materials:
 
 def load(path: Path, materials: Optional[Path] = ..., **variables: Any) -> Design: ...
 def load_text(text: str, name: str = ..., folder: Path = ..., materials: Optional[Path] = ..., **variables: Any) -> Design: ...
+def run_job(kind: str, progress: Progress = ..., **options: Option) -> dict[str, Any]: ...
 def source_memory(limit: Optional[int] = ...) -> dict[str, int]: ...
 def delaunay_edges(points: ArrayLike) -> Floats: ...
 def voronoi_edges(points: ArrayLike, min: Optional[ArrayLike] = ..., max: Optional[ArrayLike] = ...) -> Floats: ...
@@ -164,11 +165,11 @@ def _option_type(option):
     if option.get("choices"):
         # Numbers among the words may be written as such.
         kind = "Literal[" + ", ".join(f'"{c}"' + (f", {c}" if c.isdigit() else "") for c in option["choices"]) + "]"
-    elif option["name"] == "--study":
+    elif option["name"] == "study":
         kind = "Union[Path, dict[str, Any]]"
     else:
         kind = _option_kinds.get(option.get("kind"), "Option")
-    return "Option" if option["is_list"] else kind if option["is_flag"] else f"Optional[{kind}]"
+    return "Option" if option["takes"] == "several" else kind if option["takes"] == "nothing" else f"Optional[{kind}]"
 
 
 def _options(command, without=()):
@@ -176,21 +177,26 @@ def _options(command, without=()):
                    for name, option in keywords_of(command).items() if name not in without)
 
 
-# The first parameter of a job where it is not `path: Path`, and the result of a job where it is no dict.
-_firsts = {"slice": "folder: Path", "fea": "path: Optional[Path] = ...", "homogenise": "path: Optional[Path] = ...",
-           "render": "path: Optional[Path] = ..."}
+# The result of a job where it is no dict.
 _job_results = {"render": "Any"}
 
 
-def _has_progress(function):
-    return ", progress: Progress = ..." if "progress" in inspect.signature(function).parameters else ""
+def _parameters(function):
+    """Those that stand before the options."""
+    text = ""
+    for name, parameter in list(inspect.signature(function).parameters.items())[1:-1]:
+        if name == "progress":
+            text += ", progress: Progress = ..."
+        else:
+            text += f", {name}: Path" if parameter.default is inspect.Parameter.empty else f", {name}: Optional[Path] = ..."
+    return text
 
 
 def _jobs():
     for name, command in JOBS.items():
         function = getattr(ombre.Design, name)
-        first, result = _firsts.get(name, "path: Path"), _job_results.get(name, "dict[str, Any]")
-        yield (f"    def {name}(self, {first}{_has_progress(function)}{_options(command)}) -> {result}:\n" +
+        result = _job_results.get(name, "dict[str, Any]")
+        yield (f"    def {name}(self{_parameters(function)}{_options(command)}) -> {result}:\n" +
                _docstring(function.__doc__, 8) + "        ...\n")
     words = _options("voxels", ("voxel", "what"))
     for name, result in (("voxels", "Voxels"), ("volumes", "dict[str, float]"), ("volume", "float")):

@@ -13,22 +13,22 @@ namespace {
 
 using namespace test;
 
-Mesh read(const std::string& bytes) {
+Mesh read_quiet_amf(const std::string& bytes) {
   Diagnostics diagnostics;
   const auto mesh = read_mesh("a.amf", bytes, diagnostics);
   EXPECT_TRUE(mesh && diagnostics.list().empty()) << to_text(diagnostics);
   return mesh.value_or(Mesh{});
 }
 
-std::string message(const std::string& bytes) {
+std::string amf_message(const std::string& bytes) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_amf("a.amf", bytes, diagnostics));
   EXPECT_EQ(diagnostics.error_count(), 1u);
   return to_text(diagnostics);
 }
 
-void expect_message(const std::string& bytes, const std::string& part) {
-  const std::string text = message(bytes);
+void expect_amf_message(const std::string& bytes, const std::string& part) {
+  const std::string text = amf_message(bytes);
   EXPECT_NE(text.find(part), std::string::npos) << "expected: " << part << "\nfound: " << text;
 }
 
@@ -50,7 +50,7 @@ std::string amf(const std::string& inner, const std::string& unit = "millimeter"
 }
 
 TEST(Amf, NamesMaterialsAndColoursComeBack) {
-  const Mesh mesh = read(whole(amf_bytes(pair())));
+  const Mesh mesh = read_quiet_amf(whole(amf_bytes(pair())));
   EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
   ASSERT_EQ(mesh.groups.size(), 2u);
   EXPECT_EQ(mesh.groups[0].name, "left");
@@ -73,19 +73,19 @@ TEST(Amf, VolumesTellSlicersTheirSettings) {
 TEST(Amf, WhatXmlCannotHoldIsReplaced) {
   MeshDocument document = pair();
   document.bodies[0].name = "a<b>&\"c\"\x01\xFF \xC3\xA4";
-  EXPECT_EQ(read(whole(amf_bytes(document))).groups[0].name, "a<b>&\"c\"?? \xC3\xA4");
+  EXPECT_EQ(read_quiet_amf(whole(amf_bytes(document))).groups[0].name, "a<b>&\"c\"?? \xC3\xA4");
 }
 
 TEST(Amf, UnitsBecomeMillimetres) {
-  EXPECT_NEAR(volume(read(amf(amf_object(), "inch"))), tetrahedron_mm3 * 25.4 * 25.4 * 25.4, 1e-6);
-  EXPECT_NEAR(volume(read(amf(amf_object(), "micron"))), tetrahedron_mm3 * 1e-9, 1e-18);
-  expect_message(amf(amf_object(), "parsec"), "there is no unit \"parsec\"; it can be millimeter");
+  EXPECT_NEAR(volume(read_quiet_amf(amf(amf_object(), "inch"))), tetrahedron_mm3 * 25.4 * 25.4 * 25.4, 1e-6);
+  EXPECT_NEAR(volume(read_quiet_amf(amf(amf_object(), "micron"))), tetrahedron_mm3 * 1e-9, 1e-18);
+  expect_amf_message(amf(amf_object(), "parsec"), "there is no unit \"parsec\"; it can be millimeter");
 }
 
 TEST(Amf, ConstellationsPlaceObjects) {
-  const Mesh mesh = read(amf(amf_object() +
-                             "<constellation id=\"c\"><instance objectid=\"1\"><deltax>5</deltax><rz>90</rz></instance>"
-                             "<instance objectid=\"1\"><rx>90</rx></instance></constellation>"));
+  const Mesh mesh = read_quiet_amf(
+      amf(amf_object() + "<constellation id=\"c\"><instance objectid=\"1\"><deltax>5</deltax><rz>90</rz></instance>"
+                         "<instance objectid=\"1\"><rx>90</rx></instance></constellation>"));
   EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
   EXPECT_EQ(mesh.vertices[1], (Vec3{5, 1, 0}));  // x turned to y, and moved
   EXPECT_EQ(mesh.vertices[6], (Vec3{0, 0, 2}));  // y turned to z
@@ -107,25 +107,25 @@ std::string amf_warnings(const std::string& bytes) {
 // Mirrored and scaled first, as in PrusaSlicer: x goes to -2, 3 times y to x after the turn.
 TEST(Amf, InstancesAreScaledAndMirrored) {
   const Mesh mesh =
-      read(placed("<scalex>2</scalex><scaley>3</scaley><scalez>0.5</scalez><mirrorx>-1</mirrorx>"
-                  "<mirrory>1</mirrory><deltax>1</deltax><rz>90</rz>"));
+      read_quiet_amf(placed("<scalex>2</scalex><scaley>3</scaley><scalez>0.5</scalez><mirrorx>-1</mirrorx>"
+                            "<mirrory>1</mirrory><deltax>1</deltax><rz>90</rz>"));
   EXPECT_EQ(mesh.vertices[1], (Vec3{1, -2, 0}));
   EXPECT_EQ(mesh.vertices[2], (Vec3{-5, 0, 0}));
   EXPECT_EQ(mesh.vertices[3], (Vec3{1, 0, 2}));
   EXPECT_NEAR(volume(mesh), 3 * tetrahedron_mm3, 1e-12);
-  EXPECT_NEAR(volume(read(placed("<scale>2</scale>"))), 8 * tetrahedron_mm3, 1e-12);
-  expect_message(placed("<scalez>0</scalez>"), "this squeezes its object flat: it is scaled by 0");
+  EXPECT_NEAR(volume(read_quiet_amf(placed("<scale>2</scale>"))), 8 * tetrahedron_mm3, 1e-12);
+  expect_amf_message(placed("<scalez>0</scalez>"), "this squeezes its object flat: it is scaled by 0");
 }
 
 TEST(Amf, SlicersFromSlic3rTurnByRadians) {
   for (const char* program : {"Slic3r 1.2.9", "PrusaSlicer-2.7", "SuperSlicer 2.5"}) {
     const std::string by = std::string("<metadata type=\"cad\">") + program + "</metadata>";
-    const Mesh mesh = read(placed("<rz>1.570796</rz>", by));
+    const Mesh mesh = read_quiet_amf(placed("<rz>1.570796</rz>", by));
     EXPECT_EQ(mesh.vertices[1], (Vec3{0, 1, 0})) << program;
-    const Mesh sixth = read(placed("<rz>0.523599</rz>", by));
+    const Mesh sixth = read_quiet_amf(placed("<rz>0.523599</rz>", by));
     EXPECT_NEAR(sixth.vertices[1].y, 0.5, 1e-6) << program;
   }
-  const Mesh degrees = read(placed("<rz>90</rz>", "<metadata type=\"cad\">FreeCAD</metadata>"));
+  const Mesh degrees = read_quiet_amf(placed("<rz>90</rz>", "<metadata type=\"cad\">FreeCAD</metadata>"));
   EXPECT_EQ(degrees.vertices[1], (Vec3{0, 1, 0}));
 }
 
@@ -144,8 +144,9 @@ TEST(Amf, VolumesThatAreNoSolidAreLeftOut) {
         "<volume><metadata type=\"slic3r.volume_type\">SupportBlocker</metadata>",
         "<volume><metadata type=\"slic3r.modifier\">0</metadata><metadata type=\"slic3r.volume_type\">"
         "SupportEnforcer</metadata>"})
-    EXPECT_EQ(read(with_second(begin)).triangles.size(), 4u) << begin;
-  EXPECT_EQ(read(with_second("<volume><metadata type=\"slic3r.volume_type\">ModelPart</metadata>")).triangles.size(),
+    EXPECT_EQ(read_quiet_amf(with_second(begin)).triangles.size(), 4u) << begin;
+  EXPECT_EQ(read_quiet_amf(with_second("<volume><metadata type=\"slic3r.volume_type\">ModelPart</metadata>"))
+                .triangles.size(),
             8u);
   EXPECT_NE(amf_warnings(with_second("<volume><metadata type=\"slic3r.volume_type\">NegativeVolume</metadata>"))
                 .find("a.amf: a negative volume is left out, not taken away from the others"),
@@ -155,8 +156,8 @@ TEST(Amf, VolumesThatAreNoSolidAreLeftOut) {
 TEST(Amf, VolumesWithoutColoursGetThoseOfTheirExtruders) {
   std::string text = amf_object();
   text.insert(text.find("<triangle>"), "<metadata type=\"slic3r.extruder\">2</metadata>");
-  const Mesh mesh =
-      read(amf("<metadata type=\"slic3rpe_config\">\n; filament_colour = #FF0000;#0000FF\n</metadata>" + text));
+  const Mesh mesh = read_quiet_amf(
+      amf("<metadata type=\"slic3rpe_config\">\n; filament_colour = #FF0000;#0000FF\n</metadata>" + text));
   EXPECT_EQ(mesh.groups[0].colour, (Rgba{0, 0, 255, 255}));
 }
 
@@ -183,22 +184,22 @@ TEST(Amf, InstancesThatAreNotPrintedAreLeftOut) {
 }
 
 TEST(Amf, WrongFilesAreExplained) {
-  expect_message("", "the file is empty");
-  expect_message("<amf><object", "a.amf:1:");
-  expect_message("<svg/>", "expected the element <amf>, found \"svg\"");
-  expect_message(amf(amf_object("nan")), "expected a coordinate of a vertex, found \"nan\"");
-  expect_message(amf(amf_object("1e16")), "is too large");
-  expect_message(amf(amf_object("")), "expected a coordinate of a vertex, found \"\"");
-  expect_message(amf(amf_object() + amf_object()), "there are two objects with the id \"1\"");
-  expect_message(amf(""), "nothing that is built has triangles");
-  expect_message(amf(amf_object() + "<constellation id=\"c\"><instance objectid=\"7\"/></constellation>"),
-                 "there is no object 7");
-  expect_message(amf("<constellation id=\"c\"><instance objectid=\"c\"/></constellation>" + amf_object() +
-                     "<constellation id=\"d\"><instance objectid=\"c\"/></constellation>"),
-                 "the object c consists of itself");
+  expect_amf_message("", "the file is empty");
+  expect_amf_message("<amf><object", "a.amf:1:");
+  expect_amf_message("<svg/>", "expected the element <amf>, found \"svg\"");
+  expect_amf_message(amf(amf_object("nan")), "expected a coordinate of a vertex, found \"nan\"");
+  expect_amf_message(amf(amf_object("1e16")), "is too large");
+  expect_amf_message(amf(amf_object("")), "expected a coordinate of a vertex, found \"\"");
+  expect_amf_message(amf(amf_object() + amf_object()), "there are two objects with the id \"1\"");
+  expect_amf_message(amf(""), "nothing that is built has triangles");
+  expect_amf_message(amf(amf_object() + "<constellation id=\"c\"><instance objectid=\"7\"/></constellation>"),
+                     "there is no object 7");
+  expect_amf_message(amf("<constellation id=\"c\"><instance objectid=\"c\"/></constellation>" + amf_object() +
+                         "<constellation id=\"d\"><instance objectid=\"c\"/></constellation>"),
+                     "the object c consists of itself");
   std::string wrong = amf(amf_object());
   wrong.replace(wrong.find("<v3>3"), 5, "<v3>9");
-  expect_message(wrong, "a.amf:8:1: error: the triangle uses vertex 9, but the 4 vertices of its object");
+  expect_amf_message(wrong, "a.amf:8:1: error: the triangle uses vertex 9, but the 4 vertices of its object");
 }
 
 TEST(Amf, EntitiesDoNotGrow) {
@@ -208,8 +209,8 @@ TEST(Amf, EntitiesDoNotGrow) {
     for (int i = 0; i < 10; ++i) laughs += "&" + std::string(1, static_cast<char>(c - 1)) + ";";
     laughs += "\">";
   }
-  expect_message(laughs + "]>\n<amf>" + amf_object("&j;") + "</amf>",
-                 "expected a coordinate of a vertex, found \"&j;\"");
+  expect_amf_message(laughs + "]>\n<amf>" + amf_object("&j;") + "</amf>",
+                     "expected a coordinate of a vertex, found \"&j;\"");
 }
 
 TEST(Amf, EveryTruncationIsAMeshOrAMessage) {

@@ -93,7 +93,7 @@ std::string binary_ply(bool big) {
   return bytes;
 }
 
-Mesh read(const std::string& name, const std::string& bytes) {
+Mesh read_named(const std::string& name, const std::string& bytes) {
   Diagnostics diagnostics;
   const auto mesh = read_mesh(name, bytes, diagnostics);
   EXPECT_TRUE(mesh) << name << ": " << to_text(diagnostics);
@@ -102,15 +102,15 @@ Mesh read(const std::string& name, const std::string& bytes) {
 }
 
 // The messages of bytes that hold no mesh.
-std::string message(const std::string& name, const std::string& bytes) {
+std::string message_of(const std::string& name, const std::string& bytes) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_mesh(name, bytes, diagnostics)) << name;
   EXPECT_EQ(diagnostics.error_count(), 1u);
   return to_text(diagnostics);
 }
 
-void expect_message(const std::string& name, const std::string& bytes, const std::string& part) {
-  const std::string text = message(name, bytes);
+void expect_message_of(const std::string& name, const std::string& bytes, const std::string& part) {
+  const std::string text = message_of(name, bytes);
   EXPECT_NE(text.find(part), std::string::npos) << "expected: " << part << "\nfound: " << text;
 }
 
@@ -139,7 +139,7 @@ TEST(Mesh, EveryFormatGivesTheSameTriangles) {
                                                                {"off without extension", off()}};
   for (const auto& [name, bytes] : files) {
     SCOPED_TRACE(name);
-    const Mesh mesh = read(name, bytes);
+    const Mesh mesh = read_named(name, bytes);
     EXPECT_EQ(shape(mesh), shape(expected));
     EXPECT_EQ(mesh.vertices.size(), 4u);
     ASSERT_EQ(mesh.groups.size(), 1u);
@@ -148,19 +148,20 @@ TEST(Mesh, EveryFormatGivesTheSameTriangles) {
 }
 
 TEST(Mesh, UnknownFormatsAreNamed) {
-  expect_message("a.xyz", "1 2 3\n", "neither the name nor the content tells which mesh format this is");
-  expect_message("a.glb", "glTF", "name the file .stl, .obj, .ply, .off, .3mf or .amf");
+  expect_message_of("a.xyz", "1 2 3\n", "neither the name nor the content tells which mesh format this is");
+  expect_message_of("a.glb", "glTF", "name the file .stl, .obj, .ply, .off, .3mf or .amf");
 }
 
 TEST(Mesh, EmptyFilesAreNamed) {
   for (const std::string ending : {"stl", "obj", "ply", "off"})
-    expect_message("a." + ending, "", "a." + ending + ": error: the file is empty");
+    expect_message_of("a." + ending, "", "a." + ending + ": error: the file is empty");
 }
 
 TEST(Mesh, GarbageIsAMessage) {
   std::string garbage;
   for (uint32_t i = 0; i < 3000; ++i) garbage += static_cast<char>(i * i * 7919 >> 5);
-  for (const std::string ending : {"stl", "obj", "ply", "off"}) EXPECT_FALSE(message("a." + ending, garbage).empty());
+  for (const std::string ending : {"stl", "obj", "ply", "off"})
+    EXPECT_FALSE(message_of("a." + ending, garbage).empty());
 }
 
 TEST(Mesh, EveryTruncationIsAMeshOrAMessage) {
@@ -195,13 +196,13 @@ TEST(Stl, CutShortSaysWhatIsMissing) {
   std::string bytes = binary_stl("header", 1200);
   bytes.resize(59000, '\0');
   EXPECT_EQ(
-      message("wing.stl", bytes),
+      message_of("wing.stl", bytes),
       "wing.stl: error: this binary STL is cut short: its header promises 1,200 triangles (60,084 bytes), the file "
       "has 59,000 bytes\n");
-  expect_message("a.stl", binary_stl("solid x").substr(0, 200),
-                 "promises 4 triangles (284 bytes), the file has 200 bytes");
-  expect_message("a.stl", std::string(20, 'x'), "this is not an STL file");
-  expect_message("a.stl", binary_stl("none", 0).substr(0, 84), "has no triangles");
+  expect_message_of("a.stl", binary_stl("solid x").substr(0, 200),
+                    "promises 4 triangles (284 bytes), the file has 200 bytes");
+  expect_message_of("a.stl", std::string(20, 'x'), "this is not an STL file");
+  expect_message_of("a.stl", binary_stl("none", 0).substr(0, 84), "has no triangles");
 }
 
 TEST(Stl, BytesAfterTheLastTriangleAreAWarning) {
@@ -222,22 +223,22 @@ TEST(Stl, CoordinatesMustBeNumbers) {
   std::string bytes = binary_stl();
   const float bad = std::nanf("");
   std::memcpy(bytes.data() + 84 + 50 + 12 + 12, &bad, 4);
-  expect_message("a.stl", bytes, "corner 2 of triangle 2 (at byte 158) is not a usable point: (nan, ");
-  expect_message("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\n",
-                 "a.stl:4:10: error: expected a coordinate of a corner, found \"nan\", which is not a number");
-  expect_message("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 1e400 0\n", "is too large");
+  expect_message_of("a.stl", bytes, "corner 2 of triangle 2 (at byte 158) is not a usable point: (nan, ");
+  expect_message_of("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\n",
+                    "a.stl:4:10: error: expected a coordinate of a corner, found \"nan\", which is not a number");
+  expect_message_of("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 1e400 0\n", "is too large");
 }
 
 TEST(Stl, ZeroHasOneSign) {
   std::string text = text_solid("t", 0, 4);
   for (size_t at = text.find("vertex 0.000000"); at != std::string::npos; at = text.find("vertex 0.000000", at + 20))
     if (at % 2 == 0) text.replace(at, 15, "vertex -0.00000");
-  EXPECT_EQ(read("a.stl", text).vertices.size(), 4u);
+  EXPECT_EQ(read_named("a.stl", text).vertices.size(), 4u);
 }
 
 TEST(Stl, SolidsAreGroups) {
   const Mesh mesh =
-      read("a.stl", text_solid("left wing", 0, 1) + text_solid("empty", 0, 0) + text_solid("right", 1, 4));
+      read_named("a.stl", text_solid("left wing", 0, 1) + text_solid("empty", 0, 0) + text_solid("right", 1, 4));
   ASSERT_EQ(mesh.groups.size(), 2u);
   EXPECT_EQ(mesh.groups[0].name, "left wing");
   EXPECT_EQ(mesh.groups[1].name, "right");
@@ -246,13 +247,13 @@ TEST(Stl, SolidsAreGroups) {
 }
 
 TEST(Stl, TextMistakesPointAtTheWord) {
-  EXPECT_EQ(message("a.stl", "solid a\n  facet normal 0 0 1\n  outer lop\n"),
+  EXPECT_EQ(message_of("a.stl", "solid a\n  facet normal 0 0 1\n  outer lop\n"),
             "a.stl:3:9: error: expected \"loop\" where a facet's corners begin, found \"lop\"\n"
             "  3 |   outer lop\n"
             "    |         ^~~\n");
-  expect_message("a.stl", "solid a\nfacet normal 0 0 1\n", "this STL is cut short: expected \"outer\"");
-  expect_message("a.stl", "solid a\nendsolid a\n", "this STL has no facets");
-  expect_message("a.stl", "solid a\nsolid b\n", "expected \"facet\" or \"endsolid\", found \"solid\"");
+  expect_message_of("a.stl", "solid a\nfacet normal 0 0 1\n", "this STL is cut short: expected \"outer\"");
+  expect_message_of("a.stl", "solid a\nendsolid a\n", "this STL has no facets");
+  expect_message_of("a.stl", "solid a\nsolid b\n", "expected \"facet\" or \"endsolid\", found \"solid\"");
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -295,7 +296,7 @@ TEST(Stl, TextsOfManyProgramsAreRead) {
                                        text.substr(text.find("facet"))};
   for (const std::string& file : texts) {
     SCOPED_TRACE(file);
-    EXPECT_EQ(shape(read("a.stl", file)), expected_shape());
+    EXPECT_EQ(shape(read_named("a.stl", file)), expected_shape());
   }
   expect_warning("a.stl", replaced(text, "1.500000", "1,500000"),
                  "\"1,500000\" is taken for a number with a decimal comma, as are others");
@@ -308,13 +309,13 @@ TEST(Stl, SolidsWithoutAnEndAreWarnedOf) {
   const std::string first = text_solid("s", 0, 2), second = text_solid("t", 2, 4);
   expect_warning("a.stl", first.substr(0, first.find("endsolid")) + second.substr(0, second.find("endsolid")),
                  "2 solids end without \"endsolid\"; their facets are read");
-  expect_message("a.stl", text.substr(0, text.rfind("endfacet")), "this STL is cut short");
+  expect_message_of("a.stl", text.substr(0, text.rfind("endfacet")), "this STL is cut short");
 }
 
 TEST(Stl, FacetsWithMoreCornersAreCut) {
-  const Mesh mesh = read("a.stl",
-                         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n"
-                         "vertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+  const Mesh mesh = read_named("a.stl",
+                               "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n"
+                               "vertex 0 1 0\nendloop\nendfacet\nendsolid\n");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
 }
 
@@ -337,19 +338,20 @@ TEST(Mesh, FilesThatAreNoMeshAreNamed) {
            {std::string("\xFF\xFEs\0o\0l\0i\0d\0", 12), "text in UTF-16; save it as UTF-8"},
            {"{\"a\": 1}", "this is no mesh file but JSON"}})
     for (const std::string ending : {"stl", "obj", "ply", "off", "3mf", "amf"})
-      expect_message("a." + ending, bytes, message);
-  expect_message("a.stl", "Dear all,\nhere is the part.\n" + std::string(100, '.'),
-                 "a.stl: error: this is not an STL file: it is text that begins with \"Dear\" in place of \"solid\"");
-  expect_message("a.stl", " \n\n", "it holds nothing but blanks");
-  expect_message("a.stl", "3", "it is text that begins with \"3\"");
+      expect_message_of("a." + ending, bytes, message);
+  expect_message_of(
+      "a.stl", "Dear all,\nhere is the part.\n" + std::string(100, '.'),
+      "a.stl: error: this is not an STL file: it is text that begins with \"Dear\" in place of \"solid\"");
+  expect_message_of("a.stl", " \n\n", "it holds nothing but blanks");
+  expect_message_of("a.stl", "3", "it is text that begins with \"3\"");
 }
 
 TEST(Obj, AllFormsOfCornersAndStatements) {
   const Mesh mesh =
-      read("a.obj",
-           "mtllib a.mtl\no part\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv +1 1e0 0\nv 0 1 -0\nvt 0 0\nvt 1 0 0\n"
-           "vt 1\nvn 0 0 1\ns off\nusemtl red\nf 1/1/1 2/2/1 3/3/1\nusemtl blue\nf -4/1 -2/3 \\\n  -1/-1 # done\n"
-           "g second\r\nf 1/1/ 2/2/ 3/3/\nl 1 2\n");
+      read_named("a.obj",
+                 "mtllib a.mtl\no part\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv +1 1e0 0\nv 0 1 -0\nvt 0 0\nvt 1 0 0\n"
+                 "vt 1\nvn 0 0 1\ns off\nusemtl red\nf 1/1/1 2/2/1 3/3/1\nusemtl blue\nf -4/1 -2/3 \\\n  -1/-1 # done\n"
+                 "g second\r\nf 1/1/ 2/2/ 3/3/\nl 1 2\n");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
   EXPECT_EQ(mesh.texture_triangles, (Triangles{{0, 1, 2}, {0, 2, 2}, {0, 1, 2}}));
   EXPECT_EQ(mesh.texture_coordinates, (std::vector<std::array<double, 2>>{{0, 0}, {1, 0}, {1, 0}}));
@@ -361,7 +363,7 @@ TEST(Obj, AllFormsOfCornersAndStatements) {
   EXPECT_EQ(mesh.groups[2].name, "second");
   EXPECT_EQ(mesh.groups[2].first_triangle, 2u);
 
-  const Mesh bare = read("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl m\nvt 0 0\nf 1//1 2//2 3//3\n");
+  const Mesh bare = read_named("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl m\nvt 0 0\nf 1//1 2//2 3//3\n");
   EXPECT_TRUE(bare.texture_coordinates.empty());
   EXPECT_EQ(bare.groups[0].name, "m");
 }
@@ -377,18 +379,18 @@ TEST(Obj, FacesWithoutTextureCoordinatesGetOne) {
 }
 
 TEST(Obj, MistakesPointAtTheWord) {
-  EXPECT_EQ(message("a.obj", "v 0 0 0\nf 1 2 9\n"),
+  EXPECT_EQ(message_of("a.obj", "v 0 0 0\nf 1 2 9\n"),
             "a.obj:2:5: error: the corner \"2\" uses vertex 2, but 1 vertices come before it\n"
             "  2 | f 1 2 9\n"
             "    |     ^\n");
-  expect_message("a.obj", "v 1 2\n", "a.obj:1:6: error: expected a coordinate of a vertex, but the line ends here");
-  expect_message("a.obj", "v 1 2 x\n", "expected a coordinate of a vertex, found \"x\"");
-  expect_message("a.obj", "v 0 0 0\nf 1 1\n", "this OBJ file has no faces");
-  expect_message("a.obj", "v 0 0 0\nf 1 0 1\n", "expected a corner of a face, found \"0\"");
-  expect_message("a.obj", "v 0 0 0\nf 1 1/ 1/x\n", "expected a corner of a face, found \"1/x\"");
-  expect_message("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "expected a corner of a face");
-  expect_message("a.obj", "w 0 0 0\n", "an OBJ file has no statement \"w\"");
-  expect_message("a.obj", "v 0 0 0\n", "this OBJ file has no faces");
+  expect_message_of("a.obj", "v 1 2\n", "a.obj:1:6: error: expected a coordinate of a vertex, but the line ends here");
+  expect_message_of("a.obj", "v 1 2 x\n", "expected a coordinate of a vertex, found \"x\"");
+  expect_message_of("a.obj", "v 0 0 0\nf 1 1\n", "this OBJ file has no faces");
+  expect_message_of("a.obj", "v 0 0 0\nf 1 0 1\n", "expected a corner of a face, found \"0\"");
+  expect_message_of("a.obj", "v 0 0 0\nf 1 1/ 1/x\n", "expected a corner of a face, found \"1/x\"");
+  expect_message_of("a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n", "expected a corner of a face");
+  expect_message_of("a.obj", "w 0 0 0\n", "an OBJ file has no statement \"w\"");
+  expect_message_of("a.obj", "v 0 0 0\n", "this OBJ file has no faces");
 }
 
 const std::string no_part = "no part of the surface";
@@ -409,7 +411,7 @@ TEST(Obj, TextureCoordinatesNeedNotBeThere) {
       text = replaced(text, was,
                       "f " + was.substr(2, 1) + form + ' ' + was.substr(4, 1) + form + ' ' + was.substr(6, 1) + form);
     }
-    EXPECT_EQ(shape(read("a.obj", normals + text)), expected_shape()) << form;
+    EXPECT_EQ(shape(read_named("a.obj", normals + text)), expected_shape()) << form;
   }
   Diagnostics diagnostics;
   ASSERT_TRUE(read_obj("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 1 1\nf 1/1 2/2 3/3\n", diagnostics));
@@ -423,11 +425,13 @@ TEST(Obj, WhatIsNotReadIsCounted) {
 
 TEST(Ply, LinesMayHoldMoreThanTheHeaderSays) {
   const std::string text = ply_header("ascii") + rows_of_numbers();
-  EXPECT_EQ(shape(read("a.ply", replaced(text, "\n3 ", " 7 7\n3 "))), expected_shape());
+  EXPECT_EQ(shape(read_named("a.ply", replaced(text, "\n3 ", " 7 7\n3 "))), expected_shape());
   // Where there are fewer lines than elements, or more, they mean nothing.
   const size_t body = text.find("end_header\n") + 11;
-  EXPECT_EQ(shape(read("a.ply", text.substr(0, body) + replaced(text.substr(body), "\n", " "))), expected_shape());
-  EXPECT_EQ(shape(read("a.ply", text.substr(0, body) + replaced(text.substr(body), " ", "\n"))), expected_shape());
+  EXPECT_EQ(shape(read_named("a.ply", text.substr(0, body) + replaced(text.substr(body), "\n", " "))),
+            expected_shape());
+  EXPECT_EQ(shape(read_named("a.ply", text.substr(0, body) + replaced(text.substr(body), " ", "\n"))),
+            expected_shape());
 }
 
 // Two strips in one list: the tetrahedron's first three faces, and its last.
@@ -435,9 +439,9 @@ TEST(Ply, StripsOfTrianglesAreRead) {
   const std::string header = replaced(replaced(ply_header("ascii"), "face 4", "tristrips 1"), "list uchar", "list int");
   std::string text = rows_of_numbers();
   text = header + text.substr(0, text.find("3 0 1 2")) + "10 2 0 1 3 2 -1 0 2 3 -1\n";
-  const Mesh mesh = read("a.ply", text);
+  const Mesh mesh = read_named("a.ply", text);
   EXPECT_EQ(mesh.triangles, (Triangles{{2, 0, 1}, {1, 0, 3}, {1, 3, 2}, {0, 2, 3}}));
-  expect_message("a.ply", replaced(text, "-1 0", "-2 0"), "uses vertex -2");
+  expect_message_of("a.ply", replaced(text, "-1 0", "-2 0"), "uses vertex -2");
 }
 
 TEST(Ply, WhatIsNoSurfaceIsCounted) {
@@ -452,19 +456,19 @@ TEST(Off, LinesMeanNothingBeforeColours) {
       replaced(off(), "\n", " "),          replaced(off(), "\n", "\n\n"),
       replaced(off(), " ", "\n"),          replaced(off(), "\n3 ", " 0.5 0.5 0.5\n3 "),
       replaced(off(), "\n3 ", "\n  3\n "), replaced(replaced(off(), "00\n", "00 "), "\n3 ", "\n\n3 ")};
-  for (const std::string& file : files) EXPECT_EQ(shape(read("a.off", file)), expected_shape()) << file;
-  const Mesh mesh = read("a.off",
-                         "STCNOFF 3 1 0 0 0 0 0 0 1 1 0 0 1 0.25 0.5 1 0 0 0 0 1 1 0 0 1 0.75 1 0 1 0 0 0 1 1 0 "
-                         "0 1 0 0 3 0 1 2");
+  for (const std::string& file : files) EXPECT_EQ(shape(read_named("a.off", file)), expected_shape()) << file;
+  const Mesh mesh = read_named("a.off",
+                               "STCNOFF 3 1 0 0 0 0 0 0 1 1 0 0 1 0.25 0.5 1 0 0 0 0 1 1 0 0 1 0.75 1 0 1 0 0 0 1 1 0 "
+                               "0 1 0 0 3 0 1 2");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
   EXPECT_EQ(mesh.texture_coordinates[1], (std::array<double, 2>{0.75, 1}));
 }
 
 TEST(Off, TheHeaderMayTouchTheCountOrBeLeftOut) {
   for (const std::string header : {"OFF", "COFF", "NOFF", "\xEF\xBB\xBFOFF", ""})
-    EXPECT_EQ(shape(read("a.off", off(header))), expected_shape()) << header;
-  EXPECT_EQ(shape(read("called otherwise", off("OFF"))), expected_shape());
-  expect_message("a.off", "OFFx 1 1\n", "found \"OFFx\"");
+    EXPECT_EQ(shape(read_named("a.off", off(header))), expected_shape()) << header;
+  EXPECT_EQ(shape(read_named("called otherwise", off("OFF"))), expected_shape());
+  expect_message_of("a.off", "OFFx 1 1\n", "found \"OFFx\"");
 }
 
 TEST(Off, FacesOfTwoCornersAreNoPart) {
@@ -473,7 +477,7 @@ TEST(Off, FacesOfTwoCornersAreNoPart) {
 }
 
 TEST(Ply, ExtraElementsAndPropertiesArePassedOver) {
-  const Mesh mesh = read(
+  const Mesh mesh = read_named(
       "a.ply",
       "ply\r\nformat ascii 1.0\r\nelement camera 2\r\nproperty list uint double matrix\r\nproperty short id\r\n"
       "element empty 99999999999\r\nelement vertex 4\r\nproperty uchar red\r\nproperty float64 x\r\n"
@@ -491,56 +495,60 @@ TEST(Ply, MistakesSayWhere) {
   };
   const std::string text = ply_header("ascii") + rows_of_numbers();
   const std::string binary = binary_ply(false);
-  expect_message("a.ply", changed(text, "ascii", "binary"),
-                 "a.ply:2:8: error: expected ascii, binary_little_endian or");
-  expect_message("a.ply", changed(text, "float x", "real x"), "expected the type of a property, found \"real\"");
-  expect_message("a.ply", changed(text, "float x", "float w"), "lack one of the properties x, y, z");
-  expect_message("a.ply", changed(text, "vertex_indices", "corners"), "lack the list vertex_indices");
-  expect_message("a.ply", changed(text, "vertex 4", "vertex 40000000000"), "promises 40,000,000,000 of \"vertex\"");
-  expect_message("a.ply", changed(text, "3 0 1 2", "3 0 1 4"),
-                 "a.ply:16:7: error: face 0 uses vertex 4, but the 4 vertices");
-  expect_message("a.ply", changed(text, "3 0 1 2", "3 0 1 1.5"), "face 0 uses vertex 1.5");
-  expect_message("a.ply", changed(text, "3 0 1 2", "3000 0 1 1"),
-                 "a list of 3000 values is more than the file has room for");
-  expect_message("a.ply", changed(text, "list uchar", "list float"), "the length of a list must be a whole number");
-  expect_message("a.ply", "ply\nformat ascii 1.0\n", "its header has no end_header");
-  expect_message("a.ply", "ply\nend_header\n", "without a format line");
-  expect_message("a.ply", "play\n", "a PLY file begins with the word ply");
-  expect_message(
+  expect_message_of("a.ply", changed(text, "ascii", "binary"),
+                    "a.ply:2:8: error: expected ascii, binary_little_endian or");
+  expect_message_of("a.ply", changed(text, "float x", "real x"), "expected the type of a property, found \"real\"");
+  expect_message_of("a.ply", changed(text, "float x", "float w"), "lack one of the properties x, y, z");
+  expect_message_of("a.ply", changed(text, "vertex_indices", "corners"), "lack the list vertex_indices");
+  expect_message_of("a.ply", changed(text, "vertex 4", "vertex 40000000000"), "promises 40,000,000,000 of \"vertex\"");
+  expect_message_of("a.ply", changed(text, "3 0 1 2", "3 0 1 4"),
+                    "a.ply:16:7: error: face 0 uses vertex 4, but the 4 vertices");
+  expect_message_of("a.ply", changed(text, "3 0 1 2", "3 0 1 1.5"), "face 0 uses vertex 1.5");
+  expect_message_of("a.ply", changed(text, "3 0 1 2", "3000 0 1 1"),
+                    "a list of 3000 values is more than the file has room for");
+  expect_message_of("a.ply", changed(text, "list uchar", "list float"), "the length of a list must be a whole number");
+  expect_message_of("a.ply", "ply\nformat ascii 1.0\n", "its header has no end_header");
+  expect_message_of("a.ply", "ply\nend_header\n", "without a format line");
+  expect_message_of("a.ply", "play\n", "a PLY file begins with the word ply");
+  expect_message_of(
       "a.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n",
       "this PLY file has no faces");
-  expect_message("a.ply", binary.substr(0, binary.size() - 1),
-                 "this PLY is cut short: expected the number of a vertex at byte 298, the file has 301 bytes");
+  expect_message_of("a.ply", binary.substr(0, binary.size() - 1),
+                    "this PLY is cut short: expected the number of a vertex at byte 298, the file has 301 bytes");
   std::string bad = binary;
   bad[bad.size() - 1] = '\x7f';
-  expect_message("a.ply", bad,
-                 "face 3 uses vertex 2130706435, but the 4 vertices before it are numbered from 0 (at byte ");
+  expect_message_of("a.ply", bad,
+                    "face 3 uses vertex 2130706435, but the 4 vertices before it are numbered from 0 (at byte ");
 }
 
 TEST(Off, HeaderVariants) {
   for (const std::string header : {"OFF\n", "# comment\nOFF # more\n# again\n", "OFF "}) {
-    EXPECT_EQ(read("a.off", off(header)).triangles, faces) << header;
+    EXPECT_EQ(read_named("a.off", off(header)).triangles, faces) << header;
   }
-  const Mesh mesh = read("a.off",
-                         "STCNOFF\n3 1 0\n\n0 0 0  0 0 1  1 0 0 1  0.25 0.5\n# between\n1 0 0  0 0 1  1 0 0 1  0.75 1\n"
-                         "0 1 0  0 0 1  1 0 0 1  0 0\n3 0 1 2  255 0 0\n");
+  const Mesh mesh =
+      read_named("a.off",
+                 "STCNOFF\n3 1 0\n\n0 0 0  0 0 1  1 0 0 1  0.25 0.5\n# between\n1 0 0  0 0 1  1 0 0 1  0.75 1\n"
+                 "0 1 0  0 0 1  1 0 0 1  0 0\n3 0 1 2  255 0 0\n");
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
   EXPECT_EQ(mesh.texture_coordinates[1], (std::array<double, 2>{0.75, 1}));
-  EXPECT_EQ(read("a.off", "COFF 3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2").triangles.size(), 1u);
-  EXPECT_EQ(read("a.off", "NOFF 3 1\n0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2 0.5").triangles.size(), 1u);
+  EXPECT_EQ(read_named("a.off", "COFF 3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2").triangles.size(),
+            1u);
+  EXPECT_EQ(read_named("a.off", "NOFF 3 1\n0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2 0.5").triangles.size(), 1u);
 }
 
 TEST(Off, MistakesPointAtTheWord) {
-  expect_message("a.off", "OF\n", "a.off:1:1: error: expected OFF, COFF, NOFF or STOFF at the beginning, found \"OF\"");
-  expect_message("a.off", "4OFF\n", "only OFF files in three dimensions");
-  expect_message("a.off", "OFF BINARY\n", "binary OFF files cannot be read");
-  expect_message("a.off", "OFF 9999999 1 0\n0 0 0\n", "promises 9,999,999 vertices, more than the file has room for");
-  expect_message("a.off", "OFF 3 0 0\n0 0 0\n0 0 0\n0 0 0\n", "this OFF file has no faces");
-  expect_message("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 3\n", "a.off:5:7: error: the face uses vertex 3");
-  expect_message("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n2 0 1\n", "this OFF file has no faces");
-  expect_message("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n99 0 1 3\n", "more than the file has room for");
-  expect_message("a.off", "OFF 3 2 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2      \n",
-                 "2 faces are promised, the file ends after 1");
+  expect_message_of("a.off", "OF\n",
+                    "a.off:1:1: error: expected OFF, COFF, NOFF or STOFF at the beginning, found \"OF\"");
+  expect_message_of("a.off", "4OFF\n", "only OFF files in three dimensions");
+  expect_message_of("a.off", "OFF BINARY\n", "binary OFF files cannot be read");
+  expect_message_of("a.off", "OFF 9999999 1 0\n0 0 0\n",
+                    "promises 9,999,999 vertices, more than the file has room for");
+  expect_message_of("a.off", "OFF 3 0 0\n0 0 0\n0 0 0\n0 0 0\n", "this OFF file has no faces");
+  expect_message_of("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 3\n", "a.off:5:7: error: the face uses vertex 3");
+  expect_message_of("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n2 0 1\n", "this OFF file has no faces");
+  expect_message_of("a.off", "OFF 3 1 0\n0 0 0\n0 0 0\n0 0 0\n99 0 1 3\n", "more than the file has room for");
+  expect_message_of("a.off", "OFF 3 2 0\n0 0 0\n0 0 0\n0 0 0\n3 0 1 2      \n",
+                    "2 faces are promised, the file ends after 1");
 }
 
 }  // namespace

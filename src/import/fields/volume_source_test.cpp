@@ -23,7 +23,7 @@ VolumeSource grid_of(const F& value) {
 }
 
 // No two voxels are alike, nor do neighbours lie in order.
-int64_t scattered(int64_t i, int64_t j, int64_t k) { return (i * 61 + j * 17 + k * 131) % 251; }
+int64_t scattered_number(int64_t i, int64_t j, int64_t k) { return (i * 61 + j * 17 + k * 131) % 251; }
 
 Vec3 somewhere(std::mt19937& random) {
   std::uniform_real_distribution<double> along(-2, 8);
@@ -69,10 +69,10 @@ TEST(VolumeSource, CubicValuesAndSlopesOfQuadraticsAreExact) {
 }
 
 TEST(VolumeSource, CubicValuesPassThroughVoxelsWithoutEdges) {
-  const auto volume = grid_of<int16_t>(scattered);
+  const auto volume = grid_of<int16_t>(scattered_number);
   const auto& source = *volume.source;
   const int cubic = source.channel("cubic");
-  EXPECT_EQ(source.sample(cubic, {3, 2, 4}), static_cast<double>(scattered(3, 2, 4)));
+  EXPECT_EQ(source.sample(cubic, {3, 2, 4}), static_cast<double>(scattered_number(3, 2, 4)));
   constexpr double step = 1e-6;
   std::mt19937 random(5);
   for (int n = 0; n < 300; ++n) {
@@ -89,7 +89,7 @@ TEST(VolumeSource, CubicValuesPassThroughVoxelsWithoutEdges) {
 }
 
 TEST(VolumeSource, ManyPointsGiveTheBitsOfEach) {
-  const auto volume = grid_of<int16_t>(scattered);
+  const auto volume = grid_of<int16_t>(scattered_number);
   std::mt19937 random(6);
   std::vector<Vec3> points;
   for (int n = 0; n < 40; ++n) {
@@ -110,13 +110,13 @@ TEST(VolumeSource, ManyPointsGiveTheBitsOfEach) {
 }
 
 TEST(VolumeSource, NearestIsTheVoxelThatHoldsAPoint) {
-  const auto volume = grid_of<uint8_t>(scattered);
-  EXPECT_EQ(volume.source->sample(1, {2.4, 0.6, 4.9}), static_cast<double>(scattered(2, 1, 5)));
-  EXPECT_EQ(volume.source->sample(1, {2.5, -9, 99}), static_cast<double>(scattered(3, 0, 5)));
+  const auto volume = grid_of<uint8_t>(scattered_number);
+  EXPECT_EQ(volume.source->sample(1, {2.4, 0.6, 4.9}), static_cast<double>(scattered_number(2, 1, 5)));
+  EXPECT_EQ(volume.source->sample(1, {2.5, -9, 99}), static_cast<double>(scattered_number(3, 0, 5)));
 }
 
 TEST(VolumeSource, RangesHoldAllValues) {
-  const auto volume = grid_of<int32_t>(scattered);
+  const auto volume = grid_of<int32_t>(scattered_number);
   std::mt19937 random(2);
   for (int n = 0; n < 300; ++n) {
     const Vec3 a = somewhere(random), b = somewhere(random);
@@ -134,7 +134,7 @@ TEST(VolumeSource, RangesHoldAllValues) {
 }
 
 TEST(VolumeSource, RowsOnCentresAreCopies) {
-  const auto volume = grid_of<uint16_t>(scattered);
+  const auto volume = grid_of<uint16_t>(scattered_number);
   const Affine copies = Affine::translation({2, -1, 3});
   const Affine far_away = Affine::translation({100, 0, 0}), far_before = Affine::translation({-100, 0, 0});
   const Affine mirrored{{Vec3{-1, 0, 0}, Vec3{0, 0, 2}, Vec3{0, 1, 0}}, {6, 0, 0}};
@@ -157,13 +157,13 @@ TEST(VolumeSource, RowsOnCentresAreCopies) {
 }
 
 TEST(VolumeSource, RowsBesideCentresOrBeyondFloatsAreQueriedPointByPoint) {
-  EXPECT_FALSE(grid_of<uint16_t>(scattered).source->rows(0, Affine::translation({0.25, 0, 0})));
-  EXPECT_FALSE(grid_of<uint16_t>(scattered).source->rows(0, Affine::scaling({0.5, 1, 1})));
-  EXPECT_FALSE(grid_of<uint16_t>(scattered).source->rows(3, Affine{}));
-  EXPECT_FALSE(grid_of<double>(scattered).source->rows(0, Affine{}));
+  EXPECT_FALSE(grid_of<uint16_t>(scattered_number).source->rows(0, Affine::translation({0.25, 0, 0})));
+  EXPECT_FALSE(grid_of<uint16_t>(scattered_number).source->rows(0, Affine::scaling({0.5, 1, 1})));
+  EXPECT_FALSE(grid_of<uint16_t>(scattered_number).source->rows(3, Affine{}));
+  EXPECT_FALSE(grid_of<double>(scattered_number).source->rows(0, Affine{}));
   const auto large = grid_of<uint32_t>([](auto i, auto, auto) { return i == 0 ? (1 << 24) + 1 : 0; });
   EXPECT_FALSE(large.source->rows(0, Affine{}));
-  EXPECT_TRUE(grid_of<float>(scattered).source->rows(0, Affine{}));
+  EXPECT_TRUE(grid_of<float>(scattered_number).source->rows(0, Affine{}));
 }
 
 TEST(VolumeSource, PlacesEncloseWhereValuesReach) {

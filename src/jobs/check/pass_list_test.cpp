@@ -1,5 +1,6 @@
 #include "jobs/check/pass_list.h"
 
+#include "jobs/check/emit.h"
 #include "jobs/test_designs.h"
 
 namespace ombre::compile {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "options/options.h"
+#include "options/option.h"
 #include "questions/region_request.h"
 
 namespace ombre::compile {

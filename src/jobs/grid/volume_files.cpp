@@ -118,6 +118,24 @@ class SlabNumbers {
 
 }  // namespace
 
+std::vector<VolumeInMemory> volumes_in_memory(const GridJob& job, int threads, Progress* progress,
+                                              const StopFlag* stop) {
+  std::vector<VolumeInMemory> volumes;
+  for (const Grid& grid : job.grids) {
+    volumes.push_back({volume_of(job, grid), {}});
+    volumes.back().numbers.reserve(volumes.back().volume.bytes());
+  }
+  const auto take = [&](const GridSlab& slab) {
+    for (size_t n = 0; n < volumes.size(); ++n) {
+      SlabNumbers numbers(slab.box, volumes[n].volume.is_float);
+      for (const FieldTile& tile : slab.tiles) numbers.take(tile, n);
+      volumes[n].numbers += numbers.bytes();
+    }
+  };
+  each_slab(job, threads, take, progress, stop);
+  return volumes;
+}
+
 std::vector<std::string> volume_paths(const std::string& path, const std::vector<Grid>& grids) {
   const bool is_of_many = grids[0].kind == GridKind::fraction;
   if (grids.size() == 1 && !is_of_many) return {path};

@@ -22,4 +22,13 @@ uint64_t volume_bytes(const GridJob& job);
 GridReport write_volumes(const GridJob& job, const std::vector<std::string>& paths, exporting::VolumeFormat format,
                          int threads, Progress* progress = nullptr, const StopFlag* stop = nullptr);
 
+// A grid of the job, and its numbers as a file has them.
+struct VolumeInMemory {
+  exporting::Volume volume;
+  std::string numbers;
+};
+// All grids, in their order. Throws Cancelled.
+std::vector<VolumeInMemory> volumes_in_memory(const GridJob& job, int threads, Progress* progress = nullptr,
+                                              const StopFlag* stop = nullptr);
+
 }  // namespace ombre::compile

@@ -2,8 +2,7 @@
 import { chooseOption } from "./session";
 import { JobOption, JobOptions, state, useStore } from "./store";
 
-function control(option: JobOption, value: string | boolean, printers: { name: string; title: string }[]) {
-  const change = (next: string | boolean) => chooseOption(option, next);
+function control(option: JobOption, value: string | boolean, printers: { name: string; title: string }[], change: (next: string | boolean) => void) {
   if (option.kind === "flag") return <input type="checkbox" checked={value === true} onChange={(e) => change(e.currentTarget.checked)} />;
   const choices = option.name === "printer" ? printers : option.choices.map((name) => ({ name, title: "" }));
   if (choices.length > 0)
@@ -16,17 +15,22 @@ function control(option: JobOption, value: string | boolean, printers: { name: s
   return <input type="text" value={value as string} placeholder={option.placeholder} onChange={(e) => change(e.currentTarget.value.trim())} />;
 }
 
+// One option of any job.
+export function OptionField({ option, options, change }: { option: JobOption; options: JobOptions; change: (next: string | boolean) => void }) {
+  const { hello } = useStore();
+  return (
+    <label class={`option option-${option.name}`} title={option.help} hidden={!option.needs.every((needed) => needed in options)}>
+      <span>{option.name.replace(/-/g, " ")}{option.is_required ? " *" : ""}</span>
+      {control(option, options[option.name] ?? (option.kind === "flag" ? false : ""), hello?.printers ?? [], change)}
+    </label>
+  );
+}
+
 export function OptionControl({ name }: { name: string }) {
   const { hello, options } = useStore();
   const option = hello?.job_options.find((known) => known.name === name);
   if (!option) return null;
-  const isUsable = option.needs.every((needed) => needed in options);
-  return (
-    <label class={`option option-${name}`} title={option.help} hidden={!isUsable}>
-      <span>{name.replace("-", " ")}</span>
-      {control(option, options[name] ?? (option.kind === "flag" ? false : ""), hello!.printers)}
-    </label>
-  );
+  return <OptionField option={option} options={options} change={(next) => chooseOption(option, next)} />;
 }
 
 const first = ["printer", "place", "tray"];

@@ -3,10 +3,12 @@ import { useEffect, useState } from "preact/hooks";
 import { FileMenu, mayNameFile } from "./filechoice";
 import { listExamples, openExample } from "./files";
 import { page } from "./language";
-import { changeJob, compare, estimate, forgetMark, insert, jobKey, markVersion, measure, openFolder, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
+import { compare, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
 import { Presets } from "./presets";
-import { OptionForm, optionWords, printerOf } from "./joboptions";
-import { Amount, Job, NodeType, State, Value, Variable, set, state, useStore } from "./store";
+import { JobList } from "./joblist";
+import { OptionForm, optionWords } from "./joboptions";
+import { Kinds } from "./kinds";
+import { Amount, NodeType, State, Value, Variable, set, state, useStore } from "./store";
 
 function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
   const value = v.value as number;
@@ -152,35 +154,6 @@ function Materials() {
   );
 }
 
-function timeLeft(seconds: number): string {
-  if (seconds < 0) return "";
-  return seconds < 90 ? `${Math.ceil(seconds)} s left` : `${Math.ceil(seconds / 60)} min left`;
-}
-
-function JobRow({ job }: { job: Job }) {
-  const share = job.total > 0 ? job.done / job.total : 0;
-  const may = (...states: Job["state"][]) => states.includes(job.state);
-  return (
-    <li class="job" data-state={job.state} data-folder={job.folder}>
-      <span>
-        <strong>{job.folder}</strong> {printerOf(job.options)}: {job.state}
-      </span>
-      <progress value={share} max={1} aria-label={`Layers of ${job.folder}`} />
-      <span>
-        {may("working") && `${Math.floor(100 * share)} %, ${timeLeft(job.seconds_left)}`}
-        {may("done") && `${job.layers} layers`}
-      </span>
-      {job.message && <p class="error">{job.message}</p>}
-      {may("done") && job.path && <JobFolder job={job} />}
-      <span class="controls">
-        {may("working", "waiting") && <button onClick={() => changeJob(job, "pause")}>Pause</button>}
-        {may("paused", "cancelled", "failed", "interrupted") && <button onClick={() => changeJob(job, "resume")}>Resume</button>}
-        {may("working", "waiting", "paused", "interrupted") && <button onClick={() => changeJob(job, "cancel")}>Cancel</button>}
-      </span>
-    </li>
-  );
-}
-
 function commandLine(folder: string): string {
   const words = ["ombre", "slice", state.file];
   words.push(...optionWords());
@@ -233,22 +206,8 @@ function Turns() {
   );
 }
 
-function JobFolder({ job }: { job: Job }) {
-  const { hello } = useStore();
-  const [isCopied, setCopied] = useState(false);
-  return (
-    <>
-      <code class="path">{job.path}</code>
-      <span class="controls">
-        <button onClick={() => navigator.clipboard.writeText(job.path).then(() => setCopied(true))}>{isCopied ? "Copied" : "Copy path"}</button>
-        {hello?.opens_folders && <button onClick={() => openFolder(job)}>Open folder</button>}
-      </span>
-    </>
-  );
-}
-
 function Export() {
-  const { plan, planProblem, jobs, file, kind, design, isOld } = useStore();
+  const { plan, planProblem, file, kind, design, isOld } = useStore();
   const [given, setFolder] = useState("");
   const [replace, setReplace] = useState(false);
   const [problem, setProblem] = useState("");
@@ -279,7 +238,7 @@ function Export() {
       </p>
       <EstimateText />
       {problem && <p class="error" role="alert">{problem}</p>}
-      <ul class="jobs" aria-label="Jobs">{jobs.map((job) => <JobRow job={job} />)}</ul>
+      <JobList />
       {plan && (
         <>
           {!file.endsWith(".scad") && kind === "" && (
@@ -376,6 +335,7 @@ const panels: { name: State["panel"]; title: string; body: () => any }[] = [
   { name: "variables", title: "Variables", body: Variables },
   { name: "materials", title: "Materials", body: Materials },
   { name: "export", title: "Slice", body: Export },
+  { name: "jobs", title: "Jobs", body: Kinds },
   { name: "reference", title: "Nodes", body: Reference },
   { name: "examples", title: "Examples", body: Examples },
 ];

@@ -472,10 +472,23 @@ export async function startExport(folder: string, replace: boolean): Promise<str
   }
 }
 
+// Starts a job of any kind. What it may say is a problem.
+export async function startKind(kind: string, options: JobOptions, replace: boolean): Promise<string> {
+  try {
+    const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== "" && value !== false));
+    const reply = await about("run", { kind, file: state.file, options: given, replace }, "");
+    takeJob(reply.job);
+    return "";
+  } catch (error) {
+    return (error as Error).message;
+  }
+}
+
 export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
   if (job.state === "interrupted") {
     if (to === "cancel") return setJobs(state.jobs.filter((known) => known !== job));
     if (job.file && job.file !== state.file) return set({ problem: `open ${job.file} to go on with its layers` });
+    if (job.kind !== "slice") return startKind(job.kind, job.options, true);
     set({ options: job.options });
     if (job.rotate && job.rotate.join() !== state.rotate.join()) {
       set({ rotate: job.rotate });

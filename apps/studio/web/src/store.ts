@@ -104,6 +104,7 @@ export interface Hello {
   files: string[];
   printers: { name: string; title: string }[];
   job_options: JobOption[]; // of `ombre slice`
+  kinds: JobKind[]; // of other jobs
   palettes: { name: string; colours: number[][] }[]; // from the least value to the greatest, mixed in linear light
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
@@ -125,9 +126,11 @@ export interface Job {
   state: "waiting" | "working" | "paused" | "done" | "failed" | "cancelled" | "interrupted";
   path: string; // of the folder, whole
   rotate?: number[]; // which the page remembers
-  folder: string;
+  kind: string; // "slice", "mesh", ...
+  folder: string; // or the file that it writes, or what it is of
   file: string;
   options: JobOptions;
+  report: ({ event: string } & Record<string, unknown>)[]; // what it told, but for progress and messages
   layers: number;
   done: number;
   total: number;
@@ -171,6 +174,8 @@ export interface JobOption {
   help: string;
   placeholder: string;
   kind: string; // "flag", "word", "number", ...
+  takes: "nothing" | "one" | "several";
+  is_required: boolean;
   choices: string[];
   needs: string[];
   excludes: string[];
@@ -178,6 +183,12 @@ export interface JobOption {
   most?: number;
 }
 export type JobOptions = Record<string, string | boolean>;
+
+export interface JobKind {
+  name: string;
+  help: string;
+  options: JobOption[];
+}
 
 // The server estimates a job before it begins; `of` is the job's request as text, so that an old answer is known as such.
 export interface Estimate {
@@ -259,7 +270,7 @@ export interface State {
   comparisonProblem: string;
   jobs: Job[];
   view: ViewName | "all";
-  panel: "variables" | "materials" | "export" | "reference" | "examples";
+  panel: "variables" | "materials" | "export" | "jobs" | "reference" | "examples";
   theme: "system" | "light" | "dark";
   turntable?: number; // the share of one under way that is made
   showsKeys: boolean;

@@ -1,0 +1,41 @@
+#include "jobs/all_jobs.h"
+
+#include <algorithm>
+
+namespace ombre::jobs {
+
+// Each by the room of its kind.
+JobKind slice_kind();
+JobKind layer_kind();
+JobKind render_kind();
+JobKind voxels_kind();
+JobKind mesh_kind();
+JobKind contours_kind();
+JobKind fea_kind();
+JobKind homogenise_kind();
+JobKind sheet_kind();
+JobKind probe_kind();
+JobKind info_kind();
+JobKind nodes_kind();
+JobKind printers_kind();
+JobKind materials_kind();
+JobKind scad_kind();
+JobKind bundle_kind();
+JobKind optimise_kind();
+JobKind codes_kind();
+
+const std::vector<JobKind>& all_jobs() {
+  static const std::vector<JobKind> all{
+      slice_kind(),    layer_kind(),      render_kind(), voxels_kind(), mesh_kind(),     contours_kind(),
+      fea_kind(),      homogenise_kind(), sheet_kind(),  probe_kind(),  info_kind(),     nodes_kind(),
+      printers_kind(), materials_kind(),  scad_kind(),   bundle_kind(), optimise_kind(), codes_kind()};
+  return all;
+}
+
+const JobKind* find_job(std::string_view name) {
+  const auto& all = all_jobs();
+  const auto found = std::ranges::find(all, name, &JobKind::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace ombre::jobs

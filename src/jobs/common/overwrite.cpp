@@ -1,0 +1,37 @@
+#include "jobs/common/overwrite.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+
+#include "base/text/error.h"
+#include "export/output_file.h"
+
+namespace ombre::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Else writing would fail, once all is computed.
+void check_folder(const std::string& path) {
+  std::error_code error;
+  const fs::path folder = fs::absolute(path, error).parent_path();
+  if (!error && ::access(folder.c_str(), W_OK | X_OK) != 0) throw exporting::write_error(path, errno);
+}
+
+}  // namespace
+
+void refuse_to_overwrite(const std::string& path, bool force) {
+  std::error_code ignored;
+  const auto status = fs::status(path, ignored);
+  if (!fs::exists(status)) return check_folder(path);
+  if (!fs::is_regular_file(status))
+    throw Error(Code::cannot_write, path + " is not a file; choose another name", {{"file", path}});
+  if (!force)
+    throw Error(Code::exists,
+                path + " exists already; replace it with " + spelled::option("--force") + ", or choose another name",
+                {{"file", path}});
+}
+
+}  // namespace ombre::jobs

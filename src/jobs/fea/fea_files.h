@@ -1,0 +1,16 @@
+// Names of the files that ombre fea writes.
+#pragma once
+
+#include <string>
+
+#include "jobs/fea/fea_choices.h"
+
+namespace ombre::jobs {
+
+// The file of HDF5 beside an .xdmf file.
+std::string numbers_path(const std::string& path);
+
+// Throws Error where a file is there that --force does not replace.
+void refuse_to_overwrite(const compile::FeaChoices& choices);
+
+}  // namespace ombre::jobs

@@ -1,0 +1,227 @@
+// ombre voxels: a design as a voxel grid for other programs.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <variant>
+
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
+#include "base/text/text.h"
+#include "jobs/common/events.h"
+#include "jobs/common/free_space.h"
+#include "jobs/common/job_design.h"
+#include "jobs/common/job_kind.h"
+#include "jobs/common/job_steps.h"
+#include "jobs/common/overwrite.h"
+#include "jobs/common/remarks.h"
+#include "jobs/common/session.h"
+#include "jobs/grid/grid_choices.h"
+#include "jobs/grid/scan_files.h"
+#include "jobs/grid/sparse_file.h"
+#include "jobs/grid/volume_files.h"
+#include "jobs/grid/voxels_in_memory.h"
+#include "jobs/grid/vti_files.h"
+#include "jobs/slice/plan_part.h"
+
+namespace ombre::jobs {
+namespace {
+
+using compile::GridChoices;
+
+constexpr const char* voxels_footer =
+    "Lengths are millimetres in the design's space.\n\n"
+    "FILE ends in\n"
+    "  .raw    numbers alone, x fastest; FILE.json describes them\n"
+    "  .npy    for NumPy, an array of shape (z, y, x); FILE.json describes it\n"
+    "  .nrrd   for 3D Slicer, ParaView and ITK; --gzip compresses\n"
+    "  .vti    image data of VTK, for ParaView: all grids in one file, vectors and colours as such\n"
+    "  .vdb    sparse grids of OpenVDB, for Blender, Houdini and others; .nvdb the same for NanoVDB\n\n"
+    "--what is\n"
+    "  materials   the number of the material that ombre slice puts there, 0 is void; a byte a voxel\n"
+    "  fractions   a grid for each material: its fraction in each voxel before dithering, 0 outside\n"
+    "  distance    mm from each voxel's centre to the surface, negative inside. Where a design has only a bound of\n"
+    "              its distance (unions inside, differences, blends) the surface may be farther; of a function\n"
+    "              only the sign is meant. ombre slice --emit tree says which. In .vdb and .nvdb a narrow\n"
+    "              band around the surface, 3 voxels to both sides\n"
+    "  attributes  a grid for each attribute of the design, in its unit; its default outside. Of vectors, colours and\n"
+    "              mixtures one for each of their numbers\n"
+    "  NAME        the attribute of that name, or one of its numbers (fibre.x); several with commas\n\n"
+    "Examples:\n"
+    "  ombre voxels part.vcad -o part.npy                        materials, as ombre slice has them\n"
+    "  ombre voxels part.vcad -o part.nrrd --what distance --voxel 0.2\n"
+    "  ombre voxels part.vcad -o part.raw --what fractions       part_red.raw, part_blue.raw and so on\n"
+    "  ombre voxels part.vcad -o part.vdb                        distance, and a grid for each material\n"
+    "  ombre voxels part.vcad -o part.npy --what density         the attribute \"density\"\n"
+    "  ombre voxels part.vcad -o part.vti --what materials,distance,attributes\n"
+    "  ombre voxels part.vcad -o part.nrrd --gzip --box -5,-5,0,5,5,2\n"
+    "  ombre voxels scan.nii -o small.nrrd --voxel 1 --box 0,0,0,50,50,40   a scan, on other voxels and cropped; its\n"
+    "              number between voxels, or with --what nearest that of the nearest, for labels\n";
+
+// What the ending of the file asks for: dense numbers, or sparse grids.
+struct VtiFormat {};
+using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>;
+
+Format chosen_format(const GridChoices& a) {
+  const std::string ending = ending_of(a.output);
+  if (a.gzip && ending != ".nrrd")
+    throw WrongArgument(spelled::option("--gzip") + " is for .nrrd files; leave it out, or write " +
+                        spelled::option("-o", "part.nrrd"));
+  if (ending == ".raw") return exporting::VolumeFormat::raw;
+  if (ending == ".npy") return exporting::VolumeFormat::npy;
+  if (ending == ".nrrd") return a.gzip ? exporting::VolumeFormat::nrrd_gzip : exporting::VolumeFormat::nrrd;
+  if (ending == ".vdb") return vdb::FileFormat::vdb;
+  if (ending == ".nvdb") return vdb::FileFormat::nvdb;
+  if (ending == ".vti") return VtiFormat{};
+  throw WrongArgument(spelled::option("-o", a.output) +
+                      " does not say a format; let it end in .npy, .nrrd, .vti, .raw, .vdb or .nvdb");
+}
+
+bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
+
+void tell_plan(const Events& events, const compile::GridJob& job, int threads, const std::vector<std::string>& paths,
+               const std::string& bytes) {
+  const compile::GridWork work = compile::size_grid_work(job, threads);
+  const auto& pitch = job.request.lattice.pitch;
+  const int64_t nx = job.region.size(0), ny = job.region.size(1), nz = job.region.size(2);
+  events.say(std::to_string(nx) + " x " + std::to_string(ny) + " x " + std::to_string(nz) + " voxels of " +
+             mm_text(pitch[0].mm()) + " x " + mm_text(pitch[1].mm()) + " x " + mm_text(pitch[2].mm()) + " mm, " +
+             bytes + " in " + join(paths, ", ") + "; at most " + format_bytes(work.memory_bytes) +
+             " of memory for slabs in flight");
+  warn_of_memory(events, "a slab of one layer", work.memory_bytes, job.memory_bytes);
+  DataList files, names;
+  for (const std::string& path : paths) files.emplace_back(path);
+  for (const compile::Grid& grid : job.grids) names.emplace_back(grid.name);
+  events.event("plan", {{"files", files},
+                        {"grids", names},
+                        {"voxels", DataList{number(nx), number(ny), number(nz)}},
+                        {"pitch_mm", DataList{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}},
+                        {"memory_bytes", work.memory_bytes}});
+}
+
+void tell_report(const Events& events, const compile::GridReport& report) {
+  events.say(join(report.files, ", ") + " written, " + format_bytes(static_cast<double>(report.bytes_written)) +
+             " in " + format_rounded(report.seconds, 3) + " s");
+  if (!report.has_inside) events.warn("no voxel's centre is inside the design: the grid is empty");
+  DataList files;
+  for (const std::string& path : report.files) files.emplace_back(path);
+  events.event(
+      "done",
+      {{"files", files}, {"bytes_written", static_cast<double>(report.bytes_written)}, {"seconds", report.seconds}});
+}
+
+void warn_of_metric(const Events& events, const compile::GridJob& job) {
+  const bool has_distance = std::any_of(job.grids.begin(), job.grids.end(), [](const compile::Grid& grid) {
+    return grid.kind == compile::GridKind::distance;
+  });
+  if (has_distance && job.metric.is_implicit())
+    events.warn("of this design's distance only the sign is meant, since a formula gives it; its values are no mm");
+}
+
+// The files of a grid, without descriptions beside them.
+std::vector<std::string> paths_of(const GridChoices& a, const compile::GridJob& job, const Format& format) {
+  const bool is_dense = std::holds_alternative<exporting::VolumeFormat>(format);
+  return is_dense ? compile::volume_paths(a.output, job.grids) : std::vector{a.output};
+}
+
+// Files of the grid, and those beside them.
+void refuse_to_overwrite_any(const std::vector<std::string>& paths, const Format& format, bool force) {
+  const auto* dense = std::get_if<exporting::VolumeFormat>(&format);
+  for (const std::string& path : paths) {
+    refuse_to_overwrite(path, force);
+    if (dense && exporting::has_description(*dense)) refuse_to_overwrite(exporting::description_path(path), force);
+  }
+}
+
+// Only the design says how many grids there are of fractions and attributes.
+bool has_one_file(const Format& format, const compile::GridQuery& query) {
+  if (!std::holds_alternative<exporting::VolumeFormat>(format)) return true;
+  const bool is_one = query.materials != query.distance;
+  return is_one && !query.fractions && !query.all_attributes && query.attributes.empty();
+}
+
+// Tells the plan, once it is known to be possible.
+void check(const GridChoices& a, const compile::GridJob& job, const Format& format, Session& session) {
+  const std::vector<std::string> paths = paths_of(a, job, format);
+  refuse_to_overwrite_any(paths, format, a.force);
+  warn_of_metric(session.events, job);
+  if (is_sparse(format)) return tell_plan(session.events, job, a.work.threads, paths, "sparse");
+  const auto bytes = static_cast<double>(compile::volume_bytes(job));
+  const auto* dense = std::get_if<exporting::VolumeFormat>(&format);
+  const bool is_compressed = dense && *dense == exporting::VolumeFormat::nrrd_gzip;
+  if (!a.force && !is_compressed)
+    refuse_small_disk(a.output, bytes, "the grid", "choose larger voxels with " + spelled::option("--voxel"));
+  tell_plan(session.events, job, a.work.threads, paths, (is_compressed ? "at most " : "") + format_bytes(bytes));
+}
+
+int write(const GridChoices& a, const compile::GridJob& job, const Format& format, Session& session) {
+  JobProgress progress(session.events);
+  const auto written = [&]() -> compile::GridReport {
+    const int threads = a.work.threads;
+    if (const auto* sparse = std::get_if<vdb::FileFormat>(&format))
+      return compile::write_sparse(job, a.output, *sparse, threads, &progress, &session.stop);
+    if (std::holds_alternative<VtiFormat>(format))
+      return compile::write_vti(job, a.output, threads, &progress, &session.stop);
+    return compile::write_volumes(job, paths_of(a, job, format), std::get<exporting::VolumeFormat>(format), threads,
+                                  &progress, &session.stop);
+  };
+  const compile::GridReport report = written();
+  progress.finish();
+  tell_report(session.events, report);
+  return done;
+}
+
+std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridQuery& query, Session& session,
+                                         Diagnostics& diagnostics) {
+  const auto options = plan_options(a.sampling, a.work, session, diagnostics);
+  if (!options) return std::nullopt;
+  if (is_scan(a.design.design) && !options->pitch[0])
+    throw WrongArgument("how large the voxels of a scan are to be is not said; write for example " +
+                        spelled::option("--voxel", "1") + " (mm; ombre info " + a.design.design + " prints its own)");
+  const compile::LoadedPtr loaded = is_scan(a.design.design)
+                                        ? load_scan(a.design, session, diagnostics, a.work.threads)
+                                        : load_design(a.design, session, diagnostics, a.work.threads);
+  if (!loaded) return std::nullopt;
+  const auto plan = compile::plan_slice(loaded, *options, diagnostics);
+  if (!plan) return std::nullopt;
+  auto job =
+      compile::plan_grids(loaded, *plan, query, compile::chosen_region(a.box, plan->request.lattice), diagnostics);
+  if (job) job->memory_bytes = a.work.memory_bytes;
+  return job;
+}
+
+int voxels(const GridChoices& a, Session& session) {
+  const Format format = chosen_format(a);
+  const std::string usual = is_scan(a.design.design) ? "number"
+                            : is_sparse(format)      ? "distance,fractions"
+                                                     : "materials";
+  const compile::GridQuery query = a.query(usual, is_sparse(format));
+  JobSteps<compile::GridJob> steps;
+  steps.refuse = [&] {
+    if (has_one_file(format, query)) refuse_to_overwrite_any({a.output}, format, a.force);
+  };
+  steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, query, session, diagnostics); };
+  steps.check = [&](const compile::GridJob& job) { check(a, job, format, session); };
+  steps.run = [&](const compile::GridJob& job) { return write(a, job, format, session); };
+  return take_steps(steps, session);
+}
+
+}  // namespace
+
+int make_voxels(const GridChoices& a, Session& session, std::vector<compile::VolumeInMemory>& made) {
+  JobSteps<compile::GridJob> steps;
+  steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, a.query("materials", false), session, diagnostics); };
+  steps.check = [&](const compile::GridJob& job) { warn_of_metric(session.events, job); };
+  steps.run = [&](const compile::GridJob& job) {
+    JobProgress progress(session.events);
+    made = compile::volumes_in_memory(job, a.work.threads, &progress, &session.stop);
+    return done;
+  };
+  return take_steps(steps, session);
+}
+
+JobKind voxels_kind() {
+  return job_kind<GridChoices>("voxels", "Write a voxel grid for other programs", voxels_footer, voxels);
+}
+
+}  // namespace ombre::jobs

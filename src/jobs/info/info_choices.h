@@ -1,0 +1,37 @@
+// The options of ombre info.
+#pragma once
+
+#include <string>
+
+#include "options/option.h"
+
+namespace ombre::jobs {
+
+struct InfoChoices {
+  std::string file;
+  std::string series;   // of several DICOM series its number or UID, of several grids its name
+  int channel = -1;     // of several values in each voxel, counted from 0; -1: there is one
+  std::string picture;  // to write; empty: none
+  bool force = false;   // replaces one that is there
+
+  static const options::Spec<InfoChoices>& options() {
+    using namespace options;
+    static const options::Spec<InfoChoices> spec{
+        option("file", &InfoChoices::file, kind::file,
+               "A volume: a folder of DICOM files or images, .dcm, .nii, .nrrd, .mha, .vdb, .vti, .tif, .npy, or raw "
+               "numbers with a .json beside them; or a design, or a script: .scad; or results: .vtu, .xdmf, .frd, .inp",
+               "FILE")
+            .required(),
+        option("--series", &InfoChoices::series, kind::text,
+               "Of several DICOM series, its number or UID; of several grids, its name", "NAME"),
+        option("--channel", &InfoChoices::channel, kind::whole,
+               "Of several values in each voxel of a volume, counted from 0", "N")
+            .between(0, 100000),
+        option("--picture", &InfoChoices::picture, kind::file,
+               "Write a picture of a volume there: the planes in its middle along x and y, x and z, y and z", "FILE"),
+        flag("--force", &InfoChoices::force, "Replace a picture that is there")};
+    return spec;
+  }
+};
+
+}  // namespace ombre::jobs

@@ -1,0 +1,121 @@
+#include "jobs/info/result_files.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "base/math/box.h"
+#include "base/math/point_text.h"
+#include "base/text/json.h"
+#include "base/text/text.h"
+#include "formats/containers/file.h"
+#include "formats/results/results.h"
+#include "jobs/common/session.h"
+#include "sources/result_border.h"
+
+namespace ombre::jobs {
+namespace {
+
+constexpr std::array<std::string_view, 4> kind_names{"C3D4", "C3D10", "C3D8", "C3D20"};
+
+std::array<size_t, 4> counts_of_kinds(const formats::Results& results) {
+  std::array<size_t, 4> counts{};
+  for (const formats::ElementKind kind : results.kinds) ++counts[static_cast<size_t>(kind)];
+  return counts;
+}
+
+Box box_of_points(const formats::Results& results) {
+  Box box;
+  for (const Vec3& point : results.points) box = hull(box, Box{point, point});
+  return box;
+}
+
+// Encloses the finite values of a component.
+Interval range_of_component(const formats::ResultField& field, size_t component) {
+  Interval range(Box::inf, -Box::inf);
+  for (size_t n = component; n < field.values.size(); n += field.components)
+    if (std::isfinite(field.values[n])) range = hull(range, Interval(field.values[n]));
+  return range;
+}
+
+std::string field_text(const formats::ResultField& field) {
+  std::string text = "  " + field.name + (field.unit.empty() ? "" : ", " + field.unit) +
+                     (field.is_of_elements ? ", of elements" : ", of nodes");
+  text += field.components == 1 ? ": " : ", " + std::to_string(field.components) + " components: ";
+  for (size_t n = 0; n < field.components; ++n) {
+    const Interval range = range_of_component(field, n);
+    text += (n > 0 ? "; " : "") +
+            (range.lo <= range.hi ? format_rounded(range.lo, 5) + " to " + format_rounded(range.hi, 5) : "no values");
+  }
+  return text + "\n";
+}
+
+std::string results_text(const std::string& path, const formats::Results& results) {
+  const Box box = box_of_points(results);
+  const auto counts = counts_of_kinds(results);
+  std::string text = path + ": results of a simulation\n  nodes     " + format_count(results.points.size()) +
+                     ", from " + format_point(box.lo, 6) + " to " + format_point(box.hi, 6) + " mm\n";
+  for (size_t n = 0; n < counts.size(); ++n)
+    if (counts[n] > 0) text += "  elements  " + format_count(counts[n]) + " " + std::string(kind_names[n]) + "\n";
+  text += results.fields.empty() ? "\nno fields\n" : "\nfields\n";
+  for (const formats::ResultField& field : results.fields) text += field_text(field);
+  return text;
+}
+
+DataMembers results_members(const std::string& path, const formats::Results& results) {
+  DataMembers elements;
+  const auto counts = counts_of_kinds(results);
+  for (size_t n = 0; n < counts.size(); ++n)
+    if (counts[n] > 0) elements.emplace_back(std::string(kind_names[n]), static_cast<double>(counts[n]));
+  DataList fields;
+  for (const formats::ResultField& field : results.fields) {
+    DataList ranges;
+    for (size_t n = 0; n < field.components; ++n) {
+      const Interval range = range_of_component(field, n);
+      ranges.push_back(range.lo <= range.hi ? Data(DataList{range.lo, range.hi}) : Data());
+    }
+    fields.emplace_back(DataMembers{{"name", field.name},
+                                    {"unit", field.unit},
+                                    {"of", field.is_of_elements ? "elements" : "nodes"},
+                                    {"ranges", std::move(ranges)}});
+  }
+  const Box box = box_of_points(results);
+  return {{"file", path},
+          {"nodes", static_cast<double>(results.points.size())},
+          {"elements", std::move(elements)},
+          {"bounds_mm", DataList{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}},
+          {"fields", std::move(fields)}};
+}
+
+}  // namespace
+
+bool is_results(const std::string& path) { return sources::has_elements(path); }
+
+int show_results(const std::string& path, Session& session) {
+  Diagnostics diagnostics;
+  const std::string bytes = formats::read_file(path);
+  std::optional<formats::ResultsFile> numbers;
+  const std::string beside = sources::numbers_beside(path);
+  const std::string beside_bytes = beside.empty() ? "" : formats::read_file(beside);
+  if (!beside.empty()) numbers = formats::ResultsFile{beside, beside_bytes};
+  const auto results = formats::read_results(path, bytes, numbers, diagnostics);
+  session.events.diagnose(diagnostics);
+  if (!results) return wrong_input;
+  if (session.events.wants_data())
+    session.events.event("results", results_members(path, *results));
+  else
+    session.events.print(results_text(path, *results));
+  return done;
+}
+
+std::string results_as_script(const std::string& path, const std::string& by, double deform) {
+  const std::string file = print_json_line(Data(std::filesystem::path(path).filename().string()));
+  const std::string deformed = ", deform=" + format_number(deform);
+  const std::string solid = "mesh(" + file + deformed + ");\n";
+  if (by.empty()) return solid;
+  const std::string name = print_json_line(Data(by));
+  return "attribute(" + name + ", results(" + file + ", " + name + ", outside=\"nearest\"" + deformed + ").value) " +
+         solid;
+}
+
+}  // namespace ombre::jobs

@@ -1,0 +1,21 @@
+// A picture of the three planes in the middle of a volume.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "formats/volumes/volume.h"
+
+namespace ombre::jobs {
+
+struct PlanesPicture {
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> rgba;  // rows from the top
+};
+
+// Side by side: the first axis to the right and the second up, the first and the third, the second and the third, in
+// shades of grey from the number that 0.5 % of the voxels are below to the one that 0.5 % are above. Pixels are squares
+// in mm, where the volume says its lengths.
+PlanesPicture draw_planes(const formats::VoxelVolume& volume);
+
+}  // namespace ombre::jobs

@@ -1,0 +1,329 @@
+// ombre mesh: a design as closed surfaces for slicers and other programs.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "base/system/stopwatch.h"
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "export/mesh_file.h"
+#include "formats/packages/package_writers.h"
+#include "jobs/common/events.h"
+#include "jobs/common/job_design.h"
+#include "jobs/common/job_kind.h"
+#include "jobs/common/job_steps.h"
+#include "jobs/common/overwrite.h"
+#include "jobs/common/session.h"
+#include "jobs/mesh/beam_document.h"
+#include "jobs/mesh/mesh_choices.h"
+#include "jobs/mesh/slicer_setting.h"
+#include "jobs/mesh/vertex_colours.h"
+
+namespace ombre::jobs {
+namespace {
+
+using compile::MeshChoices;
+
+constexpr const char* mesh_footer =
+    "Lengths are millimetres.\n\n"
+    "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, "
+    "no "
+    "overlaps.\n\n"
+    "What is thinner than a cell may be lost. Cells are cut finer where the surface would lie farther off than the\n"
+    "tolerance, and triangles are drawn together where it is flat within it. A warning says what remains.\n\n"
+    "Examples:\n"
+    "  ombre mesh part.vcad                               a body for each material, in part.3mf\n"
+    "  ombre mesh part.vcad --by whole -o part.stl        one body\n"
+    "  ombre mesh part.vcad --tolerance 0.01\n"
+    "  ombre mesh part.vcad --by parts --flavour prusa    a body for each named part, with its own extruder\n"
+    "  ombre mesh part.vcad --beams -o part.3mf           struts as beams of a 3MF file, all else as "
+    "triangles\n"
+    "  ombre mesh part.vcad --bands 4                     four bodies by the fraction that varies most\n"
+    "  ombre mesh part.vcad --by red --borders 0.2,0.5    three bodies: red below 20 %, to 50 %, from there on\n"
+    "  ombre mesh sole.vcad --by infill_density,temperature --flavour prusa     each band with its own settings\n"
+    "  ombre mesh part.vcad --colour-by color_rgba -o part.glb                  vertices in the attribute's colours\n"
+    "  ombre mesh seat.vcad --bands 4 --flavour prusa --setting fill_density=10%..60%\n";
+
+// Returns the slicer setting that an attribute's bands set on their bodies; empty if slicers have no such setting.
+std::string slicer_key(const std::string& attribute) {
+  if (attribute == "infill_density") return "fill_density";
+  if (attribute == "fuzzy_skin_point_distance") return "fuzzy_skin_point_dist";
+  constexpr std::string_view same[] = {
+      "temperature",   "fuzzy_skin_thickness",  "extrusion_width",    "layer_height",
+      "perimeters",    "bridge_speed",          "gap_fill_speed",     "infill_speed",
+      "ironing_speed", "ironing_flowrate",      "perimeter_speed",    "external_perimeter_speed",
+      "flow_rate",     "small_perimeter_speed", "solid_infill_speed", "top_solid_infill_speed"};
+  const bool is_same = std::ranges::find(same, attribute) != std::end(same);
+  return is_same || attribute.ends_with("_extrusion_width") ? attribute : "";
+}
+
+// The settings that the middles of a body's bands say, unless others were given.
+void add_attributes(const compile::Region& region, std::vector<std::pair<std::string, std::string>>& values) {
+  for (const auto& [attribute, middle] : region.attributes) {
+    const std::string key = slicer_key(attribute);
+    const auto is_given = [&](const auto& value) { return value.first == key; };
+    if (key.empty() || std::ranges::any_of(values, is_given)) continue;
+    const bool is_whole = key == "temperature" || key == "perimeters" || key == "fill_density";
+    values.emplace_back(key, format_rounded(is_whole ? std::round(middle) : middle, 4) +
+                                 (key == "fill_density" || key == "ironing_flowrate" ? "%" : ""));
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<SlicerSetting>& settings, size_t body,
+                                                             const compile::MeshedDesign& made, bool is_by_part) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const SlicerSetting& setting : settings) {
+    if (setting.listed() > 0 && setting.listed() != made.bodies.size())
+      throw WrongArgument(spelled::option("--setting", setting.key()) + " lists " + std::to_string(setting.listed()) +
+                          " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
+    values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
+  }
+  add_attributes(made.bodies[body].region, values);
+  // Bodies of materials and parts print with an extruder each, in their order; bands with the same.
+  const bool is_given = std::ranges::any_of(settings, [](const SlicerSetting& s) { return s.key() == "extruder"; });
+  if (!is_given && !made.bodies[body].region.material && !is_by_part) values.emplace_back("extruder", "1");
+  return values;
+}
+
+formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
+                                  const std::vector<SlicerSetting>& settings, bool is_by_part) {
+  formats::MeshDocument document;
+  document.title = title;
+  for (size_t n = 0; n < made.bodies.size(); ++n) {
+    compile::RegionBody& body = made.bodies[n];
+    const std::string name = made.bodies.size() == 1 && body.region.name.empty() ? title : body.region.name;
+    formats::MeshBody written;
+    written.name = name;
+    written.settings = settings_of(settings, n, made, is_by_part);
+    written.material = static_cast<uint32_t>(n);
+    document.materials.push_back({name, body.colour});
+    written.vertices = std::move(body.body.vertices);
+    written.triangles = std::move(body.body.triangles);
+    document.bodies.push_back(std::move(written));
+  }
+  return document;
+}
+
+void tell_bodies(const Events& events, const compile::MeshedDesign& made) {
+  DataList bodies;
+  size_t beams = 0;
+  for (const compile::RegionBody& body : made.bodies) {
+    const std::string name = body.region.name.empty() ? "body" : body.region.name;
+    events.say(name + ": " + format_count(body.body.triangles.size()) + " triangles, " +
+               format_rounded(body.volume_mm3, 6) + " mm3, " + format_rounded(body.area_mm2, 6) + " mm2");
+    bodies.push_back(DataMembers{{"name", body.region.name},
+                                 {"triangles", static_cast<double>(body.body.triangles.size())},
+                                 {"volume_mm3", body.volume_mm3},
+                                 {"area_mm2", body.area_mm2}});
+  }
+  for (const compile::BeamBody& body : made.beams) {
+    const std::string cut = !body.clip                                          ? ""
+                            : body.clipping == formats::LatticeClipping::inside ? ", cut to the inside of a mesh of "
+                                                                                : ", cut to the outside of a mesh of ";
+    events.say("beams: " + format_count(body.beams.size()) + cut +
+               (body.clip ? format_count(made.clips[*body.clip].triangles.size()) + " triangles" : ""));
+    beams += body.beams.size();
+  }
+  events.event("bodies", {{"bodies", bodies},
+                          {"beams", static_cast<double>(beams)},
+                          {"clips", static_cast<double>(made.clips.size())},
+                          {"tolerance_mm", made.tolerance_mm},
+                          {"cell_mm", made.cell_mm},
+                          {"intersections", static_cast<double>(made.report.intersections)},
+                          {"folded", static_cast<double>(made.report.folded)},
+                          {"farthest_in_tolerances", made.report.farthest_in_tolerances},
+                          {"lost_places", static_cast<double>(made.report.lost.places)}});
+}
+
+// The file to write, and its format.
+struct MeshOutput {
+  std::string stem, path;
+  exporting::MeshFormat format = exporting::MeshFormat::three_mf;
+};
+
+std::string short_list(const std::vector<std::string>& names) {
+  constexpr size_t most = 6;
+  if (names.size() <= most) return join(names, ", ");
+  return join({names.begin(), names.begin() + most}, ", ") + " and " + std::to_string(names.size() - most) + " more";
+}
+
+// Says what became of several materials where nobody chose regions.
+void tell_materials(const Events& events, const compile::MeshedDesign& made, const MeshOutput& output) {
+  const std::vector<std::string>& names = made.materials.names;
+  if (names.size() < 2) return;
+  if (made.is_by_bands) return events.say("mixtures of " + short_list(names) + " become bodies by bands of fractions");
+  if (exporting::holds_bodies(output.format) && made.materials.are_mixed)
+    return events.say("mixtures of " + short_list(names) + " go to the body of the material that they have most of");
+  if (exporting::holds_bodies(output.format)) return;
+  events.warn(short_list(names) + " are joined: " + output.path +
+              " cannot say which is where; write a file that ends in " + exporting::endings_with_bodies() + ", or " +
+              spelled::option("--by", "whole") + " if they are to be one");
+}
+
+void warn_of_folds(const Events& events, const compile::MeshedDesign& made) {
+  const uint64_t folded = made.report.folded, crossing = made.report.intersections;
+  std::vector<std::string> what;
+  if (crossing == 1) what.emplace_back("1 pair of triangles goes through each other");
+  if (crossing > 1) what.push_back(format_count(crossing) + " pairs of triangles go through each other");
+  if (folded == 1) what.emplace_back("1 triangle faces inwards");
+  if (folded > 1) what.push_back(format_count(folded) + " triangles look inwards");
+  if (what.empty()) return;
+  events.warn(join(what, " and ") + ", where the design is finer than the cells of " + format_rounded(made.cell_mm, 3) +
+              " mm; choose a smaller " + spelled::option("--cell"));
+}
+
+void tell_distance(const Events& events, const compile::MeshedDesign& made) {
+  const double farthest = made.report.farthest_in_tolerances;
+  if (farthest <= 1 && !made.bodies.empty())
+    return events.say("triangles and design lie within " + format_rounded(made.tolerance_mm, 3) + " mm of each other" +
+                      (made.is_coarser ? "; a smaller " + spelled::option("--tolerance") + " takes longer" : ""));
+  if (farthest <= 1) return;
+  events.warn("the triangles lie up to " + format_rounded(farthest, 2) + " tolerances, " +
+              format_rounded(farthest * made.tolerance_mm, 2) + " mm, from the design in places; choose a smaller " +
+              spelled::option("--cell"));
+}
+
+void warn_of_lost_parts(const Events& events, const compile::MeshedDesign& made) {
+  const surface::LostParts& lost = made.report.lost;
+  if (lost.places == 0) return;
+  events.warn("a part or a gap thinner than the cells of " + format_rounded(made.cell_mm, 3) +
+              " mm is missing, for example near (" + format_rounded(lost.first.x, 4) + ", " +
+              format_rounded(lost.first.y, 4) + ", " + format_rounded(lost.first.z, 4) + "); choose a " +
+              spelled::option("--cell") + " no larger than it is thick");
+}
+
+void tell_plan(const Events& events, const compile::MeshPlan& plan) {
+  events.say("cells of " + format_rounded(plan.cell_mm, 3) + " mm, about " +
+             format_count(static_cast<unsigned long long>(plan.cells)) + " at the surface, which take about " +
+             format_bytes(plan.memory_bytes) + " of memory, more where they are cut finer");
+  events.event("plan", {{"cell_mm", plan.cell_mm},
+                        {"tolerance_mm", plan.tolerance_mm},
+                        {"cells", plan.cells},
+                        {"memory_bytes", plan.memory_bytes}});
+}
+
+void check_beams(const MeshChoices& a, const compile::MeshRequest& request, const std::string& output,
+                 exporting::MeshFormat format) {
+  if (format != exporting::MeshFormat::three_mf)
+    throw WrongArgument(spelled::option("--beams") + " are for .3mf; " + output + " cannot hold them");
+  if (a.flavour != formats::SlicerFlavour::generic)
+    throw WrongArgument(spelled::option("--flavour", a.flavour == formats::SlicerFlavour::prusa ? "prusa" : "bambu") +
+                        " has no beams, which its slicers do not read; leave one of the two out");
+  if (request.bands)
+    throw WrongArgument("beams have a material each, but no bands; write " + spelled::option("--by", "materials") +
+                        ", or leave " + spelled::option("--beams") + " out");
+}
+
+MeshOutput output_of(const MeshChoices& a) {
+  const std::string stem = std::filesystem::path(a.design.design).stem().string();
+  const std::string path = a.output.empty() ? stem + ".3mf" : a.output;
+  const auto format = exporting::mesh_format_of(path);
+  if (!format)
+    throw WrongArgument(spelled::option("-o", path) + " does not say a format; let it end in " +
+                        exporting::mesh_endings());
+  return {stem, path, *format};
+}
+
+// Colours of vertices say of what materials they are.
+compile::UsualRegions usual_regions(const MeshChoices& a, exporting::MeshFormat format) {
+  if (a.regions.are_chosen() || a.colour_by == "materials") return compile::UsualRegions::as_requested;
+  return exporting::holds_bodies(format) ? compile::UsualRegions::separate : compile::UsualRegions::joined;
+}
+
+void refuse(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
+  using exporting::MeshFormat;
+  refuse_to_overwrite(output.path, a.force);
+  if (output.format == MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output.path), a.force);
+  if (a.beams) check_beams(a, request, output.path, output.format);
+  if (!a.colour_by.empty() && (output.format == MeshFormat::stl || output.format == MeshFormat::off))
+    throw WrongArgument(spelled::option("--colour-by") + ": " + output.path +
+                        " holds no colours of vertices; write .ply, .glb, .3mf, .obj or .amf");
+  if (output.format == MeshFormat::three_mf && !formats::can_write_3mf())
+    throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + output.stem + ".amf");
+}
+
+// Prints diagnostics as they come.
+class PrintedDiagnostics {
+ public:
+  explicit PrintedDiagnostics(const Events& events) : events_(events) {}
+  Diagnostics& diagnostics() { return diagnostics_; }
+  void print() {
+    events_.diagnose(diagnostics_.after(printed_));
+    printed_ = diagnostics_.list().size();
+  }
+
+ private:
+  const Events& events_;
+  Diagnostics diagnostics_;
+  size_t printed_ = 0;
+};
+
+std::optional<compile::MeshedDesign> make_mesh(const compile::Loaded& loaded, compile::MeshRequest request,
+                                               PrintedDiagnostics& printed, Session& session) {
+  request.announce = [&](const compile::MeshPlan& plan) {
+    printed.print();
+    tell_plan(session.events, plan);
+  };
+  JobProgress progress(session.events, Counted::steps);
+  auto made = compile::mesh_design(loaded, request, printed.diagnostics(), &progress, &session.stop);
+  progress.finish();
+  printed.print();
+  if (!made || printed.diagnostics().has_errors()) return std::nullopt;
+  if (!made->bodies.empty() || !made->beams.empty()) return made;
+  session.events.warn("no cell's corner is inside the design: there is nothing to write; choose a smaller " +
+                      spelled::option("--cell"));
+  return std::nullopt;
+}
+
+int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made, const MeshOutput& output,
+          const std::vector<SlicerSetting>& settings, PrintedDiagnostics& printed, Session& session) {
+  formats::MeshDocument document = document_of(made, output.stem, settings, a.regions.by == "parts");
+  if (!a.colour_by.empty()) {
+    const compile::VertexColouring colouring{a.colour_by, a.palette, a.range};
+    const bool good =
+        compile::colour_vertices(loaded, colouring, document, printed.diagnostics(), a.work.threads, &session.stop);
+    printed.print();
+    if (!good) return wrong_input;
+  }
+  compile::add_beams(made, loaded.design.materials, document);
+  exporting::write_mesh_file(output.path, document, output.format, a.flavour);
+  return done;
+}
+
+int mesh(const MeshChoices& a, Session& session) {
+  compile::MeshRequest request = a.request();
+  const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
+  const MeshOutput output = output_of(a);
+  request.usual = usual_regions(a, output.format);
+  const Stopwatch watch;
+  JobSteps<compile::LoadedPtr> steps;
+  steps.refuse = [&] { refuse(a, request, output); };
+  steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
+    const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
+    return loaded ? std::optional(loaded) : std::nullopt;
+  };
+  steps.run = [&](const compile::LoadedPtr& loaded) {
+    PrintedDiagnostics printed(session.events);
+    auto made = make_mesh(*loaded, request, printed, session);
+    if (!made) return wrong_input;
+    tell_materials(session.events, *made, output);
+    tell_bodies(session.events, *made);
+    warn_of_folds(session.events, *made);
+    tell_distance(session.events, *made);
+    warn_of_lost_parts(session.events, *made);
+    if (const int code = write(a, *loaded, *made, output, settings, printed, session); code != done) return code;
+    session.events.say(output.path + " written in " + format_rounded(watch.seconds(), 3) + " s");
+    session.events.event("done", {{"file", output.path}, {"seconds", watch.seconds()}});
+    return done;
+  };
+  return take_steps(steps, session);
+}
+
+}  // namespace
+
+JobKind mesh_kind() {
+  return job_kind<MeshChoices>("mesh", "Write closed surfaces: STL, 3MF and others", mesh_footer, mesh);
+}
+
+}  // namespace ombre::jobs

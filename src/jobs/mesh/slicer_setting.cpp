@@ -1,0 +1,53 @@
+#include "jobs/mesh/slicer_setting.h"
+
+#include <optional>
+
+#include "base/text/text.h"
+#include "jobs/common/session.h"
+
+namespace ombre::jobs {
+namespace {
+
+// "12.5%" as 12.5 and "%".
+struct Amount {
+  double number = 0;
+  std::string unit;
+};
+
+std::optional<Amount> parse_amount(std::string_view text) {
+  const size_t end = text.find_last_of("0123456789.");
+  if (end == std::string_view::npos) return std::nullopt;
+  const auto number = parse_number(text.substr(0, end + 1));
+  if (!number) return std::nullopt;
+  return Amount{*number, std::string(text.substr(end + 1))};
+}
+
+}  // namespace
+
+SlicerSetting::SlicerSetting(const std::string& text) {
+  const WrongArgument wrong("--setting " + text +
+                            " is not understood; write for example --setting fill_density=20%, =10%..60% from the "
+                            "first region to the last, or =10%,30%,60% for each region");
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) throw wrong;
+  key_ = std::string(trim(text.substr(0, equals)));
+  const std::string value = text.substr(equals + 1);
+  const size_t dots = value.find("..");
+  if (dots == std::string::npos) {
+    for (const std::string& one : split(value, ',')) values_.emplace_back(trim(one));
+    return;
+  }
+  const auto first = parse_amount(trim(value.substr(0, dots))), last = parse_amount(trim(value.substr(dots + 2)));
+  if (!first || !last || (first->unit != last->unit && !first->unit.empty())) throw wrong;
+  is_range_ = true;
+  first_ = first->number;
+  last_ = last->number;
+  unit_ = last->unit;
+}
+
+std::string SlicerSetting::value(size_t number, double share) const {
+  if (is_range_) return format_rounded(first_ + share * (last_ - first_), 4) + unit_;
+  return values_.size() == 1 ? values_[0] : values_[number];
+}
+
+}  // namespace ombre::jobs

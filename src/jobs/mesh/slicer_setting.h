@@ -1,0 +1,33 @@
+// Settings for slicers, as --setting gives them for the bodies of a mesh.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "jobs/common/session.h"
+
+namespace ombre::jobs {
+
+// "fill_density=20%" is for all bodies, "fill_density=10%..60%" goes from the first region to the last,
+// "fill_pattern=grid,gyroid" names a value for each region.
+class SlicerSetting {
+ public:
+  // Throws WrongArgument.
+  explicit SlicerSetting(const std::string& text);
+
+  const std::string& key() const { return key_; }
+  // Values listed one by one; 0 where there is one for all.
+  size_t listed() const { return values_.size() == 1 ? 0 : values_.size(); }
+  // For region `number`, counted from 0, which lies at `share` between the first (0) and the last (1).
+  std::string value(size_t number, double share) const;
+
+ private:
+  std::string key_;
+  std::vector<std::string> values_;
+  bool is_range_ = false;
+  double first_ = 0, last_ = 0;
+  std::string unit_;
+};
+
+}  // namespace ombre::jobs

@@ -1,0 +1,93 @@
+#include "jobs/scad/scad_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "jobs/common/session.h"
+#include "jobs/scad/meshed_parts.h"
+#include "jobs/scad/scad_job.h"
+#include "load/scad_words_design.h"
+
+namespace ombre::jobs {
+namespace {
+
+constexpr const char* solid_formats[] = {"stl", "off", "obj", "ply", "amf", "3mf", "glb", "svg", "dxf"};
+
+}  // namespace
+
+std::vector<std::string> scad_formats() {
+  std::vector<std::string> endings{".csg", ".echo", ".ast"};
+  for (const char* format : solid_formats) endings.push_back(std::string(".") + format);
+  return endings;
+}
+
+bool writes_solids(const std::string& format) {
+  return std::ranges::find(solid_formats, format) != std::end(solid_formats);
+}
+
+std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& loaded,
+                                                     const std::vector<std::string>& paths, bool no_overlap,
+                                                     Session& session) {
+  Diagnostics messages;
+  auto quits = session.quit_at_once();
+  auto pieces = compile::meshed_parts(loaded, messages, &session.stop);
+  const solids::EvaluateOptions options{0, false, &session.stop, nullptr};
+  if (pieces && no_overlap) pieces = compile::without_overlaps(*pieces, options);
+  quits.reset();
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    if (!pieces || messages.has_errors()) break;
+    compile::SolidsExport output;
+    output.path = path;
+    const std::vector<std::string> written = compile::write_pieces(*pieces, output, messages);
+    files.insert(files.end(), written.begin(), written.end());
+  }
+  session.events.diagnose(messages);
+  if (!pieces || messages.has_errors()) return std::nullopt;
+  return files;
+}
+
+namespace {
+
+// Warnings as the script's own; returns what else there is.
+Diagnostics without_warnings(const Diagnostics& found, lang::openscad::Messages& said) {
+  Diagnostics others;
+  for (const Diagnostic& diagnostic : found.list()) {
+    if (diagnostic.severity != Severity::warning) {
+      others.add(diagnostic);
+      continue;
+    }
+    const SourceRange& where = diagnostic.where;
+    const std::string text = sentence_of(diagnostic);
+    using Kind = lang::openscad::Message::Kind;
+    said.add({Kind::warning, text, where.source ? std::filesystem::path(where.source->name()).filename().string() : "",
+              where.source ? where.source->place(where.begin).line : 0});
+  }
+  return others;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths,
+                                                     bool no_overlap, lang::openscad::Messages& said,
+                                                     Session& session) {
+  compile::ScadRequest request;
+  request.tree = tree;
+  for (const std::string& path : paths) {
+    compile::SolidsExport output;
+    output.path = path;
+    request.outputs.push_back(output);
+  }
+  request.no_overlap = no_overlap;
+  request.stop = &session.stop;
+  Diagnostics messages;
+  auto quits = session.quit_at_once();
+  request.before_writing = [&] { quits.reset(); };
+  const compile::ScadResult result = compile::run_scad(request, messages);
+  session.events.diagnose(without_warnings(messages, said));
+  if (messages.has_errors()) return std::nullopt;
+  return result.files;
+}
+
+}  // namespace ombre::jobs
