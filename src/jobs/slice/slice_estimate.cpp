@@ -9,6 +9,7 @@
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "jobs/slice/forecast.h"
+#include "jobs/slice/slice.h"
 #include "jobs/slice/slice_work.h"
 
 namespace ombre::compile {
