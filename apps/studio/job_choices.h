@@ -26,7 +26,7 @@ struct JobChoices {
 // knows, which names those that there are, and for wrong values.
 JobChoices read_job_choices(const Request& request, std::initializer_list<std::string_view> others);
 
-// As options::describe, for forms.
+// Returns the rows of the options, as options::describe has them, for forms.
 DataList describe_job_options();
 
 // Says in the studio's words what an option cannot take.

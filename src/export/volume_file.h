@@ -36,7 +36,7 @@ struct Volume {
   uint64_t bytes() const { return layer_bytes() * static_cast<uint64_t>(count[2]); }
 };
 
-// What a program needs to know of the numbers: sizes, places and what they are.
+// Describes the numbers to a program: sizes, places and what they are.
 DataMembers describe(const Volume& volume);
 
 // Does a description lie beside the file, since it has no place for spacing, origin and names?

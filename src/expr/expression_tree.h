@@ -1,4 +1,4 @@
-// What an expression's text means, as a tree.
+// Syntax trees of expressions.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ struct IntervalRow {
   float* hi = nullptr;
 };
 
-// What comes out encloses what a Kernel computes on any operands inside; the ends are floats.
+// Computes intervals that enclose what a Kernel computes on any operands inside; their ends are floats.
 using IntervalKernel = void (*)(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t count);
 
 }  // namespace ombre::eval

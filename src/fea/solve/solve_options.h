@@ -7,7 +7,7 @@
 
 namespace ombre::fea {
 
-// What conjugate gradients on bricks are preconditioned with.
+// The preconditioner of conjugate gradients on bricks.
 enum class Solver : uint8_t {
   multigrid,
   direct,     // a factorisation (direct.h)

@@ -1,4 +1,4 @@
-// What is said in builds without libzip and pugixml (OMBRE_3MF=OFF).
+// Messages of builds without libzip and pugixml (OMBRE_3MF=OFF).
 #pragma once
 
 namespace ombre::formats {

@@ -1,4 +1,4 @@
-// What zip archives are in builds without libzip: they cannot be read or written.
+// Builds without libzip report that they cannot read or write zip archives.
 #ifndef OMBRE_3MF
 
 #include "base/text/error.h"

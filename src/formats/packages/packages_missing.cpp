@@ -1,4 +1,4 @@
-// What reading 3MF and AMF does in builds without libzip and pugixml: it reports that.
+// Builds without libzip and pugixml report that they cannot read 3MF and AMF.
 #ifndef OMBRE_3MF
 
 #include "formats/containers/library_missing.h"

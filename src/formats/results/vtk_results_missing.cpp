@@ -1,4 +1,4 @@
-// What reading VTU and XDMF does in builds without pugixml: it reports that.
+// Builds without pugixml report that they cannot read VTU and XDMF.
 #ifndef OMBRE_3MF
 
 #include "formats/containers/library_missing.h"

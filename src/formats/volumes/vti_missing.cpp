@@ -1,4 +1,4 @@
-// What reading VTK image data does in builds without pugixml: it reports that.
+// Builds without pugixml report that they cannot read VTK image data.
 #ifndef OMBRE_3MF
 
 #include "formats/containers/library_missing.h"
