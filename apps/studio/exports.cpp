@@ -5,6 +5,7 @@
 #include "base/system/stopwatch.h"
 #include "base/text/error.h"
 #include "jobs/common/data_events.h"
+#include "jobs/common/memory_loader.h"
 #include "jobs/common/run_reported.h"
 #include "jobs/slice/slice.h"
 #include "load/load.h"
@@ -237,7 +238,7 @@ void Exports::slice(Job& job, const StopFlag& stop) {
   end(job, State::done, message);
 }
 
-// Searches make a design anew from its file for each of their variables; other jobs take the design that is open.
+// A search of variables makes the design anew from its file; other jobs take the design that is open.
 void Exports::run_kind(Job& job, const StopFlag& stop) {
   const ExportRequest& request = job.request;
   const jobs::JobKind& kind = *request.kind;
@@ -248,10 +249,7 @@ void Exports::run_kind(Job& job, const StopFlag& stop) {
       FrontEnd::studio, [&](const DataMembers& event) { take(job, event); },
       [&](const std::string& text) { printed += text; });
   jobs::Session session{events, stop, compile::load_design, cache_, program_};
-  if (request.design)
-    session.load = [&](const std::string&, const compile::LoadOptions&, Diagnostics&) {
-      return request.design->loaded;
-    };
+  if (request.design) session.load = jobs::memory_loader(request.design->loaded, true);
   const int code = jobs::run_reported(events, [&] { return kind.run(made.get(), session); });
   if (code == jobs::interrupted) throw Cancelled();
   const bool is_done = code == jobs::done;

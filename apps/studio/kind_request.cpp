@@ -17,9 +17,6 @@ bool is_offered(const jobs::JobKind& kind) {
   return kind.name != "slice" && std::ranges::any_of(kind.options, is_needed);
 }
 
-// They make the design anew for each point of a search, or hold its file.
-constexpr std::string_view from_file[] = {"optimise", "bundle"};
-
 const jobs::JobKind& kind_of(const Request& request) {
   const std::string& name = request.text("kind");
   const jobs::JobKind* kind = jobs::find_job(name);
@@ -76,7 +73,7 @@ ExportRequest kind_request(const Request& request, const Workspace& workspace,
   }
   if (find(kind, "design")) {
     made.members.emplace_back("design", workspace.path(made.file).string());
-    if (std::ranges::find(from_file, kind.name) == std::end(from_file)) made.design = design();
+    made.design = design();
   }
   if (made.replace && find(kind, "force")) made.members.emplace_back("force", true);
   const auto output = std::ranges::find(made.shown, "output", [](const auto& member) { return member.first; });

@@ -200,3 +200,9 @@ def test_every_kind_of_job_is_there(tmp_path):
         ombre.run_job("sheet", output=tmp_path / "other.png")
     with pytest.raises(KeyError):
         ombre.run_job("fly")
+
+
+def test_a_design_in_memory_has_no_variables():
+    with pytest.raises(ombre.DesignError, match="neither variables"):
+        ombre.cube(10, "red").homogenise(density=0.25, by="side=5:10", cell=5,
+                                           study={"materials": {"red": {"modulus_mpa": 1, "poissons_ratio": 0}}})

@@ -12,6 +12,7 @@
 #include "expr/expression.h"
 #include "jobs/all_jobs.h"
 #include "jobs/common/data_events.h"
+#include "jobs/common/memory_loader.h"
 #include "jobs/common/run_reported.h"
 #include "jobs/grid/voxels_in_memory.h"
 #include "load/load.h"
@@ -48,8 +49,7 @@ struct RunningJob {
 // Returns an exit code, as the command line does.
 int run_job(RunningJob& running, const jobs::Events& events) {
   jobs::Session session{events, running.stop, compile::load_design, *running.cache, "ombre " OMBRE_VERSION};
-  if (running.design)
-    session.load = [&](const std::string&, const compile::LoadOptions&, Diagnostics&) { return running.design; };
+  if (running.design) session.load = jobs::memory_loader(running.design, false);
   return jobs::run_reported(events, [&] { return running.run(session); });
 }
 
