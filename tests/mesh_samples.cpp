@@ -58,13 +58,13 @@ MeshDocument coloured_box() {
 }
 
 void write_all(const std::string& folder, const std::string& name, const MeshDocument& document) {
-  using exporting::MeshFormat;
+  const formats::MeshFormat& three_mf = *formats::find_mesh_format(".3mf");
   for (const char* ending : {".stl", ".obj", ".ply", ".off", ".amf", ".glb", ".3mf"}) {
     const std::string path = (std::filesystem::path(folder) / (name + ending)).string();
-    exporting::write_mesh_file(path, document, *exporting::mesh_format_of(path));
+    exporting::write_mesh_file(path, document, *formats::find_mesh_format(path));
   }
-  exporting::write_mesh_file(folder + '/' + name + "_prusa.3mf", document, MeshFormat::three_mf, SlicerFlavour::prusa);
-  exporting::write_mesh_file(folder + '/' + name + "_bambu.3mf", document, MeshFormat::three_mf, SlicerFlavour::bambu);
+  exporting::write_mesh_file(folder + '/' + name + "_prusa.3mf", document, three_mf, SlicerFlavour::prusa);
+  exporting::write_mesh_file(folder + '/' + name + "_bambu.3mf", document, three_mf, SlicerFlavour::bambu);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/system/module_loader.h"
-#include "base/text/text.h"
 #include "cad/occt_calls.h"
 
 namespace ombre::cad {
@@ -15,10 +14,13 @@ constexpr Module opencascade{"ombre_opencascade",         "Open CASCADE", "CAD f
 
 }  // namespace
 
+std::vector<FileFormat> file_formats() {
+  return {{"STEP", {".step", ".stp"}, Content::cad, true, false, &opencascade},
+          {"IGES", {".iges", ".igs"}, Content::cad, true, false, &opencascade}};
+}
+
 bool is_cad_file(const std::string& path) {
-  const std::string name = to_lower(path);
-  constexpr const char* endings[] = {".step", ".stp", ".iges", ".igs"};
-  return std::any_of(std::begin(endings), std::end(endings), [&](const char* e) { return name.ends_with(e); });
+  return std::ranges::any_of(file_formats(), [&](const FileFormat& format) { return has_ending(path, format); });
 }
 
 std::vector<SolidPtr> read_solids(const std::string& path, const StopFlag* stop) {

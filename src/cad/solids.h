@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/math/box.h"
+#include "base/system/file_format.h"
 #include "base/system/progress.h"
 
 namespace ombre::cad {
@@ -52,6 +53,7 @@ class Solid {
 using SolidPtr = std::shared_ptr<const Solid>;
 
 // Whether the name of a file says that it is one of CAD.
+std::vector<FileFormat> file_formats();
 bool is_cad_file(const std::string& path);
 
 // At least one, in the order of the file; closed shells without a solid become some. Throws Error when the file holds

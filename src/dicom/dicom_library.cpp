@@ -12,6 +12,8 @@ constexpr Module gdcm{"ombre_gdcm",  "GDCM",        "DICOM files",
 
 }  // namespace
 
+FileFormat file_format() { return {"DICOM", {".dcm"}, Content::volume, true, false, &gdcm}; }
+
 bool is_dicom(std::string_view bytes) {
   constexpr size_t preamble = 128;
   return bytes.substr(0, preamble + 4).substr(std::min(preamble, bytes.size())) == "DICM";

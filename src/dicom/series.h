@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/math/vec.h"
+#include "base/system/file_format.h"
 #include "base/system/progress.h"
 
 namespace ombre::dicom {
@@ -23,6 +24,7 @@ struct Series {
 };
 
 // Does the file begin as one of DICOM?
+FileFormat file_format();
 bool is_dicom(std::string_view bytes);
 
 // `files` are those of a folder, in any order; what is no DICOM image is passed over. `choice` is the number or the UID

@@ -41,7 +41,7 @@ class MeshFile : public testing::Test {
   fs::path folder_;
 };
 
-std::string failure(const std::string& path, const formats::MeshDocument& document, MeshFormat format) {
+std::string failure(const std::string& path, const formats::MeshDocument& document, const MeshFormat& format) {
   try {
     write_mesh_file(path, document, format);
   } catch (const Error& error) {
@@ -50,29 +50,21 @@ std::string failure(const std::string& path, const formats::MeshDocument& docume
   return "";
 }
 
-TEST(MeshFormat, IsTheEnding) {
-  EXPECT_EQ(mesh_format_of("a/b.STL"), MeshFormat::stl);
-  EXPECT_EQ(mesh_format_of("b.3mf"), MeshFormat::three_mf);
-  EXPECT_EQ(mesh_format_of("b.png"), std::nullopt);
-  EXPECT_EQ(mesh_format_of("3mf"), std::nullopt);
-  EXPECT_EQ(mesh_endings(), ".3mf, .amf, .glb, .obj, .off, .ply, .stl");
-}
-
 TEST_F(MeshFile, HasItsNameAndNoOther) {
   std::vector<std::string> written{"a.amf", "a.glb", "a.off", "a.ply", "a.stl"};
   if (formats::can_write_3mf()) written.insert(written.begin(), "a.3mf");
-  for (const std::string& name : written) write_mesh_file(path(name), triangle(), *mesh_format_of(name));
+  for (const std::string& name : written) write_mesh_file(path(name), triangle(), *formats::find_mesh_format(name));
   EXPECT_EQ(names(), written);
 }
 
 TEST_F(MeshFile, ObjHasItsMaterialsBeside) {
-  write_mesh_file(path("a.b.obj"), triangle(), MeshFormat::obj);
+  write_mesh_file(path("a.b.obj"), triangle(), *formats::find_mesh_format("a.obj"));
   EXPECT_EQ(names(), (std::vector<std::string>{"a.b.mtl", "a.b.obj"}));
   EXPECT_NE(formats::read_file(path("a.b.obj")).find("mtllib a.b.mtl\n"), std::string::npos);
   formats::MeshDocument plain = triangle();
   plain.materials.clear();
   plain.bodies[0].material.reset();
-  write_mesh_file(path("plain.obj"), plain, MeshFormat::obj);
+  write_mesh_file(path("plain.obj"), plain, *formats::find_mesh_format("a.obj"));
   EXPECT_EQ(names().size(), 3u);
 }
 
@@ -80,11 +72,12 @@ TEST_F(MeshFile, FailuresNameThePathAndLeaveWhatWasThere) {
   for (const std::string name : {"a.3mf", "a.obj", "a.stl"}) {
     if (name == "a.3mf" && !formats::can_write_3mf()) continue;
     const std::string missing = path("none/" + name);
-    EXPECT_EQ(failure(missing, triangle(), *mesh_format_of(name)),
-              "cannot write " + (*mesh_format_of(name) == MeshFormat::obj ? material_library_path(missing) : missing) +
+    EXPECT_EQ(failure(missing, triangle(), *formats::find_mesh_format(name)),
+              "cannot write " + (name == "a.obj" ? path("none/a.mtl") : missing) +
                   ": No such file or directory; the folder is missing");
     std::ofstream(path(name)) << "mine";
-    EXPECT_NE(failure(path(name), {}, *mesh_format_of(name)).find("there are no triangles"), std::string::npos);
+    EXPECT_NE(failure(path(name), {}, *formats::find_mesh_format(name)).find("there are no triangles"),
+              std::string::npos);
     EXPECT_EQ(formats::read_file(path(name)), "mine");
   }
 }
@@ -93,7 +86,8 @@ TEST_F(MeshFile, FailuresNameThePathAndLeaveWhatWasThere) {
 TEST_F(MeshFile, FullDisksAreReported) {
   for (const char* name : {"a.stl", "a.amf", "a.obj"}) {
     fs::create_symlink("/dev/full", path(name) + ".part");
-    EXPECT_NE(failure(path(name), triangle(), *mesh_format_of(name)).find("No space left on device; free some space"),
+    EXPECT_NE(failure(path(name), triangle(), *formats::find_mesh_format(name))
+                  .find("No space left on device; free some space"),
               std::string::npos)
         << name;
   }
@@ -108,7 +102,7 @@ TEST_F(MeshFile, FullDisksLeaveNoArchive) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit few{100, usual.rlim_max};
   setrlimit(RLIMIT_FSIZE, &few);
-  const std::string message = failure(path("a.3mf"), triangle(), MeshFormat::three_mf);
+  const std::string message = failure(path("a.3mf"), triangle(), *formats::find_mesh_format("a.3mf"));
   setrlimit(RLIMIT_FSIZE, &usual);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(message, "cannot write " + path("a.3mf") + ": File too large");

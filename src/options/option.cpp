@@ -14,11 +14,6 @@ std::string Option::name() const {
   return names;
 }
 
-std::string words_text(const std::vector<std::string>& words) {
-  if (words.size() < 2) return join(words, "");
-  return join(std::span(words).first(words.size() - 1), ", ") + " or " + words.back();
-}
-
 std::string range_text(const Limits& limits) {
   return format_rounded(limits.least) + " to " + format_rounded(limits.most);
 }

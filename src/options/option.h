@@ -49,8 +49,6 @@ struct Option {
 // if nothing is.
 std::string problem(const std::vector<std::string>& choices, const std::string& text);
 std::string problem(const Limits& limits, const std::string& text);
-// "rgba, gray or mask"
-std::string words_text(const std::vector<std::string>& words);
 // "0 to 120"
 std::string range_text(const Limits& limits);
 

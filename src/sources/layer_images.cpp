@@ -1,7 +1,6 @@
 #include "sources/layer_images.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/text/error.h"
 #include "base/text/text.h"
@@ -77,49 +76,108 @@ LayerNumbers numbers_of(const tiff::Page& page, const std::string& path, int cha
   return layer;
 }
 
-}  // namespace
-
-bool has_image_name(const std::string& path) {
-  const std::string name = to_lower(path);
-  constexpr std::array<std::string_view, 4> endings{".png", ".tif", ".tiff", ".bmp"};
-  return std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
+LayerColours png_colours(const std::string& path, std::string_view bytes) {
+  return colours_of(formats::decode_png(bytes, path));
+}
+LayerColours bmp_colours(const std::string& path, std::string_view bytes) {
+  return colours_of(formats::decode_bmp(bytes, path));
 }
 
-bool is_image(std::string_view bytes) { return is_png_image(bytes) || tiff::is_tiff(bytes) || formats::is_bmp(bytes); }
+LayerNumbers png_shades(const std::string& path, std::string_view bytes) {
+  formats::GrayImage image = formats::decode_gray_png(bytes, path);
+  return {image.width, image.height, "uint16", 1, std::move(image.pixels)};
+}
+LayerNumbers bmp_shades(const std::string& path, std::string_view bytes) {
+  return shades_of(bmp_colours(path, bytes), path);
+}
+
+// Numbers of the pixels, or those of one of four channels.
+template <auto colours, auto shades>
+std::vector<LayerNumbers> numbers_of_image(const std::string& path, std::string_view bytes, int channel,
+                                           const StopFlag*) {
+  check_channel(path, channel, 4);
+  std::vector<LayerNumbers> layers;
+  layers.push_back(channel < 0 ? shades(path, bytes) : channel_of(colours(path, bytes), channel));
+  return layers;
+}
+
+template <auto colours>
+std::vector<LayerColours> colours_of_image(const std::string& path, std::string_view bytes, const StopFlag*) {
+  std::vector<LayerColours> layers;
+  layers.push_back(colours(path, bytes));
+  return layers;
+}
+
+std::vector<LayerNumbers> tiff_numbers(const std::string& path, std::string_view bytes, int channel,
+                                       const StopFlag* stop) {
+  std::vector<LayerNumbers> layers;
+  for (const tiff::Page& page : tiff::read_pages(path, bytes, tiff::Wanted::numbers, stop))
+    layers.push_back(numbers_of(page, path, channel));
+  return layers;
+}
+
+std::vector<LayerColours> tiff_colours(const std::string& path, std::string_view bytes, const StopFlag* stop) {
+  std::vector<LayerColours> layers;
+  for (tiff::Page& page : tiff::read_pages(path, bytes, tiff::Wanted::colours, stop))
+    layers.push_back({page.width, page.height, std::vector<uint8_t>(page.bytes.begin(), page.bytes.end())});
+  return layers;
+}
+
+struct ImageFormat {
+  FileFormat file;
+  bool (*recognises)(std::string_view bytes);
+  std::vector<LayerNumbers> (*numbers)(const std::string&, std::string_view, int channel, const StopFlag*);
+  std::vector<LayerColours> (*colours)(const std::string&, std::string_view, const StopFlag*);
+};
+
+const std::vector<ImageFormat>& image_formats() {
+  static const std::vector<ImageFormat> rows{
+      {{"PNG", {".png"}, Content::image, true, true},
+       is_png_image,
+       numbers_of_image<png_colours, png_shades>,
+       colours_of_image<png_colours>},
+      {tiff::file_format(), tiff::is_tiff, tiff_numbers, tiff_colours},
+      {{"Windows bitmap", {".bmp"}, Content::image, true},
+       formats::is_bmp,
+       numbers_of_image<bmp_colours, bmp_shades>,
+       colours_of_image<bmp_colours>},
+  };
+  return rows;
+}
+
+const ImageFormat* find_image_format(std::string_view bytes) {
+  const auto& rows = image_formats();
+  const auto found = std::ranges::find_if(rows, [&](const ImageFormat& row) { return row.recognises(bytes); });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+// What is no image at all is read as PNG, whose reader says what is wrong.
+const ImageFormat& format_of_image(std::string_view bytes) {
+  const ImageFormat* format = find_image_format(bytes);
+  return format ? *format : image_formats().front();
+}
+
+}  // namespace
+
+std::vector<FileFormat> image_file_formats() {
+  std::vector<FileFormat> formats;
+  for (const ImageFormat& row : image_formats()) formats.push_back(row.file);
+  return formats;
+}
+
+bool has_image_name(const std::string& path) {
+  return std::ranges::any_of(image_formats(), [&](const ImageFormat& row) { return has_ending(path, row.file); });
+}
+
+bool is_image(std::string_view bytes) { return find_image_format(bytes) != nullptr; }
 
 std::vector<LayerNumbers> read_layer_numbers(const std::string& path, std::string_view bytes, int channel,
                                              const StopFlag* stop) {
-  std::vector<LayerNumbers> layers;
-  if (tiff::is_tiff(bytes)) {
-    for (const tiff::Page& page : tiff::read_pages(path, bytes, tiff::Wanted::numbers, stop))
-      layers.push_back(numbers_of(page, path, channel));
-    return layers;
-  }
-  check_channel(path, channel, 4);
-  const bool is_bitmap = formats::is_bmp(bytes);
-  if (channel >= 0) {
-    const LayerColours image =
-        is_bitmap ? colours_of(formats::decode_bmp(bytes, path)) : colours_of(formats::decode_png(bytes, path));
-    layers.push_back(channel_of(image, channel));
-  } else if (is_bitmap) {
-    layers.push_back(shades_of(colours_of(formats::decode_bmp(bytes, path)), path));
-  } else {
-    formats::GrayImage image = formats::decode_gray_png(bytes, path);
-    layers.push_back({image.width, image.height, "uint16", 1, std::move(image.pixels)});
-  }
-  return layers;
+  return format_of_image(bytes).numbers(path, bytes, channel, stop);
 }
 
 std::vector<LayerColours> read_layer_colours(const std::string& path, std::string_view bytes, const StopFlag* stop) {
-  std::vector<LayerColours> layers;
-  if (tiff::is_tiff(bytes)) {
-    for (tiff::Page& page : tiff::read_pages(path, bytes, tiff::Wanted::colours, stop))
-      layers.push_back({page.width, page.height, std::vector<uint8_t>(page.bytes.begin(), page.bytes.end())});
-    return layers;
-  }
-  layers.push_back(formats::is_bmp(bytes) ? colours_of(formats::decode_bmp(bytes, path))
-                                          : colours_of(formats::decode_png(bytes, path)));
-  return layers;
+  return format_of_image(bytes).colours(path, bytes, stop);
 }
 
 }  // namespace ombre::sources

@@ -6,10 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/system/file_format.h"
 #include "base/system/progress.h"
 #include "formats/volumes/volume.h"
 
 namespace ombre::sources {
+
+std::vector<FileFormat> image_file_formats();
 
 // Does the name end as one of an image that is read?
 bool has_image_name(const std::string& path);

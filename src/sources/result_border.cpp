@@ -1,15 +1,18 @@
 #include "sources/result_border.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/text/file_ending.h"
+#include "formats/results/result_formats.h"
 #include "import/fields/result_mesh.h"
 
 namespace ombre::sources {
 
 bool has_elements(const std::string& path) {
-  const std::string ending = ending_of(path);
-  return ending == ".vtu" || ending == ".xdmf" || ending == ".frd" || ending == ".inp";
+  return std::ranges::any_of(formats::result_formats(), [&](const formats::ResultFormat& format) {
+    return format.has_elements && has_ending(path, format.file);
+  });
 }
 
 std::string numbers_beside(const std::string& path) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/system/file_format.h"
 #include "base/system/progress.h"
 
 namespace ombre::tiff {
@@ -23,6 +24,7 @@ enum class Wanted : uint8_t {
 };
 
 // Does the file begin as one of TIFF?
+FileFormat file_format();
 bool is_tiff(std::string_view bytes);
 
 // All pages, in the file's order. Throws Error, naming `name`: for what is no whole TIFF, is packed in a way that is

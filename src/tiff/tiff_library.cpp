@@ -12,6 +12,8 @@ constexpr Module libtiff{"ombre_libtiff", "libtiff",    "TIFF images",
 
 }  // namespace
 
+FileFormat file_format() { return {"TIFF", {".tif", ".tiff"}, Content::image, true, false, &libtiff}; }
+
 bool is_tiff(std::string_view bytes) {
   using namespace std::string_view_literals;
   return bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv) || bytes.starts_with("II+\0"sv) ||

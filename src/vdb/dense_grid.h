@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/math/vec.h"
+#include "base/system/file_format.h"
 #include "base/system/progress.h"
 
 namespace ombre::vdb {
@@ -25,6 +26,8 @@ struct DenseGrid {
 // numbers, or more than 16 GiB, and when this was built without the library; Cancelled once `stop`, which may be null,
 // is set.
 DenseGrid read_grid(const std::string& path, const std::string& name, int channel, const StopFlag* stop);
+// Those of OpenVDB and NanoVDB.
+std::vector<ombre::FileFormat> file_formats();
 bool is_vdb(std::string_view bytes);
 
 }  // namespace ombre::vdb

@@ -13,6 +13,11 @@ constexpr Module reader_module{"ombre_openvdb", "OpenVDB",
 
 }  // namespace
 
+std::vector<ombre::FileFormat> file_formats() {
+  return {{"OpenVDB", {".vdb"}, Content::volume, true, true, &reader_module},
+          {"NanoVDB", {".nvdb"}, Content::volume, false, true, &reader_module}};
+}
+
 bool is_vdb(std::string_view bytes) {
   using namespace std::string_view_literals;
   return bytes.starts_with(" BDV\0\0\0\0"sv);

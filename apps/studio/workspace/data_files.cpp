@@ -1,26 +1,18 @@
 #include "studio/workspace/data_files.h"
 
-#include <algorithm>
 #include <array>
 
 #include "base/text/file_ending.h"
-#include "base/text/text.h"
-#include "formats/volumes/volume_endings.h"
+#include "sources/file_formats.h"
 
 namespace ombre::studio {
 
 namespace fs = std::filesystem;
 
 DataKind data_kind(const std::string& name) {
-  const std::string lower = to_lower(name);
-  const auto ends_in_one_of = [&](const auto& endings) {
-    return std::ranges::any_of(endings, [&](std::string_view ending) { return lower.ends_with(ending); });
-  };
-  constexpr std::array<std::string_view, 3> results{".vtu", ".xdmf", ".frd"};
-  constexpr std::array<std::string_view, 1> tables{".csv"};
-  if (formats::has_volume_ending(name)) return DataKind::scan;
-  if (ends_in_one_of(results)) return DataKind::results;
-  return ends_in_one_of(tables) ? DataKind::table : DataKind::none;
+  if (sources::is_read_as(name, Content::volume)) return DataKind::scan;
+  if (sources::is_read_as(name, Content::results)) return DataKind::results;
+  return sources::is_read_as(name, Content::table) ? DataKind::table : DataKind::none;
 }
 
 std::string_view name_of(DataKind kind) {

@@ -173,8 +173,10 @@ py::tuple make_voxels(const CachePtr& cache, const py::dict& options, DesignHand
 py::list describe_jobs() {
   py::list list;
   for (const jobs::JobKind& kind : jobs::all_jobs())
-    list.append(
-        to_python(DataMembers{{"name", kind.name}, {"help", kind.help}, {"options", options::describe(kind.options)}}));
+    list.append(to_python(DataMembers{{"name", kind.name},
+                                      {"help", kind.help},
+                                      {"options", options::describe(kind.options)},
+                                      {"endings", DataList(kind.endings.begin(), kind.endings.end())}}));
   return list;
 }
 

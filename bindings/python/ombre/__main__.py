@@ -34,11 +34,6 @@ def _load(path, materials, definitions):
     return None
 
 
-_commands = {".png": "render", ".stl": "mesh", ".obj": "mesh", ".ply": "mesh", ".off": "mesh", ".amf": "mesh",
-             ".3mf": "mesh", ".glb": "mesh", ".svg": "contours", ".cli": "contours", ".vdb": "voxels",
-             ".nvdb": "voxels", ".npy": "voxels", ".nrrd": "voxels", ".raw": "voxels"}
-
-
 def _run_arguments(arguments):
     """`run script.py [-- [COMMAND] ARGS]`: the arguments of the command that gets the script as its design."""
     if not arguments or arguments[0] in ("-h", "--help"):
@@ -58,7 +53,8 @@ def _run_arguments(arguments):
     if rest and not rest[0].startswith("-"):
         return [rest[0], script, *rest[1:]]
     output = next((b for a, b in zip(rest, rest[1:]) if a in ("-o", "--output")), "")
-    return [_commands.get(os.path.splitext(output)[1].lower(), "slice"), script, *rest]
+    from ._commands import kind_for
+    return [kind_for(output) or "slice", script, *rest]
 
 
 def main(arguments=None):

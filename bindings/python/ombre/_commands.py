@@ -29,6 +29,17 @@ def options_of(kind):
     raise KeyError(kind)
 
 
+def kind_for(path):
+    """The kind of jobs that writes a file of this ending: "mesh" for part.stl; None where none does."""
+    ending = os.path.splitext(path)[1].lower()
+    return next((kind["name"] for kind in _core.jobs() if ending in kind["endings"]), None)
+
+
+def endings():
+    """The endings of files that jobs write, sorted: [".3mf", ".amf", ...]."""
+    return sorted(ending for kind in _core.jobs() for ending in kind["endings"])
+
+
 # What Python has in another way.
 _own = {"design", "define", "emit", "output", "materials"}
 

@@ -10,6 +10,7 @@ import sys
 from typing import Any
 
 import ombre
+from ombre._commands import endings, kind_for
 from ombre._script import is_hosted, take_note
 from pyvcad._materials import expect_table
 from pyvcad._missing import attribute_of
@@ -17,10 +18,17 @@ from pyvcad._tree import as_node
 
 __all__ = ["Render", "Export"]
 
-_jobs = {".stl": "mesh", ".obj": "mesh", ".ply": "mesh", ".off": "mesh", ".amf": "mesh", ".3mf": "mesh", ".glb": "mesh",
-         ".svg": "contours", ".cli": "contours", ".vdb": "write_voxels", ".nvdb": "write_voxels",
-         ".npy": "write_voxels", ".nrrd": "write_voxels", ".raw": "write_voxels", ".png": "render", ".json": "save",
-         "": "slice"}
+# The methods of a design that are not called as their kinds of jobs.
+_methods = {"voxels": "write_voxels"}
+
+
+def _method_for(path: str) -> str | None:
+    """The method of a design that writes such a file: "mesh" for part.stl."""
+    ending = os.path.splitext(path)[1].lower()
+    if ending in ("", ".json"):
+        return "save" if ending else "slice"
+    kind = kind_for(path)
+    return _methods.get(kind, kind) if kind else None
 
 
 def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None = None, **options: Any) -> None:
@@ -67,12 +75,12 @@ def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
               "environment variable OMBRE_EXPORT (a folder for slices, .stl, .3mf, .svg, .vdb, .png, ...)",
               file=sys.stderr)
         return
-    ending = os.path.splitext(target)[1].lower()
-    if ending not in _jobs:
+    method = _method_for(target)
+    if method is None:
         raise ombre.DesignError(f"Export: cannot write {target}; known are a folder without an ending for slices, and "
-                                + ", ".join(sorted(filter(None, _jobs))))
+                                + ", ".join(endings()))
     design = as_node(root)._ombre_design_(materials)
-    getattr(design, _jobs[ending])(target, **options)
+    getattr(design, method)(target, **options)
     print(f"written to {target}", file=sys.stderr)
 
 

@@ -30,6 +30,8 @@ std::optional<std::string> closest_name(std::string_view name, std::span<const s
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
 std::string join(std::span<const std::string> parts, std::string_view separator);
+// Returns "rgba, gray or mask" for a choice of words.
+std::string words_text(std::span<const std::string> words);
 std::vector<std::string> split(std::string_view text, char separator);
 std::string_view trim(std::string_view text);
 

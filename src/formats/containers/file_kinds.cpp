@@ -8,13 +8,13 @@
 namespace ombre::formats {
 namespace {
 
-constexpr std::string_view other_mesh = "export a mesh: STL, OBJ, PLY, OFF, 3MF or AMF";
 constexpr std::string_view unpack = "unpack it";
 
 struct Kind {
   std::string_view begin;  // of the file
   std::string_view what;
   std::string_view hint = {};
+  bool is_other_mesh = false;
 };
 
 using namespace std::string_view_literals;
@@ -36,11 +36,11 @@ constexpr Kind kinds[]{
     {"7z\xBC\xAF"sv, "a 7-Zip archive", unpack},
     {"Rar!"sv, "a RAR archive", unpack},
     {"PK\x05\x06"sv, "an empty zip archive"},
-    {"glTF\x02\0\0\0"sv, "a glTF file", other_mesh},
-    {"Kaydara FBX Binary"sv, "an FBX file", other_mesh},
-    {"BLENDER"sv, "a Blender file", other_mesh},
-    {"\xD0\xCF\x11\xE0"sv, "a document of SolidWorks, Inventor or Office", other_mesh},
-    {"#VRML"sv, "a VRML file", other_mesh},
+    {"glTF\x02\0\0\0"sv, "a glTF file", {}, true},
+    {"Kaydara FBX Binary"sv, "an FBX file", {}, true},
+    {"BLENDER"sv, "a Blender file", {}, true},
+    {"\xD0\xCF\x11\xE0"sv, "a document of SolidWorks, Inventor or Office", {}, true},
+    {"#VRML"sv, "a VRML file", {}, true},
     {"SQLite format 3"sv, "a database"},
     {"\x7F"
      "ELF"sv,
@@ -56,7 +56,8 @@ bool begins_with(std::string_view text, std::string_view word) { return to_lower
 
 std::optional<ForeignFile> foreign_file(std::string_view bytes) {
   for (const Kind& kind : kinds)
-    if (bytes.starts_with(kind.begin)) return ForeignFile{std::string(kind.what), std::string(kind.hint)};
+    if (bytes.starts_with(kind.begin))
+      return ForeignFile{std::string(kind.what), std::string(kind.hint), kind.is_other_mesh};
   constexpr size_t sniffed_bytes = 1024;
   std::string_view text = bytes.substr(0, sniffed_bytes);
   text.remove_prefix(std::min(text.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text.size()));

@@ -8,8 +8,9 @@
 namespace ombre::formats {
 
 struct ForeignFile {
-  std::string what;  // "a PNG picture"
-  std::string hint;  // what to do instead; may be empty
+  std::string what;            // "a PNG picture"
+  std::string hint;            // what to do instead; may be empty
+  bool is_other_mesh = false;  // of a format of meshes or solids that Ombre does not read
 };
 
 // What the first bytes show for certain. Nothing for what a reader of meshes may be able to read.

@@ -16,12 +16,9 @@
 namespace ombre::formats {
 namespace {
 
-constexpr Module libzip_module{"ombre_libzip", "libzip",    "zip archives",
-                               "libzip-dev",   "OMBRE_3MF", "write or read files of another kind"};
-
 // Loaded when the first archive is read or written.
 const LibzipCalls& libzip() {
-  static const LibzipCalls& calls = *load_function<decltype(ombre_libzip_calls)>(libzip_module, "ombre_libzip_calls")();
+  static const LibzipCalls& calls = *load_function<decltype(ombre_libzip_calls)>(zip_module, "ombre_libzip_calls")();
   return calls;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/system/module_loader.h"
 #include "base/text/diagnostic.h"
 #include "formats/containers/lazy_bytes.h"
 
@@ -15,6 +16,9 @@ struct zip;
 struct zip_stat;
 
 namespace ombre::formats {
+
+inline constexpr Module zip_module{"ombre_libzip", "libzip",    "zip archives",
+                                   "libzip-dev",   "OMBRE_3MF", "write or read files of another kind"};
 
 struct ZipEntry {
   std::string name;

@@ -2,27 +2,18 @@
 #include "formats/packages/read_mesh.h"
 
 #include "base/text/file_ending.h"
+#include "base/text/text.h"
 #include "formats/containers/file.h"
 #include "formats/containers/file_kinds.h"
-#include "formats/containers/zip_archive.h"
-#include "formats/packages/package_readers.h"
+#include "formats/packages/mesh_formats.h"
 
 namespace ombre::formats {
 namespace {
 
-// The outermost element, behind a declaration and comments.
-bool is_amf(std::string_view bytes) {
-  constexpr size_t sniffed_bytes = 1024;
-  const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
-  if (first == std::string_view::npos || bytes[first] != '<') return false;
-  const std::string_view beginning = bytes.substr(first, sniffed_bytes);
-  return beginning.find("<amf>") != std::string_view::npos || beginning.find("<amf ") != std::string_view::npos;
-}
-
 std::optional<Mesh> report_unknown(const std::string& name, Diagnostics& diagnostics) {
   diagnostics.error(Code::file_kind, {make_source(name, ""), 0, 0},
                     "neither the name nor the content tells which mesh format this is",
-                    "name the file .stl, .obj, .ply, .off, .3mf or .amf", {{"file", name}});
+                    "name the file " + words_text(read_mesh_endings()), {{"file", name}});
   return std::nullopt;
 }
 
@@ -34,23 +25,17 @@ std::optional<Mesh> read_mesh(const std::string& path, Diagnostics& diagnostics)
 
 std::optional<Mesh> read_mesh(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   const std::string ending = ending_of(name);
-  if (is_ply(bytes)) return read_ply(name, bytes, diagnostics);
-  if (is_off(bytes)) return read_off(name, bytes, diagnostics);
-  if (is_zip(bytes)) return ending == ".amf" ? read_amf(name, bytes, diagnostics) : read_3mf(name, bytes, diagnostics);
-  if (is_amf(bytes)) return read_amf(name, bytes, diagnostics);
-  if (is_stl(bytes)) return read_stl(name, bytes, diagnostics);
+  for (const MeshFormat& format : mesh_formats())
+    if (format.recognises && format.recognises(bytes, ending)) return format.read(name, bytes, diagnostics);
   if (const auto foreign = foreign_file(bytes)) {
-    diagnostics.error(Code::file_kind, {make_source(name, ""), 0, 0}, "this is no mesh file but " + foreign->what,
-                      foreign->hint, {{"file", name}});
+    const std::string hint =
+        foreign->is_other_mesh ? "export a mesh: " + words_text(read_mesh_endings()) : foreign->hint;
+    diagnostics.error(Code::file_kind, {make_source(name, ""), 0, 0}, "this is no mesh file but " + foreign->what, hint,
+                      {{"file", name}});
     return std::nullopt;
   }
-
-  if (ending == ".obj") return read_obj(name, bytes, diagnostics);
-  if (ending == ".stl") return read_stl(name, bytes, diagnostics);
-  if (ending == ".ply") return read_ply(name, bytes, diagnostics);
-  if (ending == ".off") return read_off(name, bytes, diagnostics);
-  if (ending == ".3mf") return read_3mf(name, bytes, diagnostics);
-  if (ending == ".amf") return read_amf(name, bytes, diagnostics);
+  const MeshFormat* format = find_mesh_format(name);
+  if (format && format->read) return format->read(name, bytes, diagnostics);
   return report_unknown(name, diagnostics);
 }
 

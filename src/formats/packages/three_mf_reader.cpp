@@ -55,17 +55,17 @@ class ThreeMfReader {
       diagnostics_.warning({}, name_ + ": " + fault + "; the model " + formats::quoted(models[0]) + " is read");
       return models[0];
     }
-    const std::vector<std::string> meshes = names_ending({".stl", ".obj", ".ply", ".off", ".amf", ".3mf"});
+    const std::vector<std::string> meshes = names_ending(read_mesh_endings());
     std::string hint = "save it again";
     if (!meshes.empty()) hint = "it holds " + formats::quoted(meshes[0]) + ": unpack it";
     if (!meshes.empty() && to_lower(meshes[0]).ends_with(".amf")) hint = "name it .amf if it is a zipped AMF file";
     fail(diagnostics_, name_, "this zip archive is not a 3MF file: " + fault, hint);
   }
 
-  std::vector<std::string> names_ending(std::initializer_list<std::string_view> endings) const {
+  std::vector<std::string> names_ending(const std::vector<std::string>& endings) const {
     std::vector<std::string> found;
     for (const std::string& name : archive_.names())
-      for (const std::string_view ending : endings)
+      for (const std::string& ending : endings)
         if (to_lower(name).ends_with(ending)) found.push_back(name);
     return found;
   }

@@ -1,10 +1,11 @@
 // Reads results of simulations by the content of their files.
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "base/text/text.h"
 #include "formats/containers/text_scanner.h"
-#include "formats/results/results_readers.h"
+#include "formats/results/result_formats.h"
 
 namespace ombre::formats {
 namespace {
@@ -41,18 +42,9 @@ void fill_up_fields(Results& results) {
 Results read_any(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
                  Diagnostics& diagnostics) {
   const std::string_view text = trim(bytes.substr(0, std::min<size_t>(bytes.size(), 4096)));
-  const bool is_deck = text.starts_with('*');
-  if (text.starts_with('<') && text.find("<Xdmf") != std::string_view::npos)
-    return read_xdmf(name, bytes, values, diagnostics);
-  if (values && !is_deck)
-    fail(diagnostics, name, "a table of values belongs to a mesh in an .inp file", "leave \"values\" out");
-  if (text.starts_with('<')) return read_vtu(name, bytes, diagnostics);
-  if (text.starts_with("1C")) return read_frd(name, bytes, diagnostics);
-  if (!is_deck) return read_csv_points(name, bytes, diagnostics);
-  NumberedResults mesh = read_inp(name, bytes, diagnostics);
-  if (mesh.results.kinds.empty()) fail(diagnostics, name, "the deck has no solid elements");
-  if (values) add_csv_values(values->name, values->bytes, mesh, diagnostics);
-  return std::move(mesh.results);
+  const auto rows = result_formats();
+  const auto found = std::ranges::find_if(rows, [&](const ResultFormat& row) { return row.recognises(text); });
+  return found->read(name, bytes, values, diagnostics);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Reads grids of numbers by the content of their files.
+#include "formats/volumes/volume_formats.h"
 #include "formats/volumes/volume_packing.h"
 #include "formats/volumes/volume_parts.h"
 
@@ -6,25 +7,6 @@ namespace ombre::formats {
 namespace {
 
 constexpr uint64_t most_unpacked_bytes = uint64_t{64} << 30;
-
-bool is_nrrd(std::string_view bytes) { return bytes.starts_with("NRRD"); }
-bool is_npy(std::string_view bytes) { return bytes.starts_with("\x93NUMPY"); }
-
-}  // namespace
-
-std::string companion_of(const std::string& path, std::string_view bytes) {
-  if (is_nrrd(bytes)) return nrrd_data_path(path, bytes);
-  if (is_nifti(bytes)) return nifti_data_path(path, bytes);
-  if (is_metaimage(bytes)) return metaimage_data_path(path, bytes);
-  if (is_vti(bytes)) return "";
-  return path + ".json";
-}
-
-std::vector<VolumeSegment> segments_of(const std::string& path, std::string_view bytes) {
-  return is_nrrd(bytes) ? nrrd_segments(path, bytes) : std::vector<VolumeSegment>();
-}
-
-namespace {
 
 VoxelVolume read_packed(const VolumeFile& file) {
   // What the file's end states is right up to 4 GiB.
@@ -40,14 +22,19 @@ VoxelVolume read_packed(const VolumeFile& file) {
 
 }  // namespace
 
+std::string companion_of(const std::string& path, std::string_view bytes) {
+  const VolumeFormat& format = format_of_volume(bytes);
+  return format.companion ? format.companion(path, bytes) : "";
+}
+
+std::vector<VolumeSegment> segments_of(const std::string& path, std::string_view bytes) {
+  const VolumeFormat& format = format_of_volume(bytes);
+  return format.segments ? format.segments(path, bytes) : std::vector<VolumeSegment>();
+}
+
 VoxelVolume read_volume(const VolumeFile& file) {
-  const std::string_view bytes = file.bytes;
-  if (is_nrrd(bytes)) return read_nrrd(file);
-  if (is_npy(bytes)) return read_npy(file);
-  if (is_nifti(bytes)) return read_nifti(file);
-  if (is_metaimage(bytes)) return read_metaimage(file);
-  if (is_vti(bytes)) return read_vti(file);
-  if (is_gzip(bytes)) return read_packed(file);
+  if (const VolumeFormat& format = format_of_volume(file.bytes); format.read) return format.read(file);
+  if (is_gzip(file.bytes)) return read_packed(file);
   if (file.companion) return read_raw(file);
   fail_volume(file.path, "is none of NRRD, NIfTI, MetaImage, VTI and NPY, and no " + file.path +
                              ".json describes it; convert other formats, by 3D Slicer for example");

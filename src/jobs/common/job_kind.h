@@ -22,6 +22,9 @@ struct JobKind {
   // Plans, checks, runs and reports the job at this address. Returns an exit code. Throws WrongArgument, Error and
   // Cancelled.
   std::function<int(const void* job, Session& session)> run;
+  // The endings of the files that it writes as -o says; "" stands for a folder. An ending belongs to one kind, which
+  // front ends choose where only the file to write is named.
+  std::vector<std::string> endings = {};
 };
 
 // The kind of jobs that are values of the type Choices.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/text/diagnostic.h"
+#include "base/text/text.h"
 #include "jobs/common/plan_options.h"
 #include "jobs/common/sampling_rules.h"
 

@@ -62,19 +62,28 @@ constexpr const char* voxels_footer =
 struct VtiFormat {};
 using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>;
 
+const std::vector<std::pair<std::string, Format>>& written_formats() {
+  static const std::vector<std::pair<std::string, Format>> formats{{".npy", exporting::VolumeFormat::npy},
+                                                                   {".nrrd", exporting::VolumeFormat::nrrd},
+                                                                   {".vti", VtiFormat{}},
+                                                                   {".raw", exporting::VolumeFormat::raw},
+                                                                   {".vdb", vdb::FileFormat::vdb},
+                                                                   {".nvdb", vdb::FileFormat::nvdb}};
+  return formats;
+}
+
 Format chosen_format(const GridChoices& a) {
   const std::string ending = ending_of(a.output);
   if (a.gzip && ending != ".nrrd")
     throw WrongArgument(spelled::option("--gzip") + " is for .nrrd files; leave it out, or write " +
                         spelled::option("-o", "part.nrrd"));
-  if (ending == ".raw") return exporting::VolumeFormat::raw;
-  if (ending == ".npy") return exporting::VolumeFormat::npy;
-  if (ending == ".nrrd") return a.gzip ? exporting::VolumeFormat::nrrd_gzip : exporting::VolumeFormat::nrrd;
-  if (ending == ".vdb") return vdb::FileFormat::vdb;
-  if (ending == ".nvdb") return vdb::FileFormat::nvdb;
-  if (ending == ".vti") return VtiFormat{};
-  throw WrongArgument(spelled::option("-o", a.output) +
-                      " does not say a format; let it end in .npy, .nrrd, .vti, .raw, .vdb or .nvdb");
+  if (a.gzip) return exporting::VolumeFormat::nrrd_gzip;
+  std::vector<std::string> endings;
+  for (const auto& [known, format] : written_formats()) {
+    if (known == ending) return format;
+    endings.push_back(known);
+  }
+  throw WrongArgument(spelled::option("-o", a.output) + " does not say a format; let it end in " + words_text(endings));
 }
 
 bool is_sparse(const Format& format) { return std::holds_alternative<vdb::FileFormat>(format); }
@@ -221,7 +230,9 @@ int make_voxels(const GridChoices& a, Session& session, std::vector<compile::Vol
 }
 
 JobKind voxels_kind() {
-  return job_kind<GridChoices>("voxels", "Write a voxel grid for other programs", voxels_footer, voxels);
+  JobKind kind = job_kind<GridChoices>("voxels", "Write a voxel grid for other programs", voxels_footer, voxels);
+  for (const auto& [ending, format] : written_formats()) kind.endings.push_back(ending);
+  return kind;
 }
 
 }  // namespace ombre::jobs

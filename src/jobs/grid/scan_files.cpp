@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "base/text/json.h"
-#include "formats/volumes/volume_endings.h"
 #include "jobs/common/session.h"
 #include "load/load.h"
+#include "sources/file_formats.h"
 
 namespace ombre::jobs {
 namespace {
@@ -20,7 +20,7 @@ constexpr const char* least_number = "-1e300";
 bool is_scan(const std::string& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return true;
-  return formats::has_volume_ending(path);
+  return sources::is_read_as(path, Content::volume);
 }
 
 compile::LoadedPtr load_scan(const compile::DesignOptions& arguments, Session& session, Diagnostics& diagnostics,

@@ -26,10 +26,7 @@ namespace {
 using compile::MeshChoices;
 
 constexpr const char* mesh_footer =
-    "Lengths are millimetres.\n\n"
-    "FILE ends in .3mf (default), .stl, .obj, .ply, .off, .amf or .glb. Bodies share their borders exactly: no gaps, "
-    "no "
-    "overlaps.\n\n"
+    ". Without -o the file is a .3mf. Bodies share their borders exactly: no gaps, no overlaps.\n\n"
     "What is thinner than a cell may be lost. Cells are cut finer where the surface would lie farther off than the\n"
     "tolerance, and triangles are drawn together where it is flat within it. A warning says what remains.\n\n"
     "Examples:\n"
@@ -139,7 +136,7 @@ void tell_bodies(const Events& events, const compile::MeshedDesign& made) {
 // The file to write, and its format.
 struct MeshOutput {
   std::string stem, path;
-  exporting::MeshFormat format = exporting::MeshFormat::three_mf;
+  const formats::MeshFormat* format = nullptr;
 };
 
 std::string short_list(const std::vector<std::string>& names) {
@@ -153,11 +150,12 @@ void tell_materials(const Events& events, const compile::MeshedDesign& made, con
   const std::vector<std::string>& names = made.materials.names;
   if (names.size() < 2) return;
   if (made.is_by_bands) return events.say("mixtures of " + short_list(names) + " become bodies by bands of fractions");
-  if (exporting::holds_bodies(output.format) && made.materials.are_mixed)
+  if (output.format->holds_bodies && made.materials.are_mixed)
     return events.say("mixtures of " + short_list(names) + " go to the body of the material that they have most of");
-  if (exporting::holds_bodies(output.format)) return;
+  if (output.format->holds_bodies) return;
   events.warn(short_list(names) + " are joined: " + output.path +
-              " cannot say which is where; write a file that ends in " + exporting::endings_with_bodies() + ", or " +
+              " cannot say which is where; write a file that ends in " +
+              join(formats::mesh_endings_with(&formats::MeshFormat::holds_bodies), ", ") + ", or " +
               spelled::option("--by", "whole") + " if they are to be one");
 }
 
@@ -204,8 +202,8 @@ void tell_plan(const Events& events, const compile::MeshPlan& plan) {
 }
 
 void check_beams(const MeshChoices& a, const compile::MeshRequest& request, const std::string& output,
-                 exporting::MeshFormat format) {
-  if (format != exporting::MeshFormat::three_mf)
+                 const formats::MeshFormat& format) {
+  if (!format.holds_beams)
     throw WrongArgument(spelled::option("--beams") + " are for .3mf; " + output + " cannot hold them");
   if (a.flavour != formats::SlicerFlavour::generic)
     throw WrongArgument(spelled::option("--flavour", a.flavour == formats::SlicerFlavour::prusa ? "prusa" : "bambu") +
@@ -218,29 +216,30 @@ void check_beams(const MeshChoices& a, const compile::MeshRequest& request, cons
 MeshOutput output_of(const MeshChoices& a) {
   const std::string stem = std::filesystem::path(a.design.design).stem().string();
   const std::string path = a.output.empty() ? stem + ".3mf" : a.output;
-  const auto format = exporting::mesh_format_of(path);
-  if (!format)
+  const formats::MeshFormat* format = formats::find_mesh_format(path);
+  if (!format || !format->is_written())
     throw WrongArgument(spelled::option("-o", path) + " does not say a format; let it end in " +
-                        exporting::mesh_endings());
-  return {stem, path, *format};
+                        join(formats::written_mesh_endings(), ", "));
+  return {stem, path, format};
 }
 
 // Colours of vertices say of what materials they are.
-compile::UsualRegions usual_regions(const MeshChoices& a, exporting::MeshFormat format) {
+compile::UsualRegions usual_regions(const MeshChoices& a, const formats::MeshFormat& format) {
   if (a.regions.are_chosen() || a.colour_by == "materials") return compile::UsualRegions::as_requested;
-  return exporting::holds_bodies(format) ? compile::UsualRegions::separate : compile::UsualRegions::joined;
+  return format.holds_bodies ? compile::UsualRegions::separate : compile::UsualRegions::joined;
 }
 
 void refuse(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
-  using exporting::MeshFormat;
+  const formats::MeshFormat& format = *output.format;
   refuse_to_overwrite(output.path, a.force);
-  if (output.format == MeshFormat::obj) refuse_to_overwrite(exporting::material_library_path(output.path), a.force);
-  if (a.beams) check_beams(a, request, output.path, output.format);
-  if (!a.colour_by.empty() && (output.format == MeshFormat::stl || output.format == MeshFormat::off))
-    throw WrongArgument(spelled::option("--colour-by") + ": " + output.path +
-                        " holds no colours of vertices; write .ply, .glb, .3mf, .obj or .amf");
-  if (output.format == MeshFormat::three_mf && !formats::can_write_3mf())
-    throw WrongArgument("this ombre was built without libzip, which .3mf files need; write -o " + output.stem + ".amf");
+  if (format.companion_bytes) refuse_to_overwrite(exporting::companion_path(output.path, format), a.force);
+  if (a.beams) check_beams(a, request, output.path, format);
+  if (!a.colour_by.empty() && !format.holds_colours)
+    throw WrongArgument(spelled::option("--colour-by") + ": " + output.path + " holds no colours of vertices; write " +
+                        words_text(formats::mesh_endings_with(&formats::MeshFormat::holds_colours)));
+  if (format.is_archive && !formats::can_write_3mf())
+    throw WrongArgument("this ombre was built without libzip, which " + std::string(format.ending) +
+                        " files need; write -o " + output.stem + ".amf");
 }
 
 // Prints diagnostics as they come.
@@ -287,7 +286,7 @@ int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDe
     if (!good) return wrong_input;
   }
   compile::add_beams(made, loaded.design.materials, document);
-  exporting::write_mesh_file(output.path, document, output.format, a.flavour);
+  exporting::write_mesh_file(output.path, document, *output.format, a.flavour);
   return done;
 }
 
@@ -295,7 +294,7 @@ int mesh(const MeshChoices& a, Session& session) {
   compile::MeshRequest request = a.request();
   const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
   const MeshOutput output = output_of(a);
-  request.usual = usual_regions(a, output.format);
+  request.usual = usual_regions(a, *output.format);
   const Stopwatch watch;
   JobSteps<compile::LoadedPtr> steps;
   steps.refuse = [&] { refuse(a, request, output); };
@@ -323,7 +322,12 @@ int mesh(const MeshChoices& a, Session& session) {
 }  // namespace
 
 JobKind mesh_kind() {
-  return job_kind<MeshChoices>("mesh", "Write closed surfaces: STL, 3MF and others", mesh_footer, mesh);
+  const std::vector<std::string> endings = formats::written_mesh_endings();
+  JobKind kind =
+      job_kind<MeshChoices>("mesh", "Write closed surfaces: STL, 3MF and others",
+                            "Lengths are millimetres.\n\nFILE ends in " + words_text(endings) + mesh_footer, mesh);
+  kind.endings = endings;
+  return kind;
 }
 
 }  // namespace ombre::jobs

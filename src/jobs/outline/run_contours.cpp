@@ -147,7 +147,9 @@ int contours(const ContourChoices& a, Session& session) {
 }  // namespace
 
 JobKind contours_kind() {
-  return job_kind<ContourChoices>("contours", "Write outlines of layers: SVG, CLI", contours_footer, contours);
+  JobKind kind = job_kind<ContourChoices>("contours", "Write outlines of layers: SVG, CLI", contours_footer, contours);
+  kind.endings = {".svg", ".cli"};
+  return kind;
 }
 
 }  // namespace ombre::jobs

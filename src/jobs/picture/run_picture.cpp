@@ -112,7 +112,9 @@ int render_design(const PictureChoices& a, Session& session) {
 }  // namespace
 
 JobKind render_kind() {
-  return job_kind<PictureChoices>("render", "Make pictures of a design", render_footer, render_design);
+  JobKind kind = job_kind<PictureChoices>("render", "Make pictures of a design", render_footer, render_design);
+  kind.endings = {".png"};
+  return kind;
 }
 
 }  // namespace ombre::jobs

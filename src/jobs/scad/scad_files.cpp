@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "formats/packages/mesh_formats.h"
 #include "jobs/common/session.h"
 #include "jobs/scad/meshed_parts.h"
 #include "jobs/scad/scad_job.h"
@@ -12,18 +13,23 @@
 namespace ombre::jobs {
 namespace {
 
-constexpr const char* solid_formats[] = {"stl", "off", "obj", "ply", "amf", "3mf", "glb", "svg", "dxf"};
+std::vector<std::string> solid_endings() {
+  std::vector<std::string> endings = formats::written_mesh_endings();
+  for (const char* drawing : {".dxf", ".svg"}) endings.emplace_back(drawing);
+  return endings;
+}
 
 }  // namespace
 
 std::vector<std::string> scad_formats() {
-  std::vector<std::string> endings{".csg", ".echo", ".ast"};
-  for (const char* format : solid_formats) endings.push_back(std::string(".") + format);
+  std::vector<std::string> endings = solid_endings();
+  endings.insert(endings.begin(), {".csg", ".echo", ".ast"});
   return endings;
 }
 
 bool writes_solids(const std::string& format) {
-  return std::ranges::find(solid_formats, format) != std::end(solid_formats);
+  const std::vector<std::string> endings = solid_endings();
+  return std::ranges::find(endings, "." + format) != endings.end();
 }
 
 std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& loaded,

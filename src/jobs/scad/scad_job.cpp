@@ -110,9 +110,9 @@ std::optional<std::string> drawing_of(const Pieces& pieces, const std::string& t
 bool check_format(const Pieces& pieces, const std::string& path, Diagnostics& messages) {
   const std::string ending = fs::path(path).extension().string();
   const bool is_drawing = ending == ".svg" || ending == ".dxf";
-  if (!is_drawing && !exporting::mesh_format_of(path)) {
+  if (!is_drawing && !formats::find_mesh_format(path)) {
     messages.error({}, path + " has no ending of a format",
-                   "solids: " + exporting::mesh_endings() + "; regions of the plane: .svg, .dxf");
+                   "solids: " + join(formats::written_mesh_endings(), ", ") + "; regions of the plane: .svg, .dxf");
     return false;
   }
   if (pieces.empty()) {
@@ -123,8 +123,9 @@ bool check_format(const Pieces& pieces, const std::string& path, Diagnostics& me
   for (const Piece& piece : pieces)
     if (piece.dimension() != dimension) {
       messages.error({}, path + " is not written: the design is " + (is_drawing ? "solid" : "flat"),
-                     is_drawing ? "write one of " + exporting::mesh_endings() + ", or use projection()"
-                                : "write .svg or .dxf, or use linear_extrude()");
+                     is_drawing
+                         ? "write one of " + join(formats::written_mesh_endings(), ", ") + ", or use projection()"
+                         : "write .svg or .dxf, or use linear_extrude()");
       return false;
     }
   return true;
@@ -193,7 +194,7 @@ std::vector<std::string> write_pieces(const Pieces& pieces, const SolidsExport& 
     if (const auto drawing = drawing_of(own, title, fs::path(path).extension().string()))
       exporting::write_file(path, *drawing);
     else
-      exporting::write_mesh_file(path, document_of(own, title), *exporting::mesh_format_of(path), to.flavour);
+      exporting::write_mesh_file(path, document_of(own, title), *formats::find_mesh_format(path), to.flavour);
     paths.push_back(path);
   }
   return paths;

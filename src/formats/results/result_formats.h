@@ -1,0 +1,25 @@
+// The formats of results and of meshes of elements: one table, whose rows are compared with a file's content.
+#pragma once
+
+#include <span>
+
+#include "base/system/file_format.h"
+#include "formats/results/results.h"
+
+namespace ombre::formats {
+
+struct ResultFormat {
+  FileFormat file;
+  bool has_elements = true;  // else points alone
+  // `text` is the beginning of the file, without blanks.
+  bool (*recognises)(std::string_view text) = nullptr;
+  // `values` is the second file, for formats that have one; others refuse it. Throws DesignError, and diagnostics say
+  // why.
+  Results (*read)(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
+                  Diagnostics& diagnostics) = nullptr;
+};
+
+// A file that no other row recognises is read as the last one, a table of points.
+std::span<const ResultFormat> result_formats();
+
+}  // namespace ombre::formats
