@@ -1,4 +1,4 @@
-// Where a grid of numbers from a file lies in a design.
+// The position of a grid of numbers from a file in a design.
 #pragma once
 
 #include "design/source_loader.h"
@@ -13,16 +13,16 @@ struct VolumePlace {
   std::string series;
   int voxel_channel = -1;
   std::shared_ptr<const design::VolumeGrid> grid;  // read when the node is made
-  int64_t segment_label = -1;                      // the same; the number of the segment that is meant
+  int64_t segment_label = -1;                      // number of the chosen segment, read when the node is made
   Affine here_from_index, index_from_here;
 
  protected:
-  // Reads the file; false, and diagnostics, where that fails or it does not say enough. `segment` is the name of one,
-  // or empty.
+  // Reads the file. Returns false and adds diagnostics if that fails or information is missing. `segment` is the name
+  // of a segment, or empty.
   bool read_volume(const design::Reader& reader, const std::string& segment = "");
   int channel(const char* name) const;
 
-  // The parameters of T, which derives from this.
+  // Returns the parameters of T, which must derive from this class.
   template <class T>
   static std::vector<design::Parameter<T>> with_place(std::vector<design::Parameter<T>> others) {
     const auto own = [](auto VolumePlace::*member) {

@@ -42,7 +42,7 @@ struct Function {
     return expression.range(box).lo > margin ? Box::empty() : box;
   }
 
-  // Within the box the value is the expression's own.
+  // Within the box, the value is that of the expression.
   Field distance(const Point& p) const {
     const Field value = expression(p);
     if (!min) return value;

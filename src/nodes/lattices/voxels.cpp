@@ -87,7 +87,7 @@ struct Voxels {
   Composition composition(const Inputs&, const Point& p, Demand) const {
     const Field number = number_at(p.mapped(inverse(here_from_index())));
     std::map<MaterialId, Field> shares;
-    // Transparent voxels, which only blends ask about, count as the first colour.
+    // Transparent voxels, whose composition matters only to blends, count as the first colour.
     for (size_t n = 0; n < materials_of_colours.size(); ++n) {
       const auto colour = static_cast<double>(n + 1);
       const Field is_it = n == 0 ? less(number, p.constant(1.5)) : less(abs(number - colour), p.constant(0.5));
@@ -108,7 +108,7 @@ struct Voxels {
     return map;
   }
 
-  // Of a colour that is listed, or the table's; null where neither has it.
+  // Returns the listed material of a colour, else that of the table, else null.
   const Material* material_of(const Rgba& colour, const Reader& reader) const {
     for (const auto& [name, material] : materials)
       if (to_lower(name) == hex_text(colour)) return material.material;

@@ -1,4 +1,4 @@
-// Composition by formulas.
+// Compositions given by formulas.
 #include <map>
 
 #include "design/spec.h"
@@ -19,14 +19,14 @@ bool same_length(const Reader& reader, size_t functions, size_t materials, std::
   return false;
 }
 
-// Fractions from raw values, each for its material. Where they are unusable the input's own composition
-// stands and the check tells.
+// Turns raw values into fractions, one for each material. Where the values are unusable, the input's own composition is
+// used and a check is set.
 struct Mixture {
-  std::vector<Composition> parts;  // each a material alone, or a mixture
+  std::vector<Composition> parts;  // each a single material or a mixture
   std::vector<Field> raw;
   bool threshold = false;
 
-  // `message` gives what the check tells.
+  // `message` returns the text of the check.
   template <class Message>
   Composition over(const Inputs& in, const Point& p, Demand demand, const Message& message) const {
     const Field zero = p.constant(0);
@@ -83,7 +83,7 @@ struct Mixture {
     return shares;
   }
 
-  // 1 for the greatest, the first on ties.
+  // Returns 1 for the greatest value, the first one in a tie, and 0 for the others.
   static std::vector<Field> winners(const std::vector<Field>& values) {
     const Field best = program::fold(values, static_cast<Field (*)(Field, Field)>(program::max));
     std::vector<Field> shares;

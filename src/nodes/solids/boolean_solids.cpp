@@ -1,4 +1,4 @@
-// Solids joined, cut and complemented, sharply or with a blend along their seams.
+// Solids that are joined, cut and complemented, optionally with a blend along their seams.
 #include "design/spec.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/solids/blends.h"
@@ -23,7 +23,7 @@ constexpr std::string_view attributes_doc =
     "How attributes combine where inputs overlap, in place of their own rules: [[\"modulus\", \"max\"]]";
 Domain attribute_rules() { return one_of({overlap_names.begin(), overlap_names.end()}); }
 
-// The attribute as it combines here.
+// Returns the attribute's declaration with the overlap rule of this node.
 AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, const std::vector<NamedWord>& rules) {
   AttributeDeclaration declaration = in.declaration(part);
   for (const NamedWord& rule : rules)
@@ -31,7 +31,7 @@ AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, c
   return declaration;
 }
 
-// Weights of inputs that contain the point; where none does and it matters, the nearest counts.
+// Returns weights of the inputs that contain the point, or of the nearest input where none does and it matters.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
   std::vector<Field> flags = in.memberships(p, Border::included);
   if (demand == Demand::everywhere) {
@@ -44,7 +44,7 @@ std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand dema
   return flags;
 }
 
-// Least and greatest distances are exact on one side of a surface, and bounds on the other.
+// The minimum or maximum of distances is exact on one side of a surface and a bound on the other.
 Metric joined_metric(const Inputs& in) {
   if (in.count() == 1) return in.metric(0);
   Metric metric = Metric::bounded();
@@ -142,7 +142,8 @@ struct Union {
   }
 
  private:
-  // For each input, the number of inputs whose influence may reach it, itself included; of very many all are counted.
+  // Returns for each input the number of inputs whose influence may reach it, itself included. With very many inputs it
+  // counts all.
   std::vector<size_t> overlap_counts(const Inputs& in, const Box& where) const {
     constexpr size_t few = 64;
     const size_t count = in.count();
@@ -159,20 +160,20 @@ struct Union {
     return counts;
   }
 
-  // How many inputs stand before those of the table.
+  // Returns the number of inputs before those of the table.
   static size_t before(const PartFields& parts) {
     size_t count = 0;
     while (count < parts.others.size() && parts.others[count] == count) ++count;
     return count;
   }
 
-  // Do the inputs of the table follow one another?
+  // True if the inputs of the table are consecutive.
   static bool are_together(const PartFields& parts, size_t count) {
     const size_t first = before(parts), end = first + count - parts.others.size();
     return first == parts.others.size() || parts.others[first] == end;
   }
 
-  // The first or last that holds the point, where those of the table count as one.
+  // Returns the composition of the first or last input that holds the point, with those of the table as one.
   Composition in_order(const Inputs& in, const Point& p, const PartFields& parts) const {
     std::vector<Composition> compositions;
     std::vector<Field> flags;
@@ -191,9 +192,9 @@ struct Union {
   }
 };
 
-// The joint of what the solids leave: its complement.
+// The complement of the blended joint of the solids' complements.
 struct Carved {
-  std::vector<Field> depths;  // of each solid, how far inside the point is: its distance, negated
+  std::vector<Field> depths;  // depth of the point in each solid, its negated distance
   Blend blend;
 
   Field total(const Point& p) const {
@@ -203,7 +204,7 @@ struct Carved {
     return program::sum(values);
   }
   Field distance(const Point& p) const { return -blend.distance(total(p), program::fold(depths, program::min), p); }
-  // In the whole where the joint is not; the border belongs to one of both.
+  // A point is in the whole if it is not in the joint of the complements. The surface belongs to only one of them.
   Field membership(Field any_outside, const Point& p, Border border) const {
     return logical_not(blend.membership(total(p), any_outside, p, other(border)));
   }
@@ -231,7 +232,7 @@ struct Intersection {
   bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
   Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
-  // Children without bounds of their own are evaluated within those of the others.
+  // Children without bounds are evaluated within the bounds of the others.
   Box reach(const Inputs& in, const Box& where, double margin) const {
     Box box = where;
     for (int round = 0; round < 2; ++round)
@@ -249,7 +250,7 @@ struct Intersection {
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
-    // Inside the whole is inside each.
+    // A point in the intersection is inside every child.
     if (materials == "first") return in.composition(0, p, demand);
     if (materials == "last") return in.composition(in.count() - 1, p, demand);
     return weighted(in, p, demand, std::vector<Field>(in.count(), p.constant(1)));
@@ -294,7 +295,7 @@ struct Difference {
     return program::fold(distances, greatest);
   }
 
-  // The surface of what is cut away belongs to both.
+  // The surface of a solid that is cut away belongs to both.
   Field membership(const Inputs& in, const Point& p, Border border) const {
     std::vector<Field> flags = in.memberships(p, other(border));
     flags[0] = in.membership(0, p, border);
@@ -339,7 +340,7 @@ struct Negate {
   }
 };
 
-// What a loop without passes, a condition that does not hold or a text without letters makes.
+// The result of a loop without passes, of a false condition or of a text without letters.
 struct Empty {
   static constexpr bool is_nothing_itself = true;
 
@@ -351,7 +352,7 @@ struct Empty {
 
   Metric metric() const { return Metric::bounded(); }
   Box bounds(const Box&) const { return Box::empty(); }
-  // Farther than any point of a design is from another.
+  // Larger than the distance between any two points of a design.
   Field distance(const Point& p) const { return p.constant(10 * design_limit_mm); }
 };
 

@@ -85,7 +85,7 @@ struct HalfSpace {
     Box box = where;
     const double reach = offset.range(where).hi;
     for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(normal[axis]) != length(normal)) continue;  // tilted: cuts off no side as a whole
+      if (std::abs(normal[axis]) != length(normal)) continue;  // a tilted plane does not limit the box along this axis
       if (normal[axis] > 0) box.hi[axis] = std::min(box.hi[axis], reach);
       if (normal[axis] < 0) box.lo[axis] = std::max(box.lo[axis], -reach);
     }

@@ -1,4 +1,4 @@
-// Solids whose composition, attributes or surface come from the voxels around.
+// Solids whose composition, attributes or surface are computed from the surrounding voxels.
 #include <algorithm>
 
 #include "base/text/text.h"
@@ -15,8 +15,8 @@ namespace {
 
 using namespace design;
 
-// The shares of the filtered materials; negative ones count as 0. Where none is left, as in what is thinner than a
-// voxel, the child's own composition holds.
+// Returns the shares of the filtered materials; negative ones count as 0. Where no share is left, as in features
+// thinner than a voxel, returns the child's own composition.
 Composition filtered_composition(const Inputs& in, const Point& p, Demand demand, const StagePtr& stage,
                                  bool count_void) {
   Composition own = in.composition(0, p, demand);
@@ -44,7 +44,7 @@ bool holds(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// False, and a diagnostic, where the child does not have one of the attributes.
+// Returns false and adds a diagnostic if the child does not have one of the attributes.
 bool check_attributes(const Reader& reader, const NodePtr& child, const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const Node* node : topological({child}))
@@ -66,7 +66,7 @@ struct VoxelBlend {
   Counts3 size{3, 3, 3};
   bool count_void = false;
   std::optional<Vec3> pitch;
-  StagePtr sums;  // known when the node is made
+  StagePtr sums;  // set when the node is made
 
   static Spec<VoxelBlend> spec() {
     return {
@@ -132,7 +132,7 @@ struct Convolve {
   }
 };
 
-// How wide a Gaussian is: in mm along all axes, or in voxels along each.
+// The width of a Gaussian: in mm along all axes, or in voxels along each.
 struct Width {
   double mm = 0;
   std::optional<Vec3> voxels;
@@ -148,7 +148,7 @@ struct Width {
 constexpr const char* about_sigma = "Standard deviation of the weights, which end four of them away";
 constexpr const char* about_sigma_voxels = "The same in voxels along x, y and z, in the place of sigma";
 
-// False, and a diagnostic, unless one of the two is given.
+// Returns false and adds a diagnostic unless exactly one of the two is given.
 bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& voxels) {
   const bool has_voxels = voxels && voxels->x + voxels->y + voxels->z > 0;
   if ((sigma > 0) != has_voxels) return true;
@@ -314,7 +314,7 @@ struct Smooth {
   }
 
   Metric metric() const { return Metric::implicit(); }
-  // A flat side has half of the Gaussian beyond it: nothing leaves the child's box, unless more is kept.
+  // Half of the Gaussian lies beyond a flat side, so nothing extends beyond the child's box at a level of 1/2 or more.
   Box reach(const Inputs&, const Box& where, double margin) const {
     const Box box = stage->bounds();
     return box.is_empty() ? box : intersect(box.expanded(margin), where);
@@ -339,7 +339,7 @@ struct Smooth {
                                "write for example " + spelled::parameter("sigma", "0.5") + " in place of sigma_voxels");
       return false;
     }
-    // Sides move out by less than a sigma, since they lose what corners and edges gain.
+    // Sides move outward by less than a sigma, to compensate for the volume that corners and edges lose.
     const Vec3 voxels = width.voxels.value_or(Vec3{});
     const double widest =
         width.voxels ? std::max({voxels.x * pitch->x, voxels.y * pitch->y, voxels.z * pitch->z}) : width.mm;

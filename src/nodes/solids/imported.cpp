@@ -12,19 +12,20 @@ namespace {
 
 using namespace design;
 
-// What a file has of one material.
+// The part of a file that has one material.
 struct SolidPart {
   MaterialName material;
   program::SourceField source;
 };
 using Parts = std::vector<SolidPart>;
 
-// A part's material, where the use of the file says the one for parts without a name.
+// Returns the material of a part, or `otherwise` for parts without a name.
 MaterialName material_of(const std::string& name, const MaterialName& otherwise, const Reader& reader) {
   return name.empty() ? otherwise : MaterialName{reader.materials.find(name)};
 }
 
-// A mixture is that of the whole solid, so it leaves no room for materials of the file.
+// Returns false and adds a diagnostic if a mixture, which applies to the whole solid, is combined with the file's
+// materials.
 bool check_mixture(const MaterialName& material, const Choice& materials, const Reader& reader) {
   if (!material.mixture || materials == "one") return true;
   reader.diagnostics.error(
@@ -36,7 +37,7 @@ bool check_mixture(const MaterialName& material, const Choice& materials, const 
   return false;
 }
 
-// The material that a request for a file names. A mixture makes no difference to what is read.
+// Returns the material for the request of a file. For a mixture it does not matter.
 MaterialName material_for_request(const MaterialName& material, const Reader& reader) {
   return material.mixture ? MaterialName{&reader.materials.first()} : material;
 }
@@ -60,14 +61,14 @@ std::vector<Field> insides(const Parts& parts, const Point& p) {
 }
 
 Field least_distance(const Parts& parts, const Point& p) { return program::fold(distances(parts, p), program::min); }
-// Along voxel rows this needs no distances.
+// Does not need distances, which makes it fast along rows of voxels.
 Field inside_any(const Parts& parts, const Point& p) { return program::fold(insides(parts, p), program::logical_or); }
 
-// Which parts count at a point; one at least does where it matters.
+// Returns the parts that count at a point. At least one counts where it matters.
 std::vector<Field> part_weights(const Parts& parts, const Point& p, Demand demand) {
   std::vector<Field> flags = insides(parts, p);
   if (demand == Demand::inside) {
-    flags.back() = p.constant(1);  // what is inside, and in none of the others
+    flags.back() = p.constant(1);  // points inside that belong to none of the other parts
     return flags;
   }
   const Field none = logical_not(program::fold(flags, program::logical_or));
@@ -91,7 +92,7 @@ Composition composition_of(const Parts& parts, const Inputs& in, const Point& p,
   return result;
 }
 
-// Of all parts' sources.
+// Returns a hash of all parts' sources.
 template <class AnyParts>
 Hash content_of(const AnyParts& parts) {
   if (parts.size() == 1) return parts[0].source->content();
@@ -127,7 +128,7 @@ struct Mesh : SolidOfParts {
   Choice materials = "one";
   std::vector<MaterialForName> material_map;
   double deform = 0;
-  std::shared_ptr<const std::vector<MeshPart>> loaded;  // when the node is made
+  std::shared_ptr<const std::vector<MeshPart>> loaded;  // set when the node is made
 
   static Spec<Mesh> spec() {
     return {"mesh",
@@ -174,7 +175,7 @@ struct Mesh : SolidOfParts {
     return true;
   }
 
-  // Walls between two parts are nearer than the surface of the whole.
+  // Walls between two parts may be nearer than the surface of the whole.
   Metric metric() const { return parts.size() == 1 && loaded->front().is_exact ? Metric::exact() : Metric::bounded(); }
 };
 
@@ -186,7 +187,7 @@ struct Scad : SolidOfParts {
   Choice materials = "auto";
   std::vector<MaterialForName> material_map;
   ScriptVariables variables;
-  std::shared_ptr<const ScadSolids> loaded;  // when the node is made
+  std::shared_ptr<const ScadSolids> loaded;  // set when the node is made
 
   static Spec<Scad> spec() {
     return {
@@ -234,7 +235,7 @@ struct Scad : SolidOfParts {
     return true;
   }
 
-  // Walls between two parts are nearer than the surface of the whole.
+  // Walls between two parts may be nearer than the surface of the whole.
   Metric metric() const { return parts.size() == 1 ? Metric::exact() : Metric::bounded(); }
 };
 
@@ -293,7 +294,7 @@ struct Cad {
     return true;
   }
 
-  // Walls between two solids are nearer than the surface of the whole.
+  // Walls between two solids may be nearer than the surface of the whole.
   Metric metric() const { return parts->size() == 1 && parts->front().is_single ? Metric::exact() : Metric::bounded(); }
   Box bounds(const Box&) const { return bounds_of(*parts); }
   Field distance(const Inputs& in, const Point& p) const { return least_distance(made(in), p); }

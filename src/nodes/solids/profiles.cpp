@@ -1,4 +1,4 @@
-// Solids from profiles: polygons with a height, polygons that turn.
+// Solids from profiles: extruded and revolved polygons.
 #include <algorithm>
 #include <numbers>
 
@@ -36,7 +36,7 @@ struct PolygonExtrude {
   std::vector<Points> holes;
   double taper = 0;
   Affine here_from_plane;
-  program::SourceField outline;  // made when the node is
+  program::SourceField outline;  // made with the node
 
   static Spec<PolygonExtrude> spec() {
     return {"polygon_extrude",
@@ -81,7 +81,7 @@ struct PolygonExtrude {
     return image(here_from_plane, box).expanded(1e-12 * (length(box.size()) + length(here_from_plane.offset)));
   }
 
-  // Walls at an angle: their offset grows with the distance from the plane.
+  // With tapered walls, the offset of the polygon grows with the distance from its plane.
   Field distance(const Point& p) const {
     const Point at = p.mapped(inverse(here_from_plane));
     const Field flat = ask(outline, "distance", at.x, at.y), beyond = beyond_ends(at.z);
@@ -89,7 +89,7 @@ struct PolygonExtrude {
     return max((flat + abs(at.z) * tangent()) * cosine(), beyond);
   }
 
-  // Along voxel rows this needs no distances.
+  // Does not need distances, which makes it fast along rows of voxels.
   Field membership(const Inputs&, const Point& p, Border border) const {
     if (taper != 0) return at_most(distance(p), 0, border);
     const Point at = p.mapped(inverse(here_from_plane));
@@ -106,7 +106,7 @@ struct Revolve {
   Points profile;
   double angle = 360;
   MaterialName material;
-  program::SourceField outline;  // made when the node is; x is rho, y is z
+  program::SourceField outline;  // made with the node; x is rho and y is z
 
   static Spec<Revolve> spec() {
     return {"revolve",
@@ -182,7 +182,7 @@ struct Revolve {
     return domain;
   }
 
-  // The direction of an end, along its plane and at a right angle to it, forward.
+  // Coordinates of a point relative to an end face: `along` the face, and `across` it, forward.
   struct End {
     Field along, across;
   };
@@ -191,19 +191,19 @@ struct Revolve {
     return {p.x * u.x + p.y * u.y, p.y * u.x - p.x * u.y};
   }
 
-  // To the half plane from the axis on in which an end lies.
+  // Returns the distance to the half plane that starts at the axis and contains an end face.
   static Field from_end_plane(const Point& p, double degrees) {
     const End end = end_at(p, degrees);
     return length(min(end.along, p.constant(0)), end.across);
   }
 
-  // To the end itself, which is flat.
+  // Returns the distance to the end face.
   Field from_end(const Point& p, double degrees) const {
     const End end = end_at(p, degrees);
     return length(max(ask(outline, "distance", end.along, p.z), 0.0), end.across);
   }
 
-  // Is the point between the ends, as seen from the axis?
+  // True if the point lies between the end faces, seen from the axis.
   Field faces(const Point& p, bool strictly) const {
     const auto not_below = [&](Field value) { return strictly ? 0.0 - value < 0 : 0.0 - value <= 0; };
     const Field behind_first = not_below(end_at(p, 0).across), before_last = not_below(-end_at(p, angle).across);

@@ -1,4 +1,4 @@
-// Images as solids.
+// Solids from images.
 #include <algorithm>
 
 #include "base/system/assert.h"
@@ -47,7 +47,7 @@ struct Relief {
     return image != nullptr;
   }
 
-  // Steep slopes are nearer than they are high.
+  // A steep slope is nearer than the difference in height.
   Metric metric() const { return Metric::bounded(); }
 
   Box reach(const Inputs&, const Box&, double margin) const {
@@ -67,7 +67,7 @@ struct Relief {
 
  private:
   double length_mm() const { return length_y > 0 ? length_y : width * image->rows / image->columns; }
-  // How much faster z - top changes than the point moves, at most.
+  // Returns the Lipschitz constant of z - top.
   double steepness() const {
     const double across = image->step_across * image->columns / width, up = image->step_up * image->rows / length_mm();
     return std::sqrt(1 + height * height * (across * across + up * up)) * (1 + 1e-12);

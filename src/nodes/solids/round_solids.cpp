@@ -34,7 +34,7 @@ struct Sphere {
   Field distance(const Point& p) const { return length(p.x, p.y, p.z) - radius(p); }
 };
 
-// The distance is a bound: exact ones need an iteration.
+// An ellipsoid whose distance is a bound, since the exact distance requires an iteration.
 struct Ellipsoid {
   Numbers3 radii{8, 5, 3};
   MaterialName material;
@@ -50,7 +50,7 @@ struct Ellipsoid {
   }
 
   Metric metric() const { return radii.x == radii.y && radii.y == radii.z ? Metric::exact() : Metric::bounded(); }
-  // g <= margin is an ellipsoid too, grown by more than the margin along its long axes.
+  // The points with g <= margin form an ellipsoid that is larger by more than the margin along its long axes.
   Box reach(const Inputs&, const Box& where, double margin) const {
     const double least = std::min({radii.x.range(where).lo, radii.y.range(where).lo, radii.z.range(where).lo});
     if (margin > 0 && least <= 0) return where;
@@ -117,7 +117,7 @@ struct Cone {
     return Box::centered({r, r, height.range(where).hi / 2});
   }
 
-  // In the half plane (rho, z) the nearest point lies on one of the discs or on the slope.
+  // In the half plane (rho, z), the nearest point lies on a disc or on the slope.
   Field distance(const Point& p) const {
     const Field rho = length(p.x, p.y), low = base(p), high = top(p), half = height(p) * 0.5;
     const Field disc = select(p.z <= 0, low, high);
@@ -146,7 +146,7 @@ struct Torus {
             "torus(8, 2, \"magenta\");"};
   }
 
-  // A tube as wide as the ring closes the hole, and its inner half then folds over the axis.
+  // If the tube is wider than the ring, the hole closes and the inner half extends across the axis.
   Metric metric() const { return *tube.constant() <= *ring.constant() ? Metric::exact() : Metric::bounded(); }
 
   Box bounds(const Box& where) const {
@@ -203,7 +203,7 @@ struct Strut {
 
   Field along(const Inputs&, const Point& p) const { return share(p); }
 
-  // Nothing where it is no conical frustum.
+  // Returns the strut, or nothing if it is not a conical frustum.
   std::optional<StrutShape> shape() const {
     const auto radii = end_radii(radius);
     return radii ? std::optional(StrutShape{start, end, (*radii)[0], (*radii)[1], caps == "flat"}) : std::nullopt;
@@ -212,13 +212,13 @@ struct Strut {
  private:
   Vec3 direction() const { return (1 / length(end - start)) * (end - start); }
 
-  // In mm along the axis.
+  // Returns the position along the axis in mm, measured from the midpoint.
   Field from_middle(const Point& p) const {
     const Vec3 u = direction(), middle = 0.5 * (start + end);
     return (p.x - middle.x) * u.x + (p.y - middle.y) * u.y + (p.z - middle.z) * u.z;
   }
 
-  // From 0 at the start to 1 at the end. By what the distance asks too, which costs less than the way from the start.
+  // Returns the position from 0 at the start to 1 at the end. It uses values that the distance needs, too.
   Field share(const Point& p) const {
     return min(max(from_middle(p) * (1 / length(end - start)) + 0.5, 0.0), p.constant(1));
   }
@@ -230,7 +230,7 @@ struct Strut {
     });
   }
 
-  // How far the surface is from the nearest point of the axis, along x, y, z, at most.
+  // Returns the greatest extent of the surface from the axis along x, y and z.
   Vec3 margins(Vec3 u, double r) const {
     if (caps == "round") return {r, r, r};
     const auto side = [r](double cosine) {

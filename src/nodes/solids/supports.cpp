@@ -1,4 +1,4 @@
-// What holds a part up while it is printed.
+// Supports, which hold a part up while it is printed.
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/solids/solid_families.h"
@@ -13,7 +13,7 @@ struct Support {
   MaterialName material;
   double clearance = 0;
   std::optional<Vec3> pitch;
-  StagePtr stage;  // known when the node is made
+  StagePtr stage;  // set when the node is made
 
   static Spec<Support> spec() {
     Domain angles = unit::degrees;
@@ -78,7 +78,7 @@ struct Support {
   Composition composition(const Inputs& in, const Point& p, Demand) const {
     return Composition::pure(in.material(material), p.constant(1));
   }
-  // The solid's attributes are not its own.
+  // Supports do not have the solid's attributes.
   std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p, Demand) const {
     return p.constant(in.declaration(name).default_value);
   }

@@ -1,4 +1,4 @@
-// Letters.
+// Solids of letters.
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
@@ -19,7 +19,7 @@ struct Letters {
   Choice h_align = "center", v_align = "center";
   double line_spacing = 1;
   Choice measure = "capitals";
-  program::SourceField outline;  // made when the node is
+  program::SourceField outline;  // made with the node
 
   static Spec<Letters> spec() {
     return {
@@ -68,7 +68,7 @@ struct Letters {
   }
 
   Field distance(const Point& p) const { return corner(ask("distance", p), beyond_ends(p)); }
-  // Along voxel rows this needs no distances.
+  // Does not need distances, which makes it fast along rows of voxels.
   Field membership(const Inputs&, const Point& p, Border border) const {
     return logical_and(truth(ask("inside", p)), at_most(beyond_ends(p), 0, border));
   }

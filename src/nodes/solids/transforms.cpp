@@ -1,4 +1,4 @@
-// Solids moved, turned, stretched and mirrored. They move the question, not the samples.
+// Solids that are translated, rotated, scaled and mirrored by mapping the points at which the input is evaluated.
 #include <map>
 
 #include "design/spec.h"
@@ -9,13 +9,13 @@ namespace {
 
 using namespace design;
 
-// What the family shares: T::map() takes points of the input's frame to points of this one.
+// Base of the family. T::map() maps points of the input's space to points of this one.
 template <class T>
 struct Transform {
   Affine map() const { return static_cast<const T*>(this)->here_from_input(); }
 
   Point inner(const Point& p) const { return p.mapped(inverse(map())); }
-  // The input's distance times this never exceeds the distance here.
+  // Factor for the input's distance, so that the product never exceeds the distance here.
   double scale() const {
     const auto [least, greatest] = stretch(map());
     return greatest - least <= 1e-12 * greatest && std::abs(least - 1) < 1e-12 ? 1 : least;

@@ -1,4 +1,4 @@
-// Grids of numbers from files, as solids and as values, and numbers as materials.
+// Grids of numbers from files, as solids and values, and numbers as materials.
 #include <algorithm>
 #include <map>
 
@@ -90,14 +90,14 @@ struct VolumeSolid : VolumePlace {
     return false;
   }
 
-  // Of the label or segment that is meant; below 0: neither is.
+  // Returns the number of the chosen label or segment, or a negative number if there is none.
   int64_t number() const { return segment.empty() ? label : segment_label; }
 
-  static constexpr int greatest_label = (1 << 24) - 1;  // that floats tell from its neighbours
+  static constexpr int greatest_label = (1 << 24) - 1;  // floats distinguish integers up to this one
 
   int channel() const { return VolumePlace::channel(number() >= 0 ? "nearest" : channel_between(between)); }
 
-  // Values where g is `margin` or less.
+  // Returns the range of values where g is at most `margin`.
   Interval wanted(double margin) const {
     if (const auto wanted = static_cast<double>(number()); wanted >= 0)
       return {wanted - 0.5 - margin, wanted + 0.5 + margin};

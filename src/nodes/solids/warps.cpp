@@ -1,4 +1,4 @@
-// Twisted, tapered and bent solids, and flat ones laid around cylinders and balls.
+// Solids that are twisted, tapered and bent, and flat ones laid around cylinders and balls.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -30,7 +30,7 @@ double greatest(Interval v) { return std::max(std::abs(v.lo), std::abs(v.hi)); }
 double least(Interval v) { return v.lo <= 0 && v.hi >= 0 ? 0 : std::min(std::abs(v.lo), std::abs(v.hi)); }
 double farthest_from_z_axis(const Box& box) { return std::hypot(greatest(box.axis(0)), greatest(box.axis(1))); }
 
-// The greatest factor by which [[a, 0, k], [0, a, 0], [0, 0, 1]] stretches a vector.
+// Returns the greatest factor by which [[a, 0, k], [0, a, 0], [0, 0, 1]] stretches a vector.
 double shear_stretch(double a, double k) {
   const double sum = a * a + k * k + 1;
   return std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4 * a * a))) / 2);
@@ -119,8 +119,8 @@ struct Taper : Warp<Taper> {
   }
 };
 
-// Part of a round band: angles to both sides of where it begins, and radii. Angles beyond half a turn are cut off, and
-// so are radii below 0.
+// A part of an annulus: a range of angles around its beginning, and of radii. Angles beyond half a turn and radii below
+// 0 are cut off.
 struct Band {
   Interval angle, radius;
 
@@ -129,15 +129,15 @@ struct Band {
   bool is_empty() const { return is_none(angle) || is_none(radius); }
 };
 
-// Rings of radius 1 evaluated at this radius are stretched; so much, at most, in a region that lies at least `nearest`
-// away from their centres.
+// Returns the greatest stretch of rings of radius 1 that are evaluated at this radius, in a region that is at least
+// `nearest` away from their centres.
 double band_stretch(double radius, double nearest) { return nearest > 0 ? std::max(1.0, radius / nearest) : infinite; }
 
 void warn_of_cut(const Reader& reader, bool is_cut, const std::string& what, const Phrase& hint) {
   if (is_cut) reader.diagnostics.warning(reader.where, std::string(reader.node) + " cuts off " + what, hint);
 }
 
-// Around what radius parts are laid, for messages.
+// Warns about parts that are cut off when they are laid around a radius.
 void warn_of_band(const Reader& reader, const Box& child, double radius, Interval depth, const std::string& axis) {
   if (child.is_empty()) return;
   const double half_turn = pi * radius * (1 + 1e-9);
@@ -286,7 +286,8 @@ Box searched(const Box& where, const Condition& may_reach) {
   return hull_of(boxes);
 }
 
-// Where a formula is constant, what is asked for is flat, and a child's transforms could lose it to rounding.
+// Thickens flat boxes, since transforms of the child could lose them to rounding. Boxes are flat where a formula is
+// constant.
 Box thickened(Box box) {
   for (int axis = 0; axis < 3; ++axis) {
     if (box.lo[axis] != box.hi[axis]) continue;

@@ -1,4 +1,4 @@
-// Solids that are found by looking at all voxels of another: its parts, its hollows filled, its distance.
+// Solids computed from all voxels of another: its parts, filled hollows, distances.
 #include "base/text/text.h"
 #include "design/spec.h"
 #include "nodes/common/shapes.h"
@@ -88,7 +88,7 @@ struct Redistance {
     const Box box = in.bounds(0, design_space());
     return box.is_empty() ? box : intersect(box.expanded(distance_mm), where);
   }
-  // Farther away the distance to the box around the child is a lower bound.
+  // Farther away, the distance to the box around the child is a lower bound.
   Field distance(const Inputs& in, const Point& p) const {
     const Box box = in.input(0).bounds(design_space());
     if (box.is_empty()) return p.constant(Box::inf);

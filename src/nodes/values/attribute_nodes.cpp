@@ -1,4 +1,4 @@
-// Named values that solids carry besides their material.
+// Named values that solids have besides their material.
 #include <algorithm>
 #include <cmath>
 
@@ -37,7 +37,7 @@ struct Attribute {
   std::optional<double> default_value;
   Choice overlap = "first";
   Choice type = "auto";
-  std::vector<std::pair<std::string, MaterialId>> held;  // materials of a mixture, found when the node is made
+  std::vector<std::pair<std::string, MaterialId>> held;  // materials of a mixture, set when the node is made
 
   static Spec<Attribute> spec() {
     return {"attribute",
@@ -79,7 +79,7 @@ struct Attribute {
     return declared;
   }
 
-  // Attributes of other names come from the child.
+  // Other attributes come from the child.
   Field attribute(const Inputs& in, std::string_view wanted, const Point& p, Demand demand) const {
     if (attribute_of_part(wanted) != name) return in.attribute(0, wanted, p, demand);
     if (value.type == ValueType::mixture) return fraction(in, wanted, p);
@@ -103,7 +103,7 @@ struct Attribute {
     return true;
   }
 
-  // Makes the value what the type or the standard name says, where that has one meaning.
+  // Converts the value to the type of `type` or of the standard name, if the conversion is unambiguous.
   bool become_wanted(const StandardAttribute* standard, const Reader& reader) {
     if (standard && type != "auto" && type_called(type) != standard->type)
       return fail_type("the attribute \"" + name + "\" is " + with_article(standard->type) + ", not " +
@@ -133,7 +133,8 @@ struct Attribute {
     return false;
   }
 
-  // A unit of one's own is kept, since older designs have some; then nothing is known of the range.
+  // Takes the unit, range and default of a standard attribute. A different unit is kept with a warning, since older
+  // designs have some; then the range is unknown.
   void take_standard(const StandardAttribute* standard, const Reader& reader) {
     if (!default_value) default_value = standard ? standard->default_value : 0;
     if (!standard) return;
@@ -162,7 +163,7 @@ struct Attribute {
       held.emplace_back(reader.materials.all()[id].name, id);
   }
 
-  // Of the material that the part names.
+  // Returns the fraction of the material that the part names.
   Field fraction(const Inputs& in, std::string_view part, const Point& p) const {
     const std::string_view material = part.substr(std::min(part.size(), name.size() + 1));
     for (const auto& [id, share] : in.composition_of(value.mixture, p).fractions)

@@ -1,4 +1,4 @@
-// What solids are made of, and their attributes, as values.
+// Compositions and attributes of solids as values.
 #include <algorithm>
 
 #include "base/text/text.h"
@@ -25,8 +25,9 @@ void add_void(Composition& made, Field share) {
 struct AttributeOf {
   SolidName solid;
   std::string name;
-  AttributeDeclaration declared;                           // found when the node is made
-  std::vector<std::pair<MaterialId, std::string>> shares;  // of a mixture: its materials, and their numbers' names
+  AttributeDeclaration declared;  // set when the node is made
+  std::vector<std::pair<MaterialId, std::string>>
+      shares;  // for a mixture: its materials with the names of their numbers
 
   static Spec<AttributeOf> spec() {
     return {
@@ -84,7 +85,7 @@ struct AttributeOf {
   }
 
  private:
-  // Is the whole attribute asked for, and is it of this type?
+  // True if the whole attribute is wanted and has this type.
   bool is(ValueType type) const { return declared.type == type && name == declared.name; }
   Field part(const Ask& ask, size_t n) const { return number(ask, parts_of(declared)[n]); }
   Field number(const Ask& ask, std::string_view which) const {
@@ -104,7 +105,7 @@ struct AttributeOf {
 struct CompositionOf {
   SolidName solid;
   std::string of;
-  MaterialId wanted = no_material;  // found when the node is made
+  MaterialId wanted = no_material;  // set when the node is made
 
   static Spec<CompositionOf> spec() {
     return {"composition_of",

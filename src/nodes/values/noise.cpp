@@ -1,10 +1,10 @@
 // Gradient noise as a value.
 //
-// Ken Perlin, "Improving Noise", SIGGRAPH 2002: in each corner of a lattice stands one of twelve gradients, and a point
-// gets the mean of the eight linear functions around it, with weights whose first and second derivatives are 0 in the
-// corners. The corners' gradients come from the permutation polynomial (34 v + 1) v mod 289 of McEwan, Sheets,
-// Richardson and Gustavson, "Efficient computational noise in GLSL", Journal of Graphics Tools 16, 2012: its whole
-// numbers stay below 2^24, so that single precision holds them and every evaluator finds the same gradients.
+// Ken Perlin, "Improving Noise", SIGGRAPH 2002: each lattice corner has one of twelve gradients. A point gets the
+// weighted mean of the eight linear functions around it, with weights whose first and second derivatives are 0 at the
+// corners. Gradients are chosen by the permutation polynomial (34 v + 1) v mod 289 of McEwan, Sheets, Richardson and
+// Gustavson, "Efficient computational noise in GLSL", Journal of Graphics Tools 16, 2012. Its integers stay below 2^24,
+// so that single precision is exact and every evaluator finds the same gradients.
 #include <array>
 #include <cmath>
 
@@ -18,31 +18,31 @@ namespace {
 using namespace design;
 using program::Op;
 
-constexpr double noise_period = 289;  // cells
-// The greatest sum that twelve gradients can make: near (0.355, 0.481, 0.5) of a cell, when each corner has its best.
+constexpr double noise_period = 289;  // in cells
+// The greatest possible sum of the gradients, near (0.355, 0.481, 0.5) of a cell, if each corner has its best gradient.
 constexpr double noise_peak = 1.0363538112118031;
 
-// Exact for whole numbers from 0 to 2^24, also in single precision.
+// Exact for integers from 0 to 2^24, also in single precision.
 Field remainder(Field v, double divisor) { return v - v.builder->apply(Op::floor, v / divisor) * divisor; }
 
-// Also of -v, which is the same class of remainders.
+// Returns the permutation of v. Any integer gives the same result as its remainder, negative ones included.
 Field permuted(Field v) { return remainder((v * 34 + 1) * v, noise_period); }
 
 Field mixed(Field a, Field b, Field weight) { return a + weight * (b - a); }
 
 using Corners = std::array<Field, 8>;  // by x + 2 y + 4 z
 
-// A coordinate in cells.
+// A coordinate in units of cells.
 struct CellAxis {
-  std::array<Field, 2> corner;  // whole numbers
-  std::array<Field, 2> from;    // the way from each corner
-  Field weight, slope;          // of the upper corner, and how fast that grows
+  std::array<Field, 2> corner;  // integers
+  std::array<Field, 2> from;    // distance from each corner
+  Field weight, slope;          // weight of the upper corner, and its derivative
 
-  // `period`: after so many cells it repeats.
+  // Repeats after `period` cells.
   CellAxis(Field at, double offset, double period) {
     program::Builder& builder = *at.builder;
     const Field cell = builder.apply(Op::floor, at);
-    // The bounds are for intervals, which see no more than that both may be anything.
+    // The bounds inform intervals, which cannot see how `at` and `cell` are related.
     const Field t = min(max(at - cell, 0.0), builder.constant(1));
     if (period == noise_period) {
       corner[0] = remainder(cell + offset, noise_period);
@@ -65,7 +65,7 @@ struct Noise {
   double gain = 0.5, lacunarity = 2;
   bool turbulence = false;
   int period = 0;
-  program::SourceField source;  // of the kinds that are no formulas, made when the node is made
+  program::SourceField source;  // for kinds without a formula; made with the node
 
   static Spec<Noise> spec() {
     return {
@@ -147,7 +147,7 @@ struct Noise {
 
   double size_of(int n) const { return n == 0 ? size : size / std::pow(lacunarity, n); }
   double period_of(int n) const { return period == 0 ? noise_period : std::round(period * std::pow(lacunarity, n)); }
-  // Of an octave's weight in the sum of all.
+  // Returns an octave's share of the total weight.
   double share(int n) const {
     double sum = 0;
     for (int k = 0; k < octaves; ++k) sum += std::pow(gain, k);
@@ -162,7 +162,7 @@ struct Noise {
   struct Lattice {
     std::array<CellAxis, 3> axes;
     std::array<Corners, 3> gradients;  // by axis
-    Corners heights;                   // of the corners' linear functions at the point
+    Corners heights;                   // values of the corners' linear functions at the point
 
     Lattice(const Noise& noise, const Point& p, int octave)
         : axes{axis_of(noise, p.x, 0, octave), axis_of(noise, p.y, 1, octave), axis_of(noise, p.z, 2, octave)} {
@@ -176,7 +176,8 @@ struct Noise {
     void add_corner(size_t n, size_t i, size_t j, size_t k) {
       const Field in_row = permuted(axes[0].corner[i]), in_layer = permuted(in_row + axes[1].corner[j]);
       const Field direction = remainder(permuted(in_layer + axes[2].corner[k]), 12);
-      // Along two of the axes it is 1 or -1, along the third 0: x and y for 0 to 3, x and z to 7, y and z to 11.
+      // A gradient is 1 or -1 along two axes and 0 along the third. Directions 0 to 3 use x and y, 4 to 7 use x and z,
+      // 8 to 11 use y and z.
       const Field in_xy = direction < 4, in_x = direction < 8, zero = direction.builder->constant(0);
       const Field first = 1 - 2.0 * remainder(direction, 2);
       const Field second = 1 - 2.0 * less_equal(direction.builder->constant(2), remainder(direction, 4));
@@ -195,7 +196,7 @@ struct Noise {
                  lattice.axes[2].weight);
   }
 
-  // The heights of the upper corners along an axis over those of the lower ones.
+  // Returns the interpolated difference between upper and lower corners along an axis.
   static Field rise(const Lattice& lattice, size_t axis) {
     const size_t step = size_t{1} << axis;
     Corners rises;
@@ -203,7 +204,7 @@ struct Noise {
     return trilinear(lattice, rises);
   }
 
-  // A seed moves the lattice by whole cells; each octave has its own.
+  // A seed moves the lattice by whole cells, differently for each octave.
   double offset(int axis, int n) const {
     // SplitMix64 of Steele, Lea and Flood, 2014.
     uint64_t z = static_cast<uint64_t>(seed) + static_cast<uint64_t>(n + 1) * 0x9E3779B97F4A7C15u;

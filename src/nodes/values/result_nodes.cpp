@@ -12,7 +12,7 @@ namespace {
 
 using namespace design;
 
-// Components by their names.
+// Returns the names of a field's components.
 std::vector<std::string> component_names(size_t count) {
   if (count == 3) return {"x", "y", "z"};
   if (count == 6) return {"xx", "yy", "zz", "xy", "yz", "zx"};
@@ -28,7 +28,7 @@ struct Results {
   Choice outside = "none", between = "weights";
   std::optional<double> within;
   double otherwise = 0, deform = 0;
-  std::shared_ptr<const ResultNumbers> loaded;  // when the node is made
+  std::shared_ptr<const ResultNumbers> loaded;  // set when the node is made
   size_t chosen = 0;                            // component
 
   static Spec<Results> spec() {

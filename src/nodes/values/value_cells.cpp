@@ -1,7 +1,7 @@
 // Cells that fill space, and random numbers for them.
 //
-// A cell has an index of whole numbers, a place in it and a distance to its border. Hexagons and triangles stand
-// upright: they fill the plane, and along z there is one cell without end.
+// A cell has an integer index, a position within it, and a distance to its border. Hexagons and triangles fill the
+// plane; along z each has a single unbounded cell.
 #include <cmath>
 
 #include "base/system/assert.h"
@@ -20,13 +20,14 @@ constexpr double sqrt3 = 1.7320508075688772;
 constexpr std::string_view index_doc = "Which cell it is, whole numbers; the one at the origin is 0, 0, 0";
 constexpr std::string_view border_doc = "To the nearest border of the cell, mm";
 
-// Whole numbers q and r count hexagons along x and along a direction 60 degrees from it.
+// A position in a hexagonal grid. The integers q and r count hexagons along x and along a direction at 60 degrees to
+// it.
 struct HexPlace {
   Field q, r;  // of the hexagon
-  Field x, y;  // from its middle, in widths
+  Field x, y;  // from its centre, in widths
 };
 
-// The nearest of the middles, by rounding of cube coordinates: Amit Patel, "Hexagonal grids", 2013.
+// Finds the nearest centre by rounding cube coordinates: Amit Patel, "Hexagonal grids", 2013.
 HexPlace hexagon_at(const Point& p, double width) {
   const Field v = p.y * (2 / (sqrt3 * width)), u = p.x / width - v * 0.5, w = -(u + v);
   const auto whole = [](Field f) { return floor_of(f + 0.5); };
@@ -70,22 +71,22 @@ struct HexCells {
   }
   Field corner(const Ask& ask) const {
     const HexPlace at = hexagon_at(ask.p, width);
-    // Of a quarter of the hexagon: the corner at the top, and the one on the right.
+    // Distances to the corner at the top and to the one on the right, in a quarter of the hexagon.
     const Field x = abs(at.x), y = abs(at.y);
     return min(length(x, y - 1 / sqrt3), length(x - 0.5, y - 0.5 / sqrt3)) * width;
   }
 };
 
-// How far a point is along the three directions across a triangle's sides, in heights.
+// The position of a point along the three directions perpendicular to a triangle's sides, in heights.
 struct TrianglePlace {
   std::array<Field, 3> across;
-  std::array<Field, 3> strip;  // whole numbers
+  std::array<Field, 3> strip;  // integers
 };
 
 TrianglePlace triangle_at(const Point& p, double side) {
   const double height = side * sqrt3 / 2;
   TrianglePlace at;
-  // The three add up to 0, so that strips meet in triangles.
+  // The three add up to 0, so that strips intersect in triangles.
   at.across[0] = p.y / height;
   at.across[1] = p.x * (sqrt3 / 2 / height) - p.y * (0.5 / height);
   at.across[2] = -(at.across[0] + at.across[1]);
@@ -124,7 +125,7 @@ struct TriangleCells {
   }
 
  private:
-  // In a triangle that points up, a strip's lower border is a side; in one that points down, its upper border.
+  // In a triangle that points up, a strip's lower border is a side; in one that points down, its upper border is.
   std::array<Field, 3> from_sides(const Point& p) const {
     const TrianglePlace at = triangle_at(p, side);
     const Field lower = less(p.constant(-1.5), at.strip[0] + at.strip[1] + at.strip[2]);
@@ -162,7 +163,7 @@ struct TetrahedronCells {
     const VectorField at = local(ask);
     const Field x_first = logical_and(less_equal(at.y, at.x), less_equal(at.z, at.x));
     const Field y_first = logical_and(logical_not(x_first), less_equal(at.z, at.y));
-    // Two for each of the axes along which the place is farthest.
+    // There are two tetrahedra for each axis along which the position is greatest.
     const Field zero = ask.p.constant(0), two = ask.p.constant(2), four = ask.p.constant(4);
     const Field second = select(x_first, less(at.y, at.z), select(y_first, less(at.x, at.z), less(at.x, at.y)));
     return limited(select(x_first, zero, select(y_first, two, four)) + second, 0, 5);
@@ -171,7 +172,7 @@ struct TetrahedronCells {
     const VectorField at = local(ask);
     const Field greatest = max(at.x, max(at.y, at.z)), least = min(at.x, min(at.y, at.z));
     const Field middle = at.x + at.y + at.z - greatest - least;
-    // Two faces lie on the cube's, two on diagonal planes.
+    // Two faces lie on faces of the cube, two on diagonal planes.
     const Field on_cube = min(1.0 - greatest, least);
     const Field inside = min(greatest - middle, middle - least) * std::sqrt(0.5);
     return max(min(on_cube, inside), 0.0) * size;
@@ -184,7 +185,7 @@ struct TetrahedronCells {
 struct VoronoiValues {
   double size = 10, jitter = 1;
   int seed = 0;
-  program::SourceField cells;  // made when the node is made
+  program::SourceField cells;  // made with the node
 
   static Spec<VoronoiValues> spec() {
     return {"voronoi_cells",
@@ -222,7 +223,7 @@ struct VoronoiValues {
   }
 };
 
-// A number that is drawn for three whole numbers; channel "value".
+// A random number for three integers, as channel "value".
 class CellRandom final : public program::FieldSource {
  public:
   explicit CellRandom(uint64_t seed) : seed_(seed), content_(hash_bytes("cell random " + std::to_string(seed))) {}
@@ -245,7 +246,7 @@ struct RandomOf {
   Numbers3 index;
   int seed = 0;
   double least = 0, greatest = 1;
-  program::SourceField drawn;  // made when the node is made
+  program::SourceField drawn;  // made with the node
 
   static Spec<RandomOf> spec() {
     return {"random",

@@ -1,4 +1,4 @@
-// Values that are colours or mixtures: changes of colour space, images as textures, mixtures of many materials.
+// Values that are colours or mixtures: conversions of colour spaces, images as textures, mixtures of many materials.
 #include <cmath>
 #include <map>
 
@@ -30,13 +30,14 @@ Colour each(const Colour& colour, const Change& change) {
   return {change(colour[0]), change(colour[1]), change(colour[2])};
 }
 
-// IEC 61966-2-1.
+// The transfer function of IEC 61966-2-1.
 Field light_of_srgb(Field v) { return select(v <= 0.04045, v / 12.92, power_of((max(v, 0.0) + 0.055) / 1.055, 2.4)); }
 Field srgb_of_linear(Field v) {
   return select(v <= 0.0031308, v * 12.92, power_of(max(v, 0.0), 1 / 2.4) * 1.055 - 0.055);
 }
 
-// Hue in degrees; saturation and value from 0 to 1. A. R. Smith, "Color gamut transform pairs", SIGGRAPH 1978.
+// Converts from hue in degrees, and saturation and value from 0 to 1. A. R. Smith, "Color gamut transform pairs",
+// SIGGRAPH 1978.
 Colour rgb_of_hsv(const Colour& hsv) {
   const Field zero = hsv[0].builder->constant(0), one = hsv[0].builder->constant(1);
   const auto channel = [&](double n) {
@@ -57,7 +58,7 @@ Colour hsv_of_rgb(const Colour& rgb) {
   return {select(spread <= 0, zero, hue * 60.0), saturation, greatest};
 }
 
-// CIE 15: L*a*b* under D65, whose white is (0.95047, 1, 1.08883).
+// L*a*b* of CIE 15 under D65, whose white is (0.95047, 1, 1.08883).
 constexpr double white[] = {0.95047, 1, 1.08883};
 constexpr double xyz_of_rgb[3][3] = {
     {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
@@ -219,7 +220,7 @@ struct Texture {
   Field alpha(const Ask& ask) const { return limited(channel(ask, "alpha"), 0, 1); }
 
  private:
-  // In pixels from the left lower corner.
+  // Reads a channel at a position in pixels from the lower left corner.
   Field at(Field across, Field up, const char* name) const {
     const int number = source->channel(name);
     ASSERT(number >= 0);
@@ -244,8 +245,8 @@ struct Texture {
   }
 };
 
-// A mixture by shares, of which negative ones and those that are no numbers count as 0; where all do, the first
-// material alone, of which the check `none` tells.
+// Returns a mixture by shares. Shares that are negative or NaN count as 0. If all do, the result is the first material
+// alone, and the check `none` is set.
 Composition by_shares(const Ask& ask, const SharedList<MaterialName>& materials, const std::vector<Field>& shares,
                       const std::string& none) {
   const Field zero = ask.p.constant(0);
@@ -299,7 +300,7 @@ struct MixMany {
   }
 
  private:
-  // Where there is a share above 0, but another one is no number.
+  // Sets a check where one share is above 0 and another is NaN.
   static void tell_of_lost(const Ask& ask, const std::vector<Field>& raw, Composition& made) {
     std::vector<Field> usable, counts;
     for (const Field share : raw) {
@@ -316,7 +317,7 @@ struct MixMany {
 struct ColourMixture {
   Numbers3 wanted;
   SharedList<MaterialName> materials;
-  std::vector<Vec3> colours;  // of the materials, in linear light; with the table, found when the node is made
+  std::vector<Vec3> colours;  // in linear light; set when the node is made, like the table
   program::SourceField table;
 
   static Spec<ColourMixture> spec() {

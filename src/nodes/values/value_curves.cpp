@@ -1,4 +1,4 @@
-// Values from numbers: ramps, changes of range, tables.
+// Values computed from numbers: ramps, rescaling, tables.
 #include <cmath>
 
 #include "base/system/assert.h"
@@ -98,9 +98,9 @@ struct TableValue {
   SharedList<Number> more;
   Choice mode = "linear", outside = "clamp";
   double otherwise = 0;
-  program::SourceField source;  // made when the node is made
-  std::vector<Interval> keys;   // of each input, from the least to the greatest
-  size_t given = 1;             // outputs
+  program::SourceField source;  // made with the node
+  std::vector<Interval> keys;   // range of each input's keys
+  size_t given = 1;             // number of outputs
 
   static Spec<TableValue> spec() {
     return {

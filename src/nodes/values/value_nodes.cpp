@@ -1,4 +1,4 @@
-// Values from other values, and from the place in a lattice of cells.
+// Values computed from other values, and from the position in a lattice of cells.
 #include <cmath>
 #include <map>
 
@@ -127,7 +127,7 @@ struct Cells {
 
   Field local_along(const Point& p, int axis) const {
     if (size[axis] == 0) return p.constant(0);
-    // The bounds hold but for rounding; intervals cannot see them.
+    // The clamp changes only rounding errors; it tells intervals a bound that they cannot derive.
     return min(max(coordinate(p, axis) / size[axis] - index_along(p, axis), -0.5), p.constant(0.5));
   }
 };

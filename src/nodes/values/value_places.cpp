@@ -1,4 +1,4 @@
-// Values of the place: coordinates in frames, distances to solids, points and paths, values at other places.
+// Values of position: coordinates in frames, distances to solids, points and paths, values at other positions.
 #include <cmath>
 
 #include "base/system/assert.h"
@@ -22,7 +22,7 @@ bool refuse(const Reader& reader, const std::string& message, const Phrase& hint
 
 struct Coordinates {
   Vec3 origin, axis{0, 0, 1}, toward{1, 0, 0};
-  Affine frame_from_here;  // found when the node is made
+  Affine frame_from_here;  // set when the node is made
 
   static Spec<Coordinates> spec() {
     return {"coordinates",
@@ -49,7 +49,7 @@ struct Coordinates {
                     "write for example " + spelled::parameter("axis", "(0, 0, 1)"));
     const Vec3 z = (1 / along) * axis;
     Vec3 x = toward - dot(toward, z) * z;
-    if (!(length(x) > 1e-9 * length(toward)))  // any direction will do
+    if (!(length(x) > 1e-9 * length(toward)))  // any perpendicular direction is acceptable
       x = std::abs(z.x) < 0.9 ? Vec3{1, 0, 0} - z.x * z : Vec3{0, 1, 0} - z.y * z;
     x = (1 / length(x)) * x;
     const Vec3 y = cross(z, x);
@@ -98,7 +98,7 @@ struct At {
   }
 
   bool gives(size_t output) const { return output == (what.material.is_given() ? 1 : 0); }
-  // What it asks lies at other points than itself.
+  // The value is evaluated at other points than the node itself.
   Traits traits() const { return {.most_evaluations_of_input = 2}; }
 
   Field value(const Ask& ask) const { return what.number(moved(ask.p)); }
@@ -186,7 +186,7 @@ bool load_path(PathRequest request, program::SourceField& source, const Reader& 
 
 struct PointDistance {
   Points points;
-  program::SourceField source;  // made when the node is made
+  program::SourceField source;  // made with the node
 
   static Spec<PointDistance> spec() {
     return {"point_distance",
@@ -214,7 +214,7 @@ struct PointDistance {
 struct PathDistance {
   Points points;
   bool closed = false;
-  program::SourceField source;  // made when the node is made
+  program::SourceField source;  // made with the node
 
   static Spec<PathDistance> spec() {
     return {"path_distance",
