@@ -6,7 +6,7 @@
 
 namespace ombre::nodes {
 
-inline constexpr const char* about_pitch = "Size of the voxels; none: the job's";
+inline constexpr const char* about_pitch = "Size of the voxels; none: that of the job's voxels";
 
 // Returns the value of a channel of the stage's source at the point.
 inline program::Field read_channel(const design::Inputs& in, const design::StagePtr& stage, const std::string& channel,

@@ -33,22 +33,20 @@ struct VolumePlace {
          "The file, or a folder of DICOM files or of images; relative to the script, then to the working directory",
          design::required()}};
     for (auto& parameter : others) all.push_back(std::move(parameter));
-    all.emplace_back("spacing", own(&VolumePlace::spacing), "Lengths of a voxel; none: those of the file",
+    all.emplace_back("spacing", own(&VolumePlace::spacing), "Size of a voxel; none: that of the file",
                      design::unit::positive_mm);
     all.emplace_back("origin", own(&VolumePlace::origin), "Centre of the first voxel; none: that of the file",
                      design::unit::mm);
-    all.emplace_back(
-        "space", own(&VolumePlace::space),
-        "Frame of the places: the file's own, or RAS or LPS, for which the file must say what it has, or the "
-        "voxels' numbers, from 0 along each axis, as mm",
-        design::one_of({"file", "RAS", "LPS", "index"}));
-    all.emplace_back(
-        "series", own(&VolumePlace::series),
-        "Of several DICOM series in a folder, its number or UID; of several grids in a .vdb or .vti file, its name");
+    all.emplace_back("space", own(&VolumePlace::space),
+                     "Coordinate system: the file's own; RAS or LPS, if the file states its own; or index, the voxels' "
+                     "numbers from 0 along each axis, in mm",
+                     design::one_of({"file", "RAS", "LPS", "index"}));
+    all.emplace_back("series", own(&VolumePlace::series),
+                     "Number or UID of one of several DICOM series in a folder, or name of one of several grids in a "
+                     ".vdb or .vti file");
     all.emplace_back(
         "channel", own(&VolumePlace::voxel_channel),
-        "Of several values in each voxel, which one, counted from 0; -1: there is one, or the length of vectors "
-        "in a .vdb file",
+        "Number of one of several values per voxel, from 0; -1: the only one, or the length of vectors in a .vdb file",
         design::from_to(-1, 100000));
     return all;
   }

@@ -16,7 +16,7 @@ constexpr double most_queries = 10'000;
 
 Domain copy_overlap_choices() { return one_of({"first", "mix", "last"}); }
 constexpr std::string_view copy_overlap_doc =
-    "Where copies overlap: first and last let one take precedence, mix adds their compositions and normalises";
+    "Composition where copies overlap: that of the first or last copy, or mix, the mean of all";
 
 // Base of the family: a union of copies, of which only those that matter are evaluated at a point. T has these methods:
 // - holding(p) returns the points at which copies that may hold p are evaluated.
@@ -155,14 +155,15 @@ struct ArrayLinear : LatticeArray<ArrayLinear> {
   Choice materials = "first";
 
   static Spec<ArrayLinear> spec() {
-    return {"array_linear",
-            "arrays",
-            "Copies of its child in a row.",
-            {{"count", &ArrayLinear::count, "How many, with the child itself", required(from_to(1, 100'000))},
-             {"step", &ArrayLinear::step, "From one copy to the next along x, y and z", required(unit::mm)},
-             {"materials", &ArrayLinear::materials, copy_overlap_doc, copy_overlap_choices()}},
-            one_solid,
-            "array_linear(4, (6, 0, 1)) { sphere(2, \"red\"); }"};
+    return {
+        "array_linear",
+        "arrays",
+        "Copies of its child in a row.",
+        {{"count", &ArrayLinear::count, "Number of copies, including the child itself", required(from_to(1, 100'000))},
+         {"step", &ArrayLinear::step, "Distance from one copy to the next along x, y and z", required(unit::mm)},
+         {"materials", &ArrayLinear::materials, copy_overlap_doc, copy_overlap_choices()}},
+        one_solid,
+        "array_linear(4, (6, 0, 1)) { sphere(2, \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -193,9 +194,9 @@ struct ArrayGrid : LatticeArray<ArrayGrid> {
     return {"array_grid",
             "arrays",
             "Copies of its child in a grid along x, y and z.",
-            {{"counts", &ArrayGrid::counts, "How many along x, y and z", required(from_to(1, 100'000))},
-             {"steps", &ArrayGrid::steps, "From one copy to the next along x, y and z", required(unit::mm)},
-             {"centred", &ArrayGrid::centred, "Whether the grid lies around the child's place; else it begins there"},
+            {{"counts", &ArrayGrid::counts, "Number of copies along x, y and z", required(from_to(1, 100'000))},
+             {"steps", &ArrayGrid::steps, "Distance from one copy to the next along x, y and z", required(unit::mm)},
+             {"centred", &ArrayGrid::centred, "Centres the grid on the child; else the grid begins at the child"},
              {"materials", &ArrayGrid::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_grid((3, 3, 2), (5, 5, 5)) { sphere(2, \"red\"); }"};
@@ -240,19 +241,20 @@ struct ArrayPolar : Array<ArrayPolar> {
   TurnedCopies copies;
 
   static Spec<ArrayPolar> spec() {
-    return {"array_polar",
-            "arrays",
-            "Copies of its child around an axis, turned on the way.",
-            {{"count", &ArrayPolar::count, "How many, with the child itself", required(from_to(1, 10'000))},
-             {"axis", &ArrayPolar::axis, "Direction of the axis, about which copies are turned right-handed"},
-             {"angle", &ArrayPolar::angle, "From the first copy to the last; 360: evenly all round",
-              from_to(-360, 360, "deg")},
-             {"radius", &ArrayPolar::radius,
-              "How far the child is moved away from the axis first: along x, or along y where the axis is x", unit::mm},
-             {"around", &ArrayPolar::around, "A point on the axis", unit::mm},
-             {"materials", &ArrayPolar::materials, copy_overlap_doc, copy_overlap_choices()}},
-            one_solid,
-            "array_polar(6, radius=8) { cube(3, \"red\"); }"};
+    return {
+        "array_polar",
+        "arrays",
+        "Copies of its child around an axis, each turned about it.",
+        {{"count", &ArrayPolar::count, "Number of copies, including the child itself", required(from_to(1, 10'000))},
+         {"axis", &ArrayPolar::axis, "Direction of the axis; copies are turned about it right-handed"},
+         {"angle", &ArrayPolar::angle, "Angle from the first copy to the last; 360: evenly all round",
+          from_to(-360, 360, "deg")},
+         {"radius", &ArrayPolar::radius,
+          "Distance by which the child is first moved from the axis: along x, or along y if the axis is x", unit::mm},
+         {"around", &ArrayPolar::around, "A point on the axis", unit::mm},
+         {"materials", &ArrayPolar::materials, copy_overlap_doc, copy_overlap_choices()}},
+        one_solid,
+        "array_polar(6, radius=8) { cube(3, \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -299,8 +301,8 @@ struct ArrayMirror : Array<ArrayMirror> {
     return {"array_mirror",
             "arrays",
             "Its child and the child's mirror image.",
-            {{"normal", &ArrayMirror::normal, "Direction at a right angle to the plane", required()},
-             {"around", &ArrayMirror::around, "A point of the plane", unit::mm},
+            {{"normal", &ArrayMirror::normal, "Direction perpendicular to the plane", required()},
+             {"around", &ArrayMirror::around, "A point on the plane", unit::mm},
              {"materials", &ArrayMirror::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};

@@ -27,13 +27,13 @@ struct Lattice {
   static Spec<Lattice> spec() {
     return {"lattice",
             "lattices",
-            "Struts with round ends: a unit cell, centred on the origin, or a graph of edges. tile repeats unit cells.",
-            {{"cell", &Lattice::cell, "Which unit cell; none: the edges", cell_choices()},
-             {"size", &Lattice::size, "Lengths of the unit cell along x, y and z", unit::positive_mm},
-             {"radius", &Lattice::radius, "Of the struts; t runs from 0 to 1 along each",
+            "Struts with round ends: a unit cell centred on the origin, or a graph of edges. tile repeats unit cells.",
+            {{"cell", &Lattice::cell, "Name of the unit cell; none: the edges are used", cell_choices()},
+             {"size", &Lattice::size, "Size of the unit cell along x, y and z", unit::positive_mm},
+             {"radius", &Lattice::radius, "Radius of the struts; t runs from 0 to 1 along each",
               with_variables({"t"}, unit::positive_mm)},
              {"edges", &Lattice::edges,
-              "Instead of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
+              "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
              {"material", &Lattice::material, "Its material"}},
             no_inputs,
             "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");"};

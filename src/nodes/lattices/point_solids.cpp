@@ -25,8 +25,8 @@ struct Hull {
   static Spec<Hull> spec() {
     return {"hull",
             "point solids",
-            "The smallest solid without dents that holds all points.",
-            {{"points", &Hull::points, "At least four, not all in one plane", required(unit::points)},
+            "The convex hull of points: the smallest convex solid that contains all of them.",
+            {{"points", &Hull::points, "At least four points, not all in one plane", required(unit::points)},
              {"material", &Hull::material, "Its material"}},
             no_inputs,
             "hull([[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10], [6, 6, 6]], \"green\");"};
@@ -84,18 +84,18 @@ struct Tube {
   static Spec<Tube> spec() {
     return {"tube",
             "point solids",
-            "Round bar along lines or a smooth curve through points; joints are round.",
-            {{"points", &Tube::points, "At least two, along its middle", required(unit::points)},
+            "A round bar along lines, or along a smooth curve through points. Joints are round.",
+            {{"points", &Tube::points, "At least two points on its centre line", required(unit::points)},
              {"radius", &Tube::radius, "Its radius", unit::positive_mm},
              {"material", &Tube::material, "Its material"},
              {"curve", &Tube::curve,
-              "Between points: straight, or smooth (a centripetal Catmull-Rom curve, followed to 0.002 mm)",
+              "Centre line between points: straight, or smooth (a centripetal Catmull-Rom curve, accurate to 0.002 mm)",
               one_of({"straight", "smooth"})},
              {"caps", &Tube::caps,
-              "Ends: round (half balls beyond the end points), or flat; what else of the tube comes before a flat end, "
-              "nearer than its diameter, is cut off too",
+              "Ends: round (half balls beyond the end points), or flat. A flat end also cuts off other parts of the "
+              "tube that pass in front of it within a diameter",
               one_of({"round", "flat"})},
-             {"closed", &Tube::closed, "Whether it goes back to its first point"}},
+             {"closed", &Tube::closed, "Joins the last point to the first"}},
             no_inputs,
             "tube([[0, 0, 0], [10, 0, 0], [10, 8, 4], [0, 8, 8]], 1.2, \"cyan\", curve=\"smooth\");"};
   }

@@ -18,18 +18,19 @@ struct Tile {
   std::optional<Vec3> size, first, last;
 
   static Spec<Tile> spec() {
-    return {"tile",
-            "lattices",
-            "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Below it, "
-            "expressions know the copy's indices ci, cj, ck.",
-            {{"size", &Tile::size,
-              "Steps from copy to copy; 0: none along that axis. Without it, those of the unit cell, or the lengths of "
-              "the child's box",
-              unit::not_negative_mm},
-             {"first", &Tile::first, "Least indices of copies, whole numbers; the child itself is copy (0, 0, 0)", {}},
-             {"last", &Tile::last, "Greatest indices of copies", {}}},
-            one_solid,
-            "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
+    return {
+        "tile",
+        "lattices",
+        "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Expressions "
+        "below it may use the copy's indices ci, cj, ck.",
+        {{"size", &Tile::size,
+          "Distance from copy to copy; 0: no copies along that axis; none: the size of the unit cell, or of the "
+          "child's box",
+          unit::not_negative_mm},
+         {"first", &Tile::first, "Least indices of copies, as whole numbers; the child itself is copy (0, 0, 0)", {}},
+         {"last", &Tile::last, "Greatest indices of copies", {}}},
+        one_solid,
+        "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {

@@ -39,20 +39,20 @@ struct Voxels {
   std::vector<MaterialId> materials_of_colours;
 
   static Spec<Voxels> spec() {
-    return {
-        "voxel",
-        "imported",
-        "The pixels of a stack of PNG images as voxels, each of the material that has its colour.",
-        {{"path", &Voxels::path, "A folder with an image for each layer, from the lowest up, or one image", required()},
-         {"voxel", &Voxels::voxel, "Lengths of a voxel along x, y and z", required(unit::positive_mm)},
-         {"min", &Voxels::min, "Corner with the least x, y and z", unit::mm},
-         {"materials", &Voxels::materials,
-          "Pairs of a colour, \"#ff0000\", and its material; before the table's colours"},
-         {"match", &Voxels::match,
-          "exact: colours without a material are an error; nearest: they get the nearest colour's",
-          one_of({"exact", "nearest"})}},
-        no_inputs,
-        "voxel(\"models/stack\", (0.5, 0.5, 1));"};
+    return {"voxel",
+            "imported",
+            "The pixels of a stack of PNG images as voxels. Each has the material of its colour.",
+            {{"path", &Voxels::path, "A folder with an image for each layer, from the lowest up, or a single image",
+              required()},
+             {"voxel", &Voxels::voxel, "Size of a voxel along x, y and z", required(unit::positive_mm)},
+             {"min", &Voxels::min, "Corner with the least x, y and z", unit::mm},
+             {"materials", &Voxels::materials,
+              "Pairs of a colour, \"#ff0000\", and its material; they come before the colours of the materials file"},
+             {"match", &Voxels::match,
+              "exact: a colour without a material is an error; nearest: it gets the material with the nearest colour",
+              one_of({"exact", "nearest"})}},
+            no_inputs,
+            "voxel(\"models/stack\", (0.5, 0.5, 1));"};
   }
 
   bool complete(const Reader& reader) {

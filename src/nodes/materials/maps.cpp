@@ -54,19 +54,19 @@ struct ConformalMap {
   Vec3 direction{0, 0, 1}, around;
 
   static Spec<ConformalMap> spec() {
-    return {
-        "conformal_map",
-        "maps",
-        "Lays a flat pattern, its second child, along the surface of its first: the pattern's z is the height above "
-        "it, its x and y a place on it.",
-        {{"mapping", &ConformalMap::mapping,
-          "What x and y are: planar, as seen along ref_dir; cylindrical, the way around ref_dir and along it; "
-          "spherical, the way around ref_dir and from the equator to the poles",
-          one_of({"planar", "cylindrical", "spherical"})},
-         {"ref_dir", &ConformalMap::direction, "Reference direction; x begins along x, or along y where ref_dir is x"},
-         {"around", &ConformalMap::around, "Where x, y and ref_dir begin", unit::mm}},
-        two_solids,
-        "conformal_map(mapping=\"cylindrical\") { cylinder(10, 20); rectprism((30, 6, 2), \"red\"); }"};
+    return {"conformal_map",
+            "maps",
+            "Lays a flat pattern, its second child, along the surface of its first child. The pattern's z is the "
+            "height above the surface; its x and y are a place on it.",
+            {{"mapping", &ConformalMap::mapping,
+              "Meaning of x and y: planar (as seen along ref_dir), cylindrical (lengths around ref_dir and along it), "
+              "or spherical (lengths around ref_dir and from the equator to the poles)",
+              one_of({"planar", "cylindrical", "spherical"})},
+             {"ref_dir", &ConformalMap::direction,
+              "Reference direction; the pattern's x begins along x, or along y if ref_dir is x"},
+             {"around", &ConformalMap::around, "Point where x, y and ref_dir begin", unit::mm}},
+            two_solids,
+            "conformal_map(mapping=\"cylindrical\") { cylinder(10, 20); rectprism((30, 6, 2), \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
@@ -137,9 +137,9 @@ struct SurfaceMap {
     return {
         "surface_map",
         "maps",
-        "Puts what stands on the surface of its first child onto that of its second, at the same heights; its "
-        "third child is what stands there.",
-        {{"height", &SurfaceMap::height, "How far over and under the surfaces it reaches; what is farther is cut off",
+        "Moves its third child from the surface of its first child to that of its second, keeping heights above the "
+        "surface.",
+        {{"height", &SurfaceMap::height, "Greatest height above and below the surfaces; anything farther is cut off",
           required(unit::positive_mm)}},
         three_solids,
         "surface_map(height=3) { sphere(8); ellipsoid((12, 9, 7)); translate(8, 0, 0) cube(2, \"red\"); }"};

@@ -120,17 +120,18 @@ struct FGrade {
   Choice mode = "prob";
 
   static Spec<FGrade> spec() {
-    return {
-        "fgrade",
-        "material gradients",
-        "Sets the composition of its child by formulas, one for each material.",
-        {{"functions", &FGrade::functions,
-          "Expressions; d is the signed distance of the child, t the place along its struts", required(over_child())},
-         {"materials", &FGrade::materials, "A material or mixture for each expression", required(mixable())},
-         {"mode", &FGrade::mode, "prob: the values are shares of a mixture. thresh: the greatest value takes all",
-          one_of({"prob", "thresh"})}},
-        one_solid,
-        "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"], \"prob\") { cube(10); }"};
+    return {"fgrade",
+            "material gradients",
+            "Sets the composition of its child by formulas, one for each material.",
+            {{"functions", &FGrade::functions,
+              "Expressions; d is the signed distance of the child, t the position along its struts",
+              required(over_child())},
+             {"materials", &FGrade::materials, "A material or mixture for each expression", required(mixable())},
+             {"mode", &FGrade::mode,
+              "prob: the values are shares of a mixture; thresh: the material with the greatest value is used alone",
+              one_of({"prob", "thresh"})}},
+            one_solid,
+            "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"], \"prob\") { cube(10); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
@@ -161,7 +162,7 @@ struct Material {
             "material gradients",
             "Sets the composition of its child: one material, or a mixture.",
             {{"materials", &Material::materials, "One or more materials or mixtures", required(mixable())},
-             {"fractions", &Material::fractions, "A share for each, numbers or fields; without it all the same",
+             {"fractions", &Material::fractions, "A share for each material, as numbers or fields; none: equal shares",
               over_child()}},
             one_solid,
             "material([\"red\", \"clear\"], [0.3, 0.7]) { sphere(5); }"};

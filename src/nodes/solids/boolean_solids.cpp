@@ -13,14 +13,14 @@ Field (*const greatest)(Field, Field) = program::max;
 
 Domain overlap_choices() { return one_of({"mix", "first", "last"}); }
 constexpr std::string_view overlap_doc =
-    "Where inputs overlap: mix adds their compositions and normalises, first and last let one take precedence";
+    "Composition where children overlap: mix, the mean of all, or that of the first or last child";
 
-constexpr std::string_view blend_doc = "Radius of the fillet, or size of the chamfer, along seams; 0: sharp";
-constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat";
+constexpr std::string_view blend_doc = "Radius of the fillet, or size of the chamfer, along seams; 0: sharp seams";
+constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat bevel";
 Domain join_choices() { return one_of({"round", "chamfer"}); }
 
 constexpr std::string_view attributes_doc =
-    "How attributes combine where inputs overlap, in place of their own rules: [[\"modulus\", \"max\"]]";
+    "Rules for attributes where children overlap, in place of the attributes' own: [[\"modulus\", \"max\"]]";
 Domain attribute_rules() { return one_of({overlap_names.begin(), overlap_names.end()}); }
 
 // Returns the attribute's declaration with the overlap rule of this node.
@@ -67,10 +67,10 @@ struct Union {
   static Spec<Union> spec() {
     return {"union",
             "booleans",
-            "What is in any of its children.",
+            "The union of its children: all points that are in at least one of them.",
             {{"materials", &Union::materials,
-              "Where inputs overlap: mix adds their compositions and normalises, first and last let one take "
-              "precedence; blend weighs them by how far inside the point is, across seams too",
+              "Composition where children overlap: mix, the mean of all; that of the first or last child; or blend, a "
+              "mean weighted by depth, also across seams",
               one_of({"mix", "first", "last", "blend"})},
              {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Union::join, join_doc, join_choices()},
@@ -219,7 +219,7 @@ struct Intersection {
   static Spec<Intersection> spec() {
     return {"intersection",
             "booleans",
-            "What is in all of its children.",
+            "The intersection of its children: all points that are in every one of them.",
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
              {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Intersection::join, join_doc, join_choices()},
@@ -277,7 +277,7 @@ struct Difference {
   static Spec<Difference> spec() {
     return {"difference",
             "booleans",
-            "What is in its first child and in none of the others.",
+            "Its first child without all others: the points that are in the first and in none of the others.",
             {{"blend", &Difference::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Difference::join, join_doc, join_choices()}},
             grouped_solids(OfNothing::cuts_nothing),
@@ -320,7 +320,7 @@ struct Negate {
   static Spec<Negate> spec() {
     return {"negate",
             "booleans",
-            "Everything that is not in its child. Without bounds: use it inside an intersection.",
+            "Everything outside its child. It is unbounded: use it inside an intersection.",
             {},
             {1, 1, false, OfNothing::counts},
             "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
@@ -345,9 +345,12 @@ struct Empty {
   static constexpr bool is_nothing_itself = true;
 
   static Spec<Empty> spec() {
-    return {
-        "empty", "booleans", "Nothing: a solid without a point. What is made from it or cut out of it is nothing too.",
-        {},      no_inputs,  "union() { sphere(4, \"red\"); empty(); }"};
+    return {"empty",
+            "booleans",
+            "An empty solid, without any point. Solids made from it alone, or cut out of it, are empty too.",
+            {},
+            no_inputs,
+            "union() { sphere(4, \"red\"); empty(); }"};
   }
 
   Metric metric() const { return Metric::bounded(); }

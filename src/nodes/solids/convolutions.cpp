@@ -59,8 +59,8 @@ bool check_attributes(const Reader& reader, const NodePtr& child, const std::vec
   return true;
 }
 
-constexpr const char* about_attributes = "Names of its attributes that are filtered too";
-constexpr const char* about_void = "Whether voxels outside of the child count as void; else only those inside count";
+constexpr const char* about_attributes = "Names of attributes that are filtered, too";
+constexpr const char* about_void = "Counts voxels outside the child as void; else only voxels inside count";
 
 struct VoxelBlend {
   Counts3 size{3, 3, 3};
@@ -72,8 +72,9 @@ struct VoxelBlend {
     return {
         "blend",
         "convolutions",
-        "Gives each voxel of its child the mean composition of the voxels in a box around it; the shape stays.",
-        {{"size", &VoxelBlend::size, "Voxels of the box along x, y and z", required(from_to(1, 1000))},
+        "Gives each voxel of its child the mean composition of the voxels in a box around it. The shape does not "
+        "change.",
+        {{"size", &VoxelBlend::size, "Number of voxels of the box along x, y and z", required(from_to(1, 1000))},
          {"count_void", &VoxelBlend::count_void, about_void},
          {"pitch", &VoxelBlend::pitch, about_pitch, unit::positive_mm}},
         one_solid,
@@ -101,9 +102,10 @@ struct Convolve {
     return {
         "convolve",
         "convolutions",
-        "Gives each voxel of its child the weighted mean of the compositions around it; the shape stays.",
+        "Gives each voxel of its child the weighted mean of the compositions around it. The shape does not change.",
         {{"kernel", &Convolve::kernel,
-          "Weights in lists along x of lists along y of lists along z; voxel floor(n / 2) is the one that they are for",
+          "Weights as lists along x of lists along y of lists along z; of n weights, number floor(n / 2) belongs to "
+          "the voxel itself",
           required()},
          {"count_void", &Convolve::count_void, about_void},
          {"attributes", &Convolve::attributes, about_attributes},
@@ -145,8 +147,8 @@ struct Width {
   }
 };
 
-constexpr const char* about_sigma = "Standard deviation of the weights, which end four of them away";
-constexpr const char* about_sigma_voxels = "The same in voxels along x, y and z, in the place of sigma";
+constexpr const char* about_sigma = "Standard deviation of the weights, which extend to four times as far";
+constexpr const char* about_sigma_voxels = "Standard deviation in voxels along x, y and z, in place of sigma";
 
 // Returns false and adds a diagnostic unless exactly one of the two is given.
 bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& voxels) {
@@ -170,7 +172,7 @@ struct Gaussian {
   static Spec<Gaussian> spec() {
     return {"gaussian",
             "convolutions",
-            "Blurs its child's composition with weights of a normal distribution; the shape stays.",
+            "Blurs its child's composition with weights of a normal distribution. The shape does not change.",
             {{"sigma", &Gaussian::sigma, about_sigma, unit::not_negative_mm},
              {"sigma_voxels", &Gaussian::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
              {"count_void", &Gaussian::count_void, about_void},
@@ -203,15 +205,16 @@ struct Sharpen {
   StagePtr stage;
 
   static Spec<Sharpen> spec() {
-    return {"sharpen",
-            "convolutions",
-            "Makes borders between its child's materials steeper, by unsharp masking; the shape stays.",
-            {{"amount", &Sharpen::amount, "How much of what a Gaussian blur takes away is added", positive("")},
-             {"sigma", &Sharpen::sigma, about_sigma, unit::not_negative_mm},
-             {"sigma_voxels", &Sharpen::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
-             {"pitch", &Sharpen::pitch, about_pitch, unit::positive_mm}},
-            one_solid,
-            "sharpen(2, sigma=0.5) fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"]) cube(10);"};
+    return {
+        "sharpen",
+        "convolutions",
+        "Makes borders between its child's materials steeper, by unsharp masking. The shape does not change.",
+        {{"amount", &Sharpen::amount, "Factor of the difference from a Gaussian blur, which is added", positive("")},
+         {"sigma", &Sharpen::sigma, about_sigma, unit::not_negative_mm},
+         {"sigma_voxels", &Sharpen::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
+         {"pitch", &Sharpen::pitch, about_pitch, unit::positive_mm}},
+        one_solid,
+        "sharpen(2, sigma=0.5) fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"]) cube(10);"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -238,8 +241,8 @@ struct Majority {
     return {
         "majority",
         "convolutions",
-        "Gives each voxel of its child the material that most of the box around it has; the shape stays.",
-        {{"size", &Majority::size, "Voxels of the box along x, y and z", from_to(1, 99)},
+        "Gives each voxel of its child the most frequent material in the box around it. The shape does not change.",
+        {{"size", &Majority::size, "Number of voxels of the box along x, y and z", from_to(1, 99)},
          {"count_void", &Majority::count_void, about_void},
          {"pitch", &Majority::pitch, about_pitch, unit::positive_mm}},
         one_solid,
@@ -265,9 +268,9 @@ struct Median {
   static Spec<Median> spec() {
     return {"median",
             "convolutions",
-            "Gives each voxel of its child the median of attributes in the box around it; the shape stays.",
+            "Gives each voxel of its child the median of attributes in the box around it. The shape does not change.",
             {{"attributes", &Median::attributes, "Names of the attributes", required()},
-             {"size", &Median::size, "Voxels of the box along x, y and z", from_to(1, 99)},
+             {"size", &Median::size, "Number of voxels of the box along x, y and z", from_to(1, 99)},
              {"pitch", &Median::pitch, about_pitch, unit::positive_mm}},
             one_solid,
             "median([\"infill\"]) attribute(\"infill\", \"x > 0\") cube(10);"};
@@ -294,12 +297,13 @@ struct Smooth {
   static Spec<Smooth> spec() {
     return {"smooth",
             "convolutions",
-            "Smooths the surface of its child: inside is where at least half of a Gaussian around the place is inside.",
+            "Smooths the surface of its child: a point is inside if at least half of a Gaussian around it is inside "
+            "the child.",
             {{"sigma", &Smooth::sigma, about_sigma, unit::not_negative_mm},
              {"sigma_voxels", &Smooth::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
              {"pitch", &Smooth::pitch, about_pitch, unit::positive_mm},
              {"keep_volume", &Smooth::keep_volume,
-              "In place of half of the Gaussian, the part with which the volume stays"}},
+              "Keeps the child's volume by choosing another share than half of the Gaussian"}},
             one_solid,
             "smooth(1) rectprism((10, 6, 4), \"red\");"};
   }
@@ -358,12 +362,11 @@ struct Morphed : StagedSolid {
       std::string_view name, sentence, example;
     };
     static constexpr Words words[] = {
-        {"dilate", "Adds to its child all voxels that lie within a radius of it.", "dilate(1) cube(6, \"red\");"},
-        {"erode", "Takes from its child all voxels that lie within a radius of what is outside.",
-         "erode(1) cube(6, \"red\");"},
-        {"opening", "Takes from its child what a ball inside it cannot reach: spikes and thin walls.",
+        {"dilate", "Adds all voxels within a radius of its child.", "dilate(1) cube(6, \"red\");"},
+        {"erode", "Removes all voxels of its child within a radius of the outside.", "erode(1) cube(6, \"red\");"},
+        {"opening", "Removes the parts of its child that a ball inside it cannot reach: spikes and thin walls.",
          "opening(1) union() { cube(6, \"red\"); rectprism((12, 1, 1), \"red\"); }"},
-        {"closing", "Fills what a ball outside of its child cannot reach: holes, gaps and notches.",
+        {"closing", "Fills the parts that a ball outside its child cannot reach: holes, gaps and notches.",
          "closing(1) difference() { cube(6, \"red\"); rectprism((12, 1, 1), \"red\"); }"}};
     const Words& word = words[static_cast<size_t>(what)];
     return {word.name,

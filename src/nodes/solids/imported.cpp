@@ -131,27 +131,27 @@ struct Mesh : SolidOfParts {
   std::shared_ptr<const std::vector<MeshPart>> loaded;  // set when the node is made
 
   static Spec<Mesh> spec() {
-    return {"mesh",
-            "imported",
-            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in "
-            "their own unit; or by the outer sides of a mesh of results, VTU, XDMF, FRD or INP.",
-            {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
-             {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there",
-              mixable()},
-             {"inside", &Mesh::inside_rule,
-              "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
-              "open meshes)",
-              one_of({"nonzero", "parity", "generalized"})},
-             {"object", &Mesh::object, "The name of one of the file's objects; none: all of them"},
-             {"materials", &Mesh::materials,
-              "Whose materials: one (the node's), names (the file's, by their names), or colours (those whose colours "
-              "are nearest to the file's); where they overlap, the file's first wins",
-              one_of({"one", "names", "colours"})},
-             {"material_map", &Mesh::material_map,
-              "Materials for names of the file, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
-             {"deform", &Mesh::deform, "Of results: how many times their displacement moves the solid"}},
-            no_inputs,
-            "mesh(\"models/gear.stl\", \"red\");"};
+    return {
+        "mesh",
+        "imported",
+        "A solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in their "
+        "own unit; or by the outer sides of a mesh of results: VTU, XDMF, FRD or INP.",
+        {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
+         {"material", &Mesh::material, "Its material; with the file's materials, that of parts without one", mixable()},
+         {"inside", &Mesh::inside_rule,
+          "Rule for the inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
+          "open meshes)",
+          one_of({"nonzero", "parity", "generalized"})},
+         {"object", &Mesh::object, "Name of one of the file's objects; none: all of them"},
+         {"materials", &Mesh::materials,
+          "Materials: one (the node's), names (by the names in the file), or colours (those nearest to the file's "
+          "colours); where parts overlap, the first one in the file wins",
+          one_of({"one", "names", "colours"})},
+         {"material_map", &Mesh::material_map,
+          "Materials for names in the file, which come before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+         {"deform", &Mesh::deform, "Factor of the displacement by which a mesh of results is deformed"}},
+        no_inputs,
+        "mesh(\"models/gear.stl\", \"red\");"};
   }
 
   bool complete(const Reader& reader) {
@@ -193,23 +193,23 @@ struct Scad : SolidOfParts {
     return {
         "scad",
         "imported",
-        "Solid that an OpenSCAD script makes, in mm; arguments of other names are values for the script's "
+        "A solid that an OpenSCAD script makes, in mm. Arguments with other names are values for the script's "
         "variables.",
         {{"path", &Scad::path, "The script; relative to this one, then to the working directory", required()},
          {"material", &Scad::material,
-          "Its material; beside the script's own, that of what has none there. A mixture is for the whole solid",
+          "Its material; with the script's materials, that of parts without one. A mixture applies to the whole solid",
           mixable()},
-         {"part", &Scad::part, "The name of one of the script's parts, rest for solids of no part; none: all of them"},
+         {"part", &Scad::part, "Name of one of the script's parts; rest: solids outside parts; none: everything"},
          {"materials", &Scad::materials,
-          "Whose materials: one (the node's), names (those of material() in the script), colours (those whose "
-          "colours are nearest to color()), or auto: names if the script has some, else colours, else one; where "
-          "solids overlap, the script's first wins",
+          "Materials: one (the node's), names (those of material() in the script), colours (those nearest to the "
+          "script's colours), or auto (names if the script has some, else colours, else one); where solids overlap, "
+          "the first one in the script wins",
           one_of({"auto", "one", "names", "colours"})},
          {"material_map", &Scad::material_map,
-          "Materials for names of the script, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+          "Materials for names in the script, which come before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
          {"variables", &Scad::variables, "Values for the script's variables: scad(\"box.scad\", width=20)"},
          {"script", &Scad::script,
-          "The script's text, in the place of the file's: path then says where its files are"}},
+          "The script's text in place of the file's; path then determines where its files are sought"}},
         no_inputs,
         "scad(\"openscad/handle.scad\", thickness=6);"};
   }
@@ -251,26 +251,27 @@ struct Cad {
   std::vector<MaterialName> part_materials;
 
   static Spec<Cad> spec() {
-    return {"cad",
-            "imported",
-            "Solid of a CAD file: STEP or IGES, in the file's own unit.",
-            {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
-             {"material", &Cad::material, "Its material; beside the file's materials, that of what has none there",
-              mixable()},
-             {"mode", &Cad::mode,
-              "fast (by triangles) or exact (by the surfaces themselves: slow, and distances are exact)",
-              one_of({"fast", "exact"})},
-             {"tolerance", &Cad::tolerance, "How far triangles may be from the surface; 0: a quarter of a voxel",
-              unit::not_negative_mm},
-             {"object", &Cad::object, "The name of one of the file's solids; none: all of them"},
-             {"materials", &Cad::materials,
-              "Whose materials: one (the node's), names (by the names of the file's solids), or colours (those whose "
-              "colours are nearest to the solids'); where solids overlap, the file's first wins",
-              one_of({"one", "names", "colours"})},
-             {"material_map", &Cad::material_map,
-              "Materials for names of solids, before all others: [[\"bracket\", \"gray\"], [\"bushing\", \"red\"]]"}},
-            no_inputs,
-            "cad(\"models/bracket.step\", \"gray\");"};
+    return {
+        "cad",
+        "imported",
+        "A solid from a CAD file: STEP or IGES, in the file's own unit.",
+        {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
+         {"material", &Cad::material, "Its material; with the file's materials, that of parts without one", mixable()},
+         {"mode", &Cad::mode,
+          "fast (uses triangles) or exact (uses the surfaces themselves: slow, with exact distances)",
+          one_of({"fast", "exact"})},
+         {"tolerance", &Cad::tolerance, "Greatest distance of triangles from the surface; 0: a quarter of a voxel",
+          unit::not_negative_mm},
+         {"object", &Cad::object, "Name of one of the file's solids; none: all of them"},
+         {"materials", &Cad::materials,
+          "Materials: one (the node's), names (by the names of the file's solids), or colours (those nearest to the "
+          "solids' colours); where solids overlap, the first one in the file wins",
+          one_of({"one", "names", "colours"})},
+         {"material_map", &Cad::material_map,
+          "Materials for names of solids, which come before all others: [[\"bracket\", \"gray\"], [\"bushing\", "
+          "\"red\"]]"}},
+        no_inputs,
+        "cad(\"models/bracket.step\", \"gray\");"};
   }
 
   bool complete(const Reader& reader) {

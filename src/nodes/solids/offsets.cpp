@@ -30,9 +30,9 @@ struct Offset {
   static Spec<Offset> spec() {
     return {"offset",
             "offsets",
-            "Grows its child by a distance, or shrinks it. Edges and corners that grow become round.",
+            "Grows its child by a distance, or shrinks it. Edges and corners become round when they grow.",
             {{"distance", &Offset::distance_mm,
-              "How far the surface moves outward; negative: inward. A formula displaces it from point to point",
+              "Distance by which the surface moves outward; negative: inward. A formula may vary from point to point",
               required(unit::mm)}},
             one_solid,
             "offset(2) { cube(6, \"red\"); }"};
@@ -71,8 +71,8 @@ struct Shell {
     return {"shell",
             "offsets",
             "A wall along the surface of its child.",
-            {{"thickness", &Shell::thickness, "How thick the wall is", required(unit::positive_mm)},
-             {"side", &Shell::side, "Where it lies: inward of the surface, outward, or centred on it",
+            {{"thickness", &Shell::thickness, "Thickness of the wall", required(unit::positive_mm)},
+             {"side", &Shell::side, "Position of the wall: inward of the surface, outward, or centred on it",
               one_of({"inward", "outward", "centred"})}},
             one_solid,
             "shell(1) { sphere(8, \"red\"); }"};

@@ -41,18 +41,18 @@ struct PolygonExtrude {
   static Spec<PolygonExtrude> spec() {
     return {"polygon_extrude",
             "profiles",
-            "Polygon with a height: points of two numbers rise from XY, points of three along the normal around which "
-            "they go counterclockwise.",
+            "An extruded polygon. Points of two numbers lie in XY and are extruded along z; points of three numbers "
+            "are extruded along the normal around which they go counterclockwise.",
             {{"vertices", &PolygonExtrude::vertices,
-              "Its corners in order: [x, y] in the plane XY, or [x, y, z], all in one plane; where it crosses itself, "
-              "what it goes round is inside",
+              "Its corners in order: [x, y] in the plane XY, or [x, y, z], all in one plane; if it crosses itself, all "
+              "enclosed areas are inside",
               required(unit::points)},
-             {"height", &PolygonExtrude::height, "How far it reaches from its plane", unit::positive_mm},
-             {"symmetric", &PolygonExtrude::symmetric, "Half of the height to each side of the plane"},
+             {"height", &PolygonExtrude::height, "Height above its plane", unit::positive_mm},
+             {"symmetric", &PolygonExtrude::symmetric, "Extends by half of the height to each side of the plane"},
              {"material", &PolygonExtrude::material, "Its material"},
              {"holes", &PolygonExtrude::holes, "Polygons that are cut out, in the same plane", unit::points},
              {"taper", &PolygonExtrude::taper,
-              "How much its walls lean inward, away from the plane of the points; below 0 outward",
+              "Angle by which its walls lean inward, away from the plane of the points; below 0: outward",
               from_to(-80, 80, "deg")}},
             no_inputs,
             "polygon_extrude([[0, 0], [12, 0], [12, 4], [4, 4], [4, 10], [0, 10]], 5, false, \"red\");"};
@@ -111,12 +111,12 @@ struct Revolve {
   static Spec<Revolve> spec() {
     return {"revolve",
             "profiles",
-            "Polygon that turns about the z axis, right-handed from +x.",
+            "A polygon revolved about the z axis, right-handed from +x.",
             {{"profile", &Revolve::profile,
-              "Its corners in order: [rho, z], with rho the distance from the axis; where it crosses itself, what it "
-              "goes round is inside",
+              "Its corners in order: [rho, z], with rho the distance from the axis; if it crosses itself, all enclosed "
+              "areas are inside",
               required(unit::points)},
-             {"angle", &Revolve::angle, "How far it turns", turns()},
+             {"angle", &Revolve::angle, "Angle of the revolution", turns()},
              {"material", &Revolve::material, "Its material"}},
             no_inputs,
             "revolve([[3, 0], [8, 0], [8, 2], [5, 4], [5, 10], [3, 10]], 270, \"blue\");"};

@@ -20,20 +20,21 @@ struct Relief {
   std::shared_ptr<const HeightImage> image;  // read when the node is made
 
   static Spec<Relief> spec() {
-    return {"relief",
-            "imported",
-            "Plate that rises where an image is bright; centred on the z axis, its foot on z = 0.",
-            {{"path", &Relief::path,
-              "A PNG file, gray or in colours, of which the brightness counts; relative to the script, then to the "
-              "working directory",
-              required()},
-             {"width", &Relief::width, "Along x", unit::positive_mm},
-             {"height", &Relief::height, "Of white over black", unit::positive_mm},
-             {"base", &Relief::base, "Of what lies below black", unit::positive_mm},
-             {"material", &Relief::material, "Its material"},
-             {"length", &Relief::length_y, "Along y; 0 keeps the shape of the image", unit::not_negative_mm}},
-            no_inputs,
-            "relief(\"models/leaf.png\", 30, 2, 1, \"green\");"};
+    return {
+        "relief",
+        "imported",
+        "A plate that is higher where an image is brighter, centred on the z axis, with its foot on z = 0.",
+        {{"path", &Relief::path,
+          "A PNG file, gray or in colours; only its brightness counts; relative to the script, then to the working "
+          "directory",
+          required()},
+         {"width", &Relief::width, "Length along x", unit::positive_mm},
+         {"height", &Relief::height, "Height of white above black", unit::positive_mm},
+         {"base", &Relief::base, "Thickness below black", unit::positive_mm},
+         {"material", &Relief::material, "Its material"},
+         {"length", &Relief::length_y, "Length along y; 0: keeps the proportions of the image", unit::not_negative_mm}},
+        no_inputs,
+        "relief(\"models/leaf.png\", 30, 2, 1, \"green\");"};
   }
 
   bool complete(const Reader& reader) {

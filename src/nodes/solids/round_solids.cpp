@@ -18,7 +18,7 @@ struct Sphere {
     return {
         "sphere",
         "round solids",
-        "Ball, centred on the origin.",
+        "A ball centred on the origin.",
         {{"radius", &Sphere::radius, "Its radius", unit::positive_mm}, {"material", &Sphere::material, "Its material"}},
         no_inputs,
         "sphere(5, \"red\");"};
@@ -42,7 +42,7 @@ struct Ellipsoid {
   static Spec<Ellipsoid> spec() {
     return {"ellipsoid",
             "round solids",
-            "Ball stretched along the axes, centred on the origin.",
+            "A ball stretched along the axes, centred on the origin.",
             {{"radii", &Ellipsoid::radii, "Half lengths along x, y and z", unit::positive_mm},
              {"material", &Ellipsoid::material, "Its material"}},
             no_inputs,
@@ -72,7 +72,7 @@ struct Cylinder {
   static Spec<Cylinder> spec() {
     return {"cylinder",
             "round solids",
-            "Cylinder along z, centred on the origin.",
+            "A cylinder along z, centred on the origin.",
             {{"radius", &Cylinder::radius, "Its radius", unit::positive_mm},
              {"height", &Cylinder::height, "Its length along z", unit::positive_mm},
              {"material", &Cylinder::material, "Its material"}},
@@ -97,9 +97,9 @@ struct Cone {
   static Spec<Cone> spec() {
     return {"cone",
             "round solids",
-            "Cone or frustum along z, centred on the origin, its base down.",
+            "A cone or frustum along z, centred on the origin, with its base down.",
             {{"base", &Cone::base, "Radius at the lower end", unit::not_negative_mm},
-             {"top", &Cone::top, "Radius at the upper end; 0 is a point", unit::not_negative_mm},
+             {"top", &Cone::top, "Radius at the upper end; 0: a point", unit::not_negative_mm},
              {"height", &Cone::height, "Its length along z", unit::positive_mm},
              {"material", &Cone::material, "Its material"}},
             no_inputs,
@@ -138,7 +138,7 @@ struct Torus {
   static Spec<Torus> spec() {
     return {"torus",
             "round solids",
-            "Ring lying flat in XY, centred on the origin.",
+            "A ring that lies flat in XY, centred on the origin.",
             {{"ring", &Torus::ring, "Radius of the centre line", unit::positive_mm},
              {"tube", &Torus::tube, "Radius of the tube", unit::positive_mm},
              {"material", &Torus::material, "Its material"}},
@@ -167,7 +167,7 @@ struct Strut {
     return {
         "strut",
         "round solids",
-        "Cylinder from one point to another.",
+        "A cylinder from one point to another.",
         {{"start", &Strut::start, "Centre of one end", unit::mm},
          {"end", &Strut::end, "Centre of the other end", unit::mm},
          {"radius", &Strut::radius, "Its radius; t runs from 0 at its start to 1 at its end",

@@ -20,9 +20,10 @@ struct Sum {
         "sum",
         "booleans",
         "Joins its children organically, or takes a level set of their summed distances.",
-        {{"blend", &Sum::blend, "How far from its surface a child still swells its neighbours; 0: take the level set",
+        {{"blend", &Sum::blend,
+          "Distance from its surface up to which a child swells its neighbours; 0: the level set is used",
           unit::not_negative_mm},
-         {"iso", &Sum::iso, "Without blend: solid where the distances add up to this or less", unit::mm}},
+         {"iso", &Sum::iso, "Level set, without blend: solid where the distances add up to this or less", unit::mm}},
         many_solids,
         "sum(blend=2) { strut((0, 0, 0), (10, 0, 0), 1, \"red\"); strut((0, 0, 0), (0, 10, 0), 1, \"blue\"); }"};
   }

@@ -40,25 +40,26 @@ struct Attribute {
   std::vector<std::pair<std::string, MaterialId>> held;  // materials of a mixture, set when the node is made
 
   static Spec<Attribute> spec() {
-    return {"attribute",
-            "attributes",
-            "Gives its child a named value, constant or by a formula: a number such as a density, a vector, a colour "
-            "or a mixture of materials.",
-            {{"name", &Attribute::name, "Its name; standard names such as modulus have a unit and a range", required()},
-             {"value", &Attribute::value,
-              "A number or an expression; three for a vector, four or \"#rrggbb\" for a colour, a material or a value "
-              "for a mixture. In expressions d is the signed distance of the child, t the place along its struts, and "
-              "attributes of the child are called by their names",
-              required(over_child())},
-             {"unit", &Attribute::unit_text, "Its unit, for whoever reads it; that of a standard name is known"},
-             {"default", &Attribute::default_value, "Its value where no solid gives one"},
-             {"overlap", &Attribute::overlap,
-              "How values combine where solids overlap, number by number; mix weighs them in blends",
-              one_of({overlap_names.begin(), overlap_names.end()})},
-             {"type", &Attribute::type, "What it is; auto: as the value says, or the standard name",
-              one_of({"auto", "number", "vector", "colour", "mixture"})}},
-            one_solid,
-            "attribute(\"modulus\", \"1000 + 100*z\") { cube(10); }"};
+    return {
+        "attribute",
+        "attributes",
+        "Gives its child a named value, constant or by a formula: a number such as a density, a vector, a colour "
+        "or a mixture of materials.",
+        {{"name", &Attribute::name, "Its name; standard names such as modulus have a unit and a range", required()},
+         {"value", &Attribute::value,
+          "A number or an expression; three of them for a vector, four or \"#rrggbb\" for a colour; a material or a "
+          "value for a mixture. In expressions d is the signed distance of the child and t the position along its "
+          "struts; its attributes are available by name",
+          required(over_child())},
+         {"unit", &Attribute::unit_text, "Its unit, as information for users of the value; standard names have one"},
+         {"default", &Attribute::default_value, "Its value where no solid sets it"},
+         {"overlap", &Attribute::overlap,
+          "Rule that combines values where solids overlap, number by number; mix weights them in blends",
+          one_of({overlap_names.begin(), overlap_names.end()})},
+         {"type", &Attribute::type, "Its type; auto: that of the value, or of the standard name",
+          one_of({"auto", "number", "vector", "colour", "mixture"})}},
+        one_solid,
+        "attribute(\"modulus\", \"1000 + 100*z\") { cube(10); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {

@@ -68,30 +68,29 @@ struct Noise {
   program::SourceField source;  // for kinds without a formula; made with the node
 
   static Spec<Noise> spec() {
-    return {
-        "noise",
-        "values",
-        "Smooth random values, which vary over lengths of its size. The same seed gives the same values.",
-        {{"size", &Noise::size, "How far it is from one random gradient to the next", unit::positive_mm},
-         {"seed", &Noise::seed, "Whole number that tells noises apart", from_to(0, 1e9)},
-         {"kind", &Noise::kind,
-          "gradient (Perlin's), simplex (with less of a grid), or cellular (the distance to the nearest of scattered "
-          "points)",
-          one_of({"gradient", "simplex", "cellular"})},
-         {"octaves", &Noise::octaves, "How many noises are summed, each finer and weaker than the one before",
-          from_to(1, 12)},
-         {"gain", &Noise::gain, "How strong each is beside the one before", from_to(0, 1)},
-         {"lacunarity", &Noise::lacunarity, "How many times as fine each is", from_to(1, 8)},
-         {"turbulence", &Noise::turbulence, "Sum how far noises are from their mean, which gives creases"},
-         {"period", &Noise::period,
-          "Number of sizes after which it repeats along x, y and z, so that tiles fit; 0: 289 for gradient noise, none "
-          "for others",
-          from_to(0, 289)}},
-        no_inputs,
-        "sphere(8 + 2*noise(size=4));",
-        {{"value", &Noise::value, "From 0 to 1, 0.5 on the average (without turbulence, and not cellular)",
-          Interval(0, 1)},
-         {"slope", &Noise::slope, "How fast the value grows along x, y and z, in 1/mm; of gradient noise"}}};
+    return {"noise",
+            "values",
+            "Smooth random values that vary over lengths of about its size. The same seed gives the same values.",
+            {{"size", &Noise::size, "Distance from one random gradient to the next", unit::positive_mm},
+             {"seed", &Noise::seed, "Whole number that selects the noise", from_to(0, 1e9)},
+             {"kind", &Noise::kind,
+              "gradient (Perlin's), simplex (whose grid is less visible), or cellular (the distance to the nearest of "
+              "scattered points)",
+              one_of({"gradient", "simplex", "cellular"})},
+             {"octaves", &Noise::octaves, "Number of noises that are summed, each finer and weaker than the one before",
+              from_to(1, 12)},
+             {"gain", &Noise::gain, "Strength of each noise relative to the one before", from_to(0, 1)},
+             {"lacunarity", &Noise::lacunarity, "Fineness of each noise relative to the one before", from_to(1, 8)},
+             {"turbulence", &Noise::turbulence, "Sums the noises' distances from their mean, which gives creases"},
+             {"period", &Noise::period,
+              "Number of sizes after which it repeats along x, y and z, so that tiles match; 0: 289 for gradient "
+              "noise, none for others",
+              from_to(0, 289)}},
+            no_inputs,
+            "sphere(8 + 2*noise(size=4));",
+            {{"value", &Noise::value,
+              "Number from 0 to 1; 0.5 on average, except with turbulence and for cellular noise", Interval(0, 1)},
+             {"slope", &Noise::slope, "Derivatives of gradient noise along x, y and z, in 1/mm"}}};
   }
 
   bool complete(const Reader& reader) {

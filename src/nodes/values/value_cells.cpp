@@ -17,8 +17,8 @@ using namespace design;
 
 constexpr double sqrt3 = 1.7320508075688772;
 
-constexpr std::string_view index_doc = "Which cell it is, whole numbers; the one at the origin is 0, 0, 0";
-constexpr std::string_view border_doc = "To the nearest border of the cell, mm";
+constexpr std::string_view index_doc = "Number of the cell as whole numbers; the cell at the origin is 0, 0, 0";
+constexpr std::string_view border_doc = "Distance to the nearest border of the cell, mm";
 
 // A position in a hexagonal grid. The integers q and r count hexagons along x and along a direction at 60 degrees to
 // it.
@@ -45,15 +45,15 @@ struct HexCells {
   static Spec<HexCells> spec() {
     return {"hex_cells",
             "values",
-            "Where a point is in a honeycomb of upright hexagons, one of which is centred on the origin; two of their "
-            "sides are across x.",
-            {{"size", &HexCells::width, "From side to side", unit::positive_mm}},
+            "The position of a point in a honeycomb of upright hexagons, one of which is centred on the origin. Two of "
+            "their sides are perpendicular to x.",
+            {{"size", &HexCells::width, "Distance from side to side", unit::positive_mm}},
             no_inputs,
             "cylinder(10, 4, mix(\"red\", \"blue\", hex_cells(5).distance));",
             {{"index", &HexCells::index, index_doc},
-             {"local", &HexCells::local, "The place in the cell in its sizes: x, y, and 0"},
+             {"local", &HexCells::local, "Position in the cell, in units of its size: x, y, and 0"},
              {"distance", &HexCells::distance, border_doc},
-             {"corner", &HexCells::corner, "To the nearest corner of the cell, mm"}}};
+             {"corner", &HexCells::corner, "Distance to the nearest corner of the cell, mm"}}};
   }
 
   VectorField index(const Ask& ask) const {
@@ -100,13 +100,13 @@ struct TriangleCells {
   static Spec<TriangleCells> spec() {
     return {"triangle_cells",
             "values",
-            "Where a point is in a pattern of upright triangles with equal sides, six of which meet in the origin.",
+            "The position of a point in a pattern of upright equilateral triangles, six of which meet at the origin.",
             {{"size", &TriangleCells::side, "Length of a side", unit::positive_mm}},
             no_inputs,
             "cylinder(10, 4, mix(\"red\", \"blue\", triangle_cells(6).distance));",
             {{"index", &TriangleCells::index,
-              "Whole numbers of the strips between parallel sides that cross in the triangle"},
-             {"local", &TriangleCells::local, "How far it is from each side, in heights, from 0 to 1"},
+              "Numbers of the strips between parallel sides that intersect in the triangle"},
+             {"local", &TriangleCells::local, "Distance from each side, in heights of the triangle, from 0 to 1"},
              {"distance", &TriangleCells::distance, border_doc}}};
   }
 
@@ -144,14 +144,14 @@ struct TetrahedronCells {
   static Spec<TetrahedronCells> spec() {
     return {"tetrahedron_cells",
             "values",
-            "Where a point is in a pattern of tetrahedra: cubes, one of which has a corner in the origin, cut in six "
-            "along a diagonal (Kuhn, 1960).",
+            "The position of a point in a pattern of tetrahedra: cubes, one of which has a corner at the origin, are "
+            "cut in six along a diagonal (Kuhn, 1960).",
             {{"size", &TetrahedronCells::size, "Side of a cube", unit::positive_mm}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", tetrahedron_cells(6).distance));",
-            {{"index", &TetrahedronCells::index, "Which cube it is, whole numbers along x, y and z"},
-             {"which", &TetrahedronCells::which, "Which of the cube's six, from 0 to 5", Interval(0, 5)},
-             {"local", &TetrahedronCells::local, "The place in the cube, from 0 to 1 along x, y and z"},
+            {{"index", &TetrahedronCells::index, "Number of the cube along x, y and z"},
+             {"which", &TetrahedronCells::which, "Number of the tetrahedron in its cube, from 0 to 5", Interval(0, 5)},
+             {"local", &TetrahedronCells::local, "Position in the cube, from 0 to 1 along x, y and z"},
              {"distance", &TetrahedronCells::distance, border_doc}}};
   }
 
@@ -190,17 +190,18 @@ struct VoronoiValues {
   static Spec<VoronoiValues> spec() {
     return {"voronoi_cells",
             "values",
-            "Where a point is among the cells around scattered points, one of which lies in each cube of a lattice.",
-            {{"size", &VoronoiValues::size, "Side of the cubes, and about the size of a cell", unit::positive_mm},
-             {"seed", &VoronoiValues::seed, "Whole number that tells patterns apart", from_to(0, 1e9)},
-             {"jitter", &VoronoiValues::jitter, "How far points lie from the middles of their cubes; 0: they are cubes",
-              from_to(0, 1)}},
+            "The position of a point among the Voronoi cells of scattered points, one of which lies in each cube of a "
+            "lattice.",
+            {{"size", &VoronoiValues::size, "Side of the cubes, which is about the size of a cell", unit::positive_mm},
+             {"seed", &VoronoiValues::seed, "Whole number that selects the pattern", from_to(0, 1e9)},
+             {"jitter", &VoronoiValues::jitter,
+              "Greatest offset of points from the centres of their cubes; 0: cells are cubes", from_to(0, 1)}},
             no_inputs,
             "sphere(9, mix(\"red\", \"blue\", voronoi_cells(6).distance));",
             {{"index", &VoronoiValues::index, "A whole number from 0 to 16777215 for each cell", Interval(0, 16777215)},
-             {"local", &VoronoiValues::local, "The way from the cell's point, mm"},
+             {"local", &VoronoiValues::local, "Vector from the cell's point, mm"},
              {"distance", &VoronoiValues::distance, border_doc},
-             {"point", &VoronoiValues::point, "To the cell's point, mm"}}};
+             {"point", &VoronoiValues::point, "Distance to the cell's point, mm"}}};
   }
 
   bool complete(const Reader&) {
@@ -251,16 +252,16 @@ struct RandomOf {
   static Spec<RandomOf> spec() {
     return {"random",
             "values",
-            "A random number for each cell or part: the same wherever its index is the same.",
+            "A random number for each cell or part. Equal indices give equal numbers.",
             {{"index", &RandomOf::index,
-              "One number or three, which are rounded, such as the index of a cell or the label of a part",
+              "One or three numbers, which are rounded, such as the index of a cell or the label of a part",
               required(one_or_three())},
-             {"seed", &RandomOf::seed, "Whole number that tells draws apart", from_to(0, 1e9)},
-             {"lo", &RandomOf::least, "The least number"},
-             {"hi", &RandomOf::greatest, "The greatest number"}},
+             {"seed", &RandomOf::seed, "Whole number that selects the random numbers", from_to(0, 1e9)},
+             {"lo", &RandomOf::least, "Least number"},
+             {"hi", &RandomOf::greatest, "Greatest number"}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", random(cells((3, 3, 3)).index)));",
-            {{"value", &RandomOf::value, "Between the two, all alike"}}};
+            {{"value", &RandomOf::value, "Number between the two, uniformly distributed"}}};
   }
 
   bool complete(const Reader&) {

@@ -110,18 +110,18 @@ struct ColourValue {
   Choice from = "srgb", to = "srgb";
 
   static Spec<ColourValue> spec() {
-    return {
-        "colour",
-        "values",
-        "A colour in another space: sRGB, linear light, HSV or CIE L*a*b*.",
-        {{"numbers", &ColourValue::numbers,
-          "Red, green and blue from 0 to 1; of hsv hue in degrees, saturation and value; of lab L from 0 to 100, a, b",
-          required()},
-         {"space", &ColourValue::from, "The space of the numbers", colour_spaces()},
-         {"to", &ColourValue::to, "The space of what it gives", colour_spaces()}},
-        no_inputs,
-        "attribute(\"color_rgb\", colour([\"10*theta\", 1, 1], space=\"hsv\").colour) sphere(5);",
-        {{"colour", &ColourValue::colour, "Its three numbers"}}};
+    return {"colour",
+            "values",
+            "A colour converted between spaces: sRGB, linear light, HSV or CIE L*a*b*.",
+            {{"numbers", &ColourValue::numbers,
+              "Red, green and blue from 0 to 1; for hsv hue in degrees, saturation and value; for lab L from 0 to 100, "
+              "a, b",
+              required()},
+             {"space", &ColourValue::from, "Colour space of the numbers", colour_spaces()},
+             {"to", &ColourValue::to, "Colour space of the result", colour_spaces()}},
+            no_inputs,
+            "attribute(\"color_rgb\", colour([\"10*theta\", 1, 1], space=\"hsv\").colour) sphere(5);",
+            {{"colour", &ColourValue::colour, "The three numbers of the colour"}}};
   }
 
   VectorField colour(const Ask& ask) const {
@@ -140,15 +140,16 @@ struct ColourDifference {
   Choice space = "srgb";
 
   static Spec<ColourDifference> spec() {
-    return {"colour_difference",
-            "values",
-            "How different two colours look: the distance in CIE L*a*b* (Delta E of 1976); about 2 can just be seen.",
-            {{"a", &ColourDifference::a, "A colour", required()},
-             {"b", &ColourDifference::b, "Another", required()},
-             {"space", &ColourDifference::space, "The space of both", colour_spaces()}},
-            no_inputs,
-            "sphere(8, mix(\"red\", \"blue\", colour_difference([\"x/8\", 0, 0], [1, 0, 0]) / 50));",
-            {{"value", &ColourDifference::value, "From 0 on", Interval(0, 1e6)}}};
+    return {
+        "colour_difference",
+        "values",
+        "The visible difference of two colours: the distance in CIE L*a*b* (Delta E of 1976). About 2 is just visible.",
+        {{"a", &ColourDifference::a, "A colour", required()},
+         {"b", &ColourDifference::b, "Another colour", required()},
+         {"space", &ColourDifference::space, "Colour space of both", colour_spaces()}},
+        no_inputs,
+        "sphere(8, mix(\"red\", \"blue\", colour_difference([\"x/8\", 0, 0], [1, 0, 0]) / 50));",
+        {{"value", &ColourDifference::value, "Difference, 0 or more", Interval(0, 1e6)}}};
   }
 
   Field value(const Ask& ask) const {
@@ -177,23 +178,24 @@ struct Texture {
         "values",
         "An image over space, centred on the origin.",
         {{"path", &Texture::path, "A PNG file; relative to the script, then to the working directory", required()},
-         {"width", &Texture::width, "Of the image, mm; around a cylinder, along its circumference", unit::positive_mm},
+         {"width", &Texture::width, "Width of the image; around a cylinder, along its circumference",
+          unit::positive_mm},
          {"projection", &Texture::projection,
           "planar (along z), cylindrical (around z, upright), or triplanar (along the axis that the surface of `on` "
           "faces most)",
           one_of({"planar", "cylindrical", "triplanar"})},
-         {"wrap", &Texture::wrap, "Beside the image: repeat it, or go on with the pixels of its border",
+         {"wrap", &Texture::wrap, "Outside the image: repeat it, or continue the pixels of its border (clamp)",
           one_of({"repeat", "clamp"})},
-         {"encoding", &Texture::encoding, "What the numbers are: srgb (as in the file) or linear (light)",
+         {"encoding", &Texture::encoding, "Encoding of the numbers: srgb (as in the file) or linear (light)",
           one_of({"srgb", "linear"})},
-         {"on", &Texture::on, "The solid on which a triplanar image lies"},
-         {"sharpness", &Texture::sharpness, "How abruptly triplanar images change from one axis to the next",
+         {"on", &Texture::on, "Solid on which a triplanar image lies"},
+         {"sharpness", &Texture::sharpness, "Sharpness of the change of triplanar images from one axis to the next",
           from_to(1, 64)}},
         no_inputs,
         "cube(20, mix(\"red\", \"blue\", texture(\"models/leaf.png\", 20)));",
-        {{"value", &Texture::value, "How bright it is, from 0 to 1", Interval(0, 1)},
+        {{"value", &Texture::value, "Brightness, from 0 to 1", Interval(0, 1)},
          {"colour", &Texture::colour, "Red, green and blue, from 0 to 1"},
-         {"alpha", &Texture::alpha, "How opaque it is, from 0 to 1", Interval(0, 1)}}};
+         {"alpha", &Texture::alpha, "Opacity, from 0 to 1", Interval(0, 1)}}};
   }
 
   bool complete(const Reader& reader) {
@@ -271,13 +273,13 @@ struct MixMany {
   static Spec<MixMany> spec() {
     return {"mix_many",
             "values",
-            "A mixture of several materials or mixtures by their shares, of which negative ones count as 0.",
+            "A mixture of several materials or mixtures by their shares. Negative shares count as 0.",
             {{"materials", &MixMany::materials, "Materials or mixtures", required(mixable())},
-             {"shares", &MixMany::shares, "A number for each; they need not add up to 1", required()}},
+             {"shares", &MixMany::shares, "A number for each material; they need not add up to 1", required()}},
             no_inputs,
             "sphere(8, mix_many([\"red\", \"blue\", \"clear\"], [\"x^2\", \"y^2\", \"z^2\"]));",
             {{"mixture", &MixMany::mixture,
-              "Their mixture; where all shares are 0 or not numbers, the first alone, with a warning"}}};
+              "The mixture; where all shares are 0 or not numbers, the first material alone, with a warning"}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -323,16 +325,16 @@ struct ColourMixture {
   static Spec<ColourMixture> spec() {
     return {"colour_mixture",
             "values",
-            "The mixture of materials that shows a colour: by the mean of their light, and with the least graininess.",
+            "The mixture of materials that shows a colour by the mean of their light, with the least graininess.",
             {{"colour", &ColourMixture::wanted, "Red, green and blue from 0 to 1 (sRGB)", required()},
              {"materials", &ColourMixture::materials,
-              "Those that may be mixed, 12 at most; their colours are those of the "
-              "materials file, without their opacity",
+              "Materials that may be mixed, at most 12; their colours in the materials file count, without opacity",
               required()}},
             no_inputs,
             "cube(20, colour_mixture(texture(\"models/leaf.png\", 20).colour, [\"red\", \"green\", \"white\", "
             "\"black\"]));",
-            {{"mixture", &ColourMixture::mixture, "Where no mixture shows the colour, that which comes nearest"},
+            {{"mixture", &ColourMixture::mixture,
+              "The mixture, or the one with the nearest colour if none shows the colour"},
              {"difference", &ColourMixture::difference,
               "Visible difference: the distance in CIE L*a*b* (Delta E of 1976)", Interval(0, 1e6)}}};
   }
