@@ -46,7 +46,7 @@ struct VolumePlace {
                      ".vdb or .vti file");
     all.emplace_back(
         "channel", own(&VolumePlace::voxel_channel),
-        "Number of one of several values per voxel, from 0; -1: the only one, or the length of vectors in a .vdb file",
+        "Index of one of several values per voxel, from 0; -1: the only one, or the length of vectors in a .vdb file",
         design::from_to(-1, 100000));
     return all;
   }

@@ -30,7 +30,8 @@ struct VolumeSolid : VolumePlace {
         {{"material", &VolumeSolid::material, "Its material"},
          {"level", &VolumeSolid::level, "Value at the surface, which is the least one inside"},
          {"upper", &VolumeSolid::upper, "Greatest value inside"},
-         {"label", &VolumeSolid::label, "Number of the voxels inside, without interpolation; -1: the level decides",
+         {"label", &VolumeSolid::label,
+          "Value of the voxels that are inside, without interpolation; -1: the level decides",
           from_to(-1, greatest_label)},
          {"above", &VolumeSolid::above, "Values above the level are inside; false: values below it"},
          {"between", &VolumeSolid::between, "Interpolation between the centres of voxels",
@@ -41,7 +42,7 @@ struct VolumeSolid : VolumePlace {
                             "Name or ID of a segment of a .seg.nrrd file, in place of a label");
     return {"volume_solid",
             "imported",
-            "The region of a grid of numbers (a scan, say) where they reach a level or equal a label.",
+            "The region of a grid of numbers (a scan, say) where the numbers reach a level or equal a label.",
             std::move(parameters),
             no_inputs,
             "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};

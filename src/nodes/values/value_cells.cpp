@@ -17,7 +17,7 @@ using namespace design;
 
 constexpr double sqrt3 = 1.7320508075688772;
 
-constexpr std::string_view index_doc = "Number of the cell as whole numbers; the cell at the origin is 0, 0, 0";
+constexpr std::string_view index_doc = "Index of the cell, as whole numbers; the cell at the origin is 0, 0, 0";
 constexpr std::string_view border_doc = "Distance to the nearest border of the cell, mm";
 
 // A position in a hexagonal grid. The integers q and r count hexagons along x and along a direction at 60 degrees to
@@ -105,7 +105,7 @@ struct TriangleCells {
             no_inputs,
             "cylinder(10, 4, mix(\"red\", \"blue\", triangle_cells(6).distance));",
             {{"index", &TriangleCells::index,
-              "Numbers of the strips between parallel sides that intersect in the triangle"},
+              "Indices of the strips between parallel sides that intersect in the triangle"},
              {"local", &TriangleCells::local, "Distance from each side, in heights of the triangle, from 0 to 1"},
              {"distance", &TriangleCells::distance, border_doc}}};
   }
@@ -149,8 +149,8 @@ struct TetrahedronCells {
             {{"size", &TetrahedronCells::size, "Side of a cube", unit::positive_mm}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", tetrahedron_cells(6).distance));",
-            {{"index", &TetrahedronCells::index, "Number of the cube along x, y and z"},
-             {"which", &TetrahedronCells::which, "Number of the tetrahedron in its cube, from 0 to 5", Interval(0, 5)},
+            {{"index", &TetrahedronCells::index, "Index of the cube along x, y and z"},
+             {"which", &TetrahedronCells::which, "Index of the tetrahedron in its cube, from 0 to 5", Interval(0, 5)},
              {"local", &TetrahedronCells::local, "Position in the cube, from 0 to 1 along x, y and z"},
              {"distance", &TetrahedronCells::distance, border_doc}}};
   }

@@ -92,7 +92,7 @@ struct Cells {
         "intersection() { sphere(10); tile((4, 4, 4)) { sphere(2.5, mix(\"red\", \"blue\", "
         "cells((4, 4, 4)).distance)); } }",
         {{"index", &Cells::index,
-          "Number of the cell along x, y and z, as whole numbers; the cell at the origin is 0, 0, 0"},
+          "Index of the cell along x, y and z, as whole numbers; the cell at the origin is 0, 0, 0"},
          {"local", &Cells::local, "Position in the cell, from -0.5 to 0.5 along x, y and z"},
          {"distance", &Cells::distance, "Distance to the nearest border of the cell, mm"}}};
   }

@@ -191,12 +191,12 @@ struct PointDistance {
   static Spec<PointDistance> spec() {
     return {"point_distance",
             "values",
-            "The distance to the nearest of some points, and the number of that point.",
+            "The distance to the nearest of some points, and the index of that point.",
             {{"points", &PointDistance::points, "One or more points", required(unit::points)}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", point_distance([[4, 0, 0], [-4, 2, 0]]) / 6));",
             {{"distance", &PointDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
-             {"index", &PointDistance::index, "Number of the nearest point, from 0 on"}}};
+             {"index", &PointDistance::index, "Index of the nearest point, from 0 on"}}};
   }
 
   bool complete(const Reader& reader) {
