@@ -137,8 +137,8 @@ class NodeHasher {
   }
 
   std::unordered_map<const Node*, Hash> shared_;
-  std::vector<Hash>
-      waiting_;  // hashes of nodes that are an input of exactly one node, which is hashed after all its inputs
+  // Hashes of nodes that are an input of exactly one node, which is hashed after all its inputs.
+  std::vector<Hash> waiting_;
 };
 
 }  // namespace

@@ -59,11 +59,11 @@ enum class PartQuery : uint8_t {
 // Fields of a set of parts at a point.
 struct PartFields {
   Field inside;             // or the interior, for that query
-  Field count;              // for mix: number of parts that hold the point
-  Composition composition;  // for mix: sums of fractions, valid where their checks are 0
+  Field count;              // number of parts that hold the point; for mix
+  Composition composition;  // sums of fractions, valid where their checks are 0; for mix
   Field along;
-  Field weight;                    // with a falloff: sum of the weights
-  Composition weighed;             // with a falloff: sums of weighted fractions
+  Field weight;                    // sum of the weights; with a falloff
+  Composition weighed;             // sums of weighted fractions; with a falloff
   std::vector<size_t> others;      // numbers of inputs that are not among the parts
   std::optional<MaterialId> only;  // set if all parts consist of this material and no check can fail
 };
@@ -108,8 +108,8 @@ struct AttributeDeclaration {
   Overlap overlap = Overlap::first;
   ValueType type = ValueType::number;
   std::array<double, 4> default_numbers{};  // defaults of vectors and colours
-  std::vector<std::string> materials = {};  // for a mixture: materials that it may contain, in order of their ids
-  std::vector<std::string> labels = {};     // for a label: its names
+  std::vector<std::string> materials = {};  // materials that a mixture may contain, in order of their ids
+  std::vector<std::string> labels = {};     // names of a label
   Interval range = Interval::everything();  // range in which its numbers should lie
   bool operator==(const AttributeDeclaration&) const = default;
 };

@@ -183,7 +183,7 @@ class Lowering : public OutputFields {
   std::vector<LocalCheck> local_checks_;
   std::unordered_map<Key, Field, KeyHash> fields_;
   std::unordered_map<Key, VectorField, KeyHash> numbers_;
-  std::unordered_map<Key, Composition, KeyHash> compositions_;  // also of mixtures
+  std::unordered_map<Key, Composition, KeyHash> compositions_;  // compositions and mixtures
 
   friend class LoweringContext;
 };

@@ -14,12 +14,12 @@ struct ManyParts {
   std::shared_ptr<const program::PartSet> set;
   // The slots that hold a composition.
   struct CompositionSlots {
-    std::vector<std::pair<MaterialId, size_t>> materials;  // in ascending order
-    std::vector<std::pair<uint32_t, size_t>> checks;       // with the numbers of Lowering's checks
+    std::vector<std::pair<MaterialId, size_t>> materials;  // materials and their slots, in ascending order
+    std::vector<std::pair<uint32_t, size_t>> checks;       // numbers of Lowering's checks and their slots
   };
 
   size_t count_slot = 0, along_slot = 0, weight_slot = 0;  // 0 if there is no such slot
-  CompositionSlots held, weighed;                          // for parts that hold the point, and weighted
+  CompositionSlots held, weighed;  // composition of parts that hold the point, and weighted composition
   std::vector<size_t> others;
   std::optional<MaterialId> only;
 

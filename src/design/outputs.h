@@ -27,7 +27,7 @@ struct NodeOutput {
   size_t output = 0;  // position in the type's list of outputs
   int axis = -1;      // coordinate of a vector
 
-  std::string name() const;  // for example "value" or "index.x"
+  std::string name() const;  // the output's name: "value" or "index.x"
 };
 
 // Computes fields of outputs at points of its builder.

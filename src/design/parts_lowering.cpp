@@ -14,7 +14,7 @@ namespace {
 // code for each tile.
 constexpr size_t least_parts = 3, many_parts = 32;
 constexpr double most_filling_of_few = 0.25;
-constexpr size_t longest_of_few = 100;  // in instructions
+constexpr size_t longest_of_few = 100;  // number of instructions
 constexpr size_t parts_per_task = 256;
 
 // Returns about half the distance between neighbouring parts.

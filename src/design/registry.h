@@ -35,8 +35,8 @@ struct OutputInfo {
 // The number of solids that a node takes.
 struct InputInfo {
   size_t least = 0, most = 0;
-  bool grouped =
-      false;  // one statement of a script, such as a loop or a module call, makes one input, the union of its solids
+  // One statement of a script, such as a loop or a module call, makes one input, the union of its solids.
+  bool grouped = false;
   OfNothing of_nothing = OfNothing::gives_nothing;
 };
 inline constexpr InputInfo no_inputs{};
@@ -53,7 +53,7 @@ class NodeType {
   std::string name, category, sentence, example;  // `example` is a .vcad script
   InputInfo inputs;
   std::vector<ParameterInfo> parameters;
-  std::vector<OutputInfo> outputs;    // for value nodes; at most one is a mixture
+  std::vector<OutputInfo> outputs;    // outputs of value nodes; at most one is a mixture
   bool is_nothing = false;            // true if its nodes are solids without points
   const NodeType* nothing = nullptr;  // the registry's type of empty solids, or null
 

@@ -23,9 +23,9 @@ namespace ombre::design {
 // The selection of bodies of a mesh file, and the materials that they get.
 struct MeshUse {
   std::string object;                         // name of one of the file's objects; empty for all
-  Choice inside = "nonzero";                  // or "parity", "generalized"
-  Choice materials = "one";                   // or "names", "colours"
-  MaterialName material;                      // of all bodies, or of those without one in the file
+  Choice inside = "nonzero";                  // rule for the inside: "nonzero", "parity" or "generalized"
+  Choice materials = "one";                   // source of materials: "one", "names" or "colours"
+  MaterialName material;                      // material of all bodies, or of those without one in the file
   std::vector<MaterialForName> material_map;  // looked up before the table of materials
 };
 
@@ -59,7 +59,7 @@ using PendingSourcePtr = std::shared_ptr<const PendingSource>;
 
 // The solids of one material.
 struct CadPart {
-  std::string material;  // as for meshes
+  std::string material;  // name of the material, as in MeshPart
   PendingSourcePtr source;
   bool is_single = true;  // true if it is a single solid
 };
@@ -67,7 +67,7 @@ struct CadPart {
 // An image as a field with the channel "value", from 0 for black to 1 for white, in pixels from its lower left corner.
 struct HeightImage {
   program::SourceField source;
-  double columns = 0, rows = 0;         // in pixels
+  double columns = 0, rows = 0;         // size in pixels
   double step_across = 0, step_up = 0;  // greatest differences between neighbours
 };
 
@@ -89,7 +89,7 @@ struct MeshRequest {
 struct MadeSolid {
   std::string part, material;  // empty if there is none
   std::optional<Rgba> colour;
-  std::vector<Vec3> points;                        // in mm
+  std::vector<Vec3> points;                        // corners in mm
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise seen from outside
 };
 
@@ -116,8 +116,8 @@ struct ScadRequest {
   std::string script;  // the script's text if it is not the file's; the file then gives the base of relative paths
   ScriptVariables variables;  // values that override the script's variables
   std::string part;           // word of one part; empty for all
-  Choice materials =
-      "auto";  // or as in MeshUse; auto uses names if the script has some, else colours, else one material
+  // Source of materials: as in MeshUse, or "auto": names if the script has some, else colours, else one.
+  Choice materials = "auto";
   MaterialName material;
   std::vector<MaterialForName> material_map;
   std::shared_ptr<const Result> load(sources::Loading& loading);
@@ -231,7 +231,7 @@ struct ImageStackRequest {
 
 // One field of simulation results.
 struct ResultNumbers {
-  program::SourceField source;  // in the file's space, in mm; also has the channel "inside"
+  program::SourceField source;  // values in the file's space, in mm; also has the channel "inside"
   std::string name, unit;       // name and unit of the field in the file
   std::vector<int> channels;    // channels of its components
 };
@@ -257,7 +257,7 @@ using SourceRequest =
 
 // The selection of surfaces that need support, and the grid on which supports are computed.
 struct SupportUse {
-  double angle_deg = 0;          // from the vertical; surfaces up to this angle support themselves
+  double angle_deg = 0;          // greatest angle from the vertical at which surfaces support themselves
   std::optional<Vec3> pitch_mm;  // the job's if not set
 };
 

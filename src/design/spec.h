@@ -76,8 +76,8 @@ struct Parameter {
   Domain domain;
   std::function<bool(T&, const Data&, const Reader&)> set;
   std::function<Data(const T&, bool)> get;
-  std::function<bool(const T&)> is_constant;    // for numbers that may be fields
-  std::function<bool(const T&)> uses_cell;      // for numbers that may be fields
+  std::function<bool(const T&)> is_constant;    // true if the number is not a field; for numbers that may be fields
+  std::function<bool(const T&)> uses_cell;      // true if the field uses ci, cj or ck; for numbers that may be fields
   std::function<void(T&, const Reader&)> fill;  // replaces a missing value by its default
 };
 

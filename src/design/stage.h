@@ -39,8 +39,8 @@ struct LatticeChoice {
 struct StageRead {
   NodePtr solid;
   bool inside = false;     // 1 or 0
-  bool distance = false;   // in mm, negative inside
-  bool fractions = false;  // of each of its materials
+  bool distance = false;   // distance in mm, negative inside
+  bool fractions = false;  // fractions of all its materials
   std::vector<std::string> attributes;
 };
 
@@ -97,7 +97,7 @@ struct StageWork {
 class Stage {
  public:
   virtual ~Stage() = default;
-  virtual std::string name() const = 0;  // for messages: "supports"
+  virtual std::string name() const = 0;  // name for messages: "supports"
   virtual Hash content() const = 0;      // hash of what it computes and of its parameters
   virtual Box bounds() const = 0;        // bounds of its solids; nothing is inside beyond them
   virtual LatticeChoice lattice() const { return {}; }
@@ -155,7 +155,7 @@ class WholeStage : public Stage {
 struct StagePlace {
   const MaterialTable& materials;
   std::optional<JobScale> scale;
-  std::optional<Vec3> voxel_mm;         // of the job's lattice, or else of its scale
+  std::optional<Vec3> voxel_mm;         // voxel size of the job's lattice, or else of its scale
   std::optional<StageLattice> lattice;  // the job's lattice, if the nodes above only translate by whole voxels
 };
 

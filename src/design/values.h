@@ -65,7 +65,7 @@ struct MaterialName {
 struct AttributeValue {
   ValueType type = ValueType::number;
   std::array<Number, 4> numbers{};
-  MaterialName mixture = {};  // only for mixtures
+  MaterialName mixture = {};  // mixture of materials, for the type mixture
   std::span<const Number> used() const;
   bool operator==(const AttributeValue&) const = default;
 };
@@ -170,7 +170,7 @@ struct FontName {
 
 // Weights of the voxels around one, as lists along x of lists along y of lists along z.
 struct Kernel {
-  Counts3 size{};               // from 1 to 1000 each, if given
+  Counts3 size{};               // numbers of weights, 1 to 1000 each, if given
   std::vector<double> weights;  // z varies fastest; at most 10^6 finite weights, with a sum >= 0 and not all 0
   bool operator==(const Kernel&) const = default;
 };
@@ -194,11 +194,11 @@ struct Domain {
   double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
   bool above_least = false;            // must be greater than `least`, not equal
   bool required = false;               // has no default
-  std::vector<std::string> choices;    // for a Choice
+  std::vector<std::string> choices;    // words of a Choice
   std::vector<std::string> variables;  // known in expressions besides the coordinates
-  bool may_mix = false;                // for a material: may be a mixture
-  bool one_is_enough = false;          // for three numbers: a single one stands for itself and two zeros
-  bool child_attributes = false;       // expressions may use attributes of the inputs by name
+  bool may_mix = false;                // a material may be a mixture
+  bool one_is_enough = false;     // of three numbers, a single one may be given, which stands for itself and two zeros
+  bool child_attributes = false;  // expressions may use attributes of the inputs by name
 };
 
 // Returns the coordinates and the domain's additional variables.
@@ -285,8 +285,7 @@ struct Reader {
 
 // The functions `read` return true if `data` is valid; otherwise they add a diagnostic.
 bool read(const Data& data, const Domain& domain, double& value, const Reader& reader);
-bool read(const Data& data, const Domain& domain, std::optional<double>& value,
-          const Reader& reader);  // null means none
+bool read(const Data& data, const Domain& domain, std::optional<double>& value, const Reader& reader);  // null: none
 bool read(const Data& data, const Domain& domain, int& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Counts3& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Number& value, const Reader& reader);

@@ -69,7 +69,7 @@ class Expression {
   std::string text_with_names() const;
   // Inputs in the order of their first occurrence, each once.
   const std::vector<InputPtr>& inputs() const { return parsed_->inputs; }
-  std::string input_name(size_t i) const;  // as in text()
+  std::string input_name(size_t i) const;  // name of input i in text()
   // Number of nodes of the tree; 0 for a parsed formula.
   size_t size() const { return parsed_->size; }
 

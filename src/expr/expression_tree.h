@@ -36,7 +36,7 @@ class Input {
  public:
   virtual ~Input() = default;
   virtual program::Field field(const program::Point& p) const = 0;
-  virtual std::string name() const = 0;  // for people
+  virtual std::string name() const = 0;  // name for people
   virtual bool is_same(const Input& other) const = 0;
 };
 using InputPtr = std::shared_ptr<const Input>;

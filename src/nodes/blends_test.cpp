@@ -44,8 +44,7 @@ TEST(Blend, OfWallsAtARightAngleIsACircle) {
     EXPECT_NEAR(joint.distance({k + k * c, k + k * s, 0}), 0, 1e-12);
     EXPECT_TRUE(joint.inside({k + (k + 1e-6) * c, k + (k + 1e-6) * s, 5}));
     EXPECT_FALSE(joint.inside({k + (k - 1e-6) * c, k + (k - 1e-6) * s, 5}));
-    EXPECT_NEAR(joint.distance({k + 0.5 * k * c, k + 0.5 * k * s, 0}), 0.5 * k,
-                1e-12);  // distances in the fillet are exact
+    EXPECT_NEAR(joint.distance({k + 0.5 * k * c, k + 0.5 * k * s, 0}), 0.5 * k, 1e-12);  // exact in the fillet
   }
   EXPECT_NEAR(joint.distance({3, 5, 0}), 3, 1e-12);  // the nearer wall, beyond the reach of the fillet
 }

@@ -104,7 +104,7 @@ program::Program lower_derivatives(const NodePtr& node, const MaterialTable& mat
 class EveryNode : public testing::TestWithParam<std::string> {
  protected:
   const NodeType& type() const { return *registry().find(GetParam()); }
-#ifdef OMBRE_SANITIZED  // under which each takes some twenty times as long
+#ifdef OMBRE_SANITIZED  // sanitizers make each round about twenty times as slow
   static constexpr unsigned rounds = 6;
 #else
   static constexpr unsigned rounds = 30;

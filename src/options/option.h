@@ -114,7 +114,7 @@ Row<Job> option(std::string names, Member Job::*member, const Kind<T>& kind, std
   made.set = [member, read = kind.read, name = made.name()](void* job, const std::vector<std::string>& texts) {
     assign(static_cast<Job*>(job)->*member, read(texts.front(), name));
   };
-  if constexpr (std::is_same_v<Member, uint64_t>)  // as text, since a double cannot hold 64 bits
+  if constexpr (std::is_same_v<Member, uint64_t>)  // written as text, since a double cannot hold 64 bits
     made.value = [member](const void* job) { return std::to_string(static_cast<const Job*>(job)->*member); };
   return {{made}};
 }

@@ -330,8 +330,7 @@ Point::Point(Field bx, Field by, Field bz, const Affine& map)
 }
 
 std::optional<Affine> Point::from_inputs() const {
-  if (base_x_.id != 0 || base_y_.id != 1 || base_z_.id != 2)
-    return std::nullopt;  // values 0, 1 and 2 are the inputs x, y and z
+  if (base_x_.id != 0 || base_y_.id != 1 || base_z_.id != 2) return std::nullopt;  // 0, 1, 2 are the inputs
   return here_from_base_;
 }
 

@@ -50,7 +50,7 @@ class Builder {
 
   std::optional<double> constant_value(Field field) const;
   const Instruction& instruction(Field field) const { return code_[field.id]; }
-  const AffineRow& affine_row(Field field) const { return maps_[code_[field.id].aux]; }  // for affine maps only
+  const AffineRow& affine_row(Field field) const { return maps_[code_[field.id].aux]; }  // the row of an affine map
   bool is_truth(Field field) const;  // true if the value is always 0 or 1
   size_t size() const { return code_.size(); }
   // Removes all instructions but keeps the memory and the user, for another program.

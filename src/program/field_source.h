@@ -59,7 +59,7 @@ struct RayLattice {
 // built. Expensive data that is not always needed, such as a search tree, is built on first use.
 class FieldSource : public HostObject {
  public:
-  virtual std::string name() const = 0;  // for messages
+  virtual std::string name() const = 0;  // name for messages
   virtual Hash content() const = 0;      // hash of the bytes it was read from and of the options that matter
   virtual Box bounds() const = 0;        // nothing is inside beyond this box
   virtual int channel(std::string_view channel_name) const = 0;  // -1 if there is no such channel

@@ -35,7 +35,7 @@ class PartTable {
   // A program without the values of its constants.
   struct Body {
     Program code;            // the values of its constants and maps are unused
-    std::vector<int> slots;  // as in `add`
+    std::vector<int> slots;  // number of the output for each slot, as in `add`
     bool may_be_unknown = false;
     size_t input_count = 0;  // number of inputs, which are its first instructions
   };
@@ -96,7 +96,7 @@ class PartTable {
     void let_vary(size_t number);
 
     std::vector<T> common_;         // parameters of the first row
-    std::vector<uint32_t> places_;  // for each parameter: its position among those that vary, or `common`
+    std::vector<uint32_t> places_;  // position of each parameter among those that vary, or `common`
     std::vector<size_t> varying_;   // numbers of the parameters that vary
     std::deque<T> values_;          // row by row: the parameters that vary
     uint32_t rows_ = 0;

@@ -31,7 +31,7 @@ void each_operand(AnyInstruction& in, F f) {
 struct Read {
   SourceField source;
   int channel = 0;
-  uint32_t tag = 0;  // for evaluators; passes keep it
+  uint32_t tag = 0;  // set and used by evaluators; passes keep it
 };
 
 struct Program;

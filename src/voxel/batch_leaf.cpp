@@ -312,11 +312,11 @@ class BatchLeaf : public LeafEvaluator {
   TileBox tile_;
   TilePoints points_;
   std::vector<eval::PointRow> point_rows_;
-  std::vector<eval::Values> outputs_;  // for the current rows
+  std::vector<eval::Values> outputs_;  // outputs along the current rows
   Stretch stretch_;
   StripVoxels* voxels_ = nullptr;
-  std::vector<size_t> used_, choices_,
-      unknown_outputs_;                // numbers of outputs: all that matter, thresholds, and those that may be NaN
+  // Numbers of outputs: all that matter, thresholds, and those that may be NaN.
+  std::vector<size_t> used_, choices_, unknown_outputs_;
   std::vector<size_t> checks_;         // checks that may fail
   std::vector<MaterialId> materials_;  // one more than choices_
   bool has_reference_ = false;

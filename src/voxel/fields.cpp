@@ -183,7 +183,7 @@ class FieldTraversal {
 
   const FieldEvaluator::Parts& parts_;
   std::vector<FieldTile>& tiles_;
-  std::optional<StripSources> sources_;  // for the current strip
+  std::optional<StripSources> sources_;  // sources along the current strip
   std::optional<eval::BatchEvaluator> batch_;
   eval::RowEvaluator rows_{static_cast<size_t>(leaf_width)};
   TilePoints points_;

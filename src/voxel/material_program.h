@@ -25,7 +25,7 @@ struct CheckHits {
 
 struct LayerResult {
   RunLayer runs;                                // over the whole width and height of the lattice or region
-  std::optional<RunLayer> lower_bytes;          // for 16-bit shades, whose upper bytes are the runs
+  std::optional<RunLayer> lower_bytes;          // lower bytes of 16-bit shades, whose upper bytes are the runs
   std::array<uint64_t, 256> material_counts{};  // indexed by MaterialId
   std::vector<CheckHits> checks;
 };

@@ -91,7 +91,7 @@ struct ForbiddenNeighbour {
 // Everything that determines the images of layers, except the voxels and the materials' colours.
 struct Images : ImageLayout {
   std::array<uint8_t, 4> background{};  // colour of void
-  NamePattern files;                    // with {material} there is one file for each material
+  NamePattern files;                    // names of the files; with {material} there is one file for each material
   int64_t first_index = 0;              // number of the lowest layer
   bool drop_empty_layers = false;
 };

@@ -22,7 +22,7 @@ double correlation(std::array<int64_t, 3> step, uint64_t seed, uint64_t other_se
   return sum / (n * n * n) * 12;  // the variance of a uniform draw is 1/12
 }
 
-constexpr double four_sigma = 4e-3;  // for 10^6 pairs
+constexpr double four_sigma = 4e-3;  // four standard deviations for 10^6 pairs
 
 }  // namespace
 

@@ -12,12 +12,12 @@ namespace ombre::voxel {
 // The draws of a row: 24-bit integers u, each of which stands for u / 2^24.
 struct Draws {
   uint32_t hash = 0;                // row_hash(seed, j, k); voxel i has the draw hashed_draw(hash, i)
-  const uint32_t* table = nullptr;  // or a row of a mask with period 64
+  const uint32_t* table = nullptr;  // row of a mask with period 64; null if the hash is used
   uint32_t offset = 0;              // voxel i has the draw table[(i + offset) % 64]
 };
 
 struct ChoiceRow {
-  eval::Values inside;  // not 0 where there is material
+  eval::Values inside;  // values that are not 0 where there is material
   std::span<const eval::Values> thresholds;
   std::span<const MaterialId> materials;  // one more than thresholds
   Draws draws;

@@ -11,7 +11,7 @@ namespace ombre::voxel {
 // Thresholds do not decrease, and do not exceed 1. The last outputs are the checks.
 struct Selector {
   program::Program reference;
-  program::Program batch;  // for floats: with fused multiply-adds instead of affine maps; see make_batch
+  program::Program batch;  // program for floats, with fused multiply-adds instead of affine maps; see make_batch
   std::vector<MaterialId> materials;
   size_t threshold_count = 0, check_count = 0;
   // Set for error diffusion, which needs all fractions: only regions outside can be settled by ranges.

@@ -70,7 +70,7 @@ class StripVoxels {
  public:
   // Clears all voxels. `checks[layer][check]` must outlive this object.
   void begin(const TileBox& strip, std::vector<std::vector<CheckHits>>& checks, size_t kept_thresholds = 0);
-  bool touched() const { return touched_; }  // if false, all voxels are void
+  bool touched() const { return touched_; }  // false if all voxels are void
   const std::vector<MaterialId>& ids() const { return ids_; }
 
   MaterialId* at(int64_t i, int64_t j, int64_t k) {

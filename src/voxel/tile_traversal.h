@@ -17,7 +17,7 @@ struct TraversalOptions {
   int64_t small_leaf_width = 16, small_leaf_height = 4;
   size_t long_program = 60;      // number of ops per voxel that makes a program long
   size_t many_parts = 4;         // a tile that this many parts reach is divided before they are replaced by their code
-  bool write_parts_out = false;  // also for parts that the leaf could evaluate itself
+  bool write_parts_out = false;  // also replaces parts that the leaf could evaluate itself
   // Wider tiles are always divided.
   int64_t widest = 256, highest = 16;
 };

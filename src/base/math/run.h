@@ -10,7 +10,7 @@
 
 namespace ombre {
 
-using MaterialId = uint8_t;  // 0 is void
+using MaterialId = uint8_t;  // number of a material; 0 is void
 
 // A run of `length` voxels: all of one material, or, if dense, the next `length` voxels of the row's dense voxels.
 struct Run {

@@ -92,8 +92,8 @@ TEST_P(RunLayers, CountTheirMaterials) {
   std::mt19937 random(width() * 3 + longest());
   RunLayer layer(width());
   std::array<uint64_t, 256> expected{};
-  for (const uint32_t materials :
-       {1U, 2U, 3U, 6U, 7U, 8U, 256U, 2U}) {  // varying numbers of materials in successive rows
+  // Successive rows have different numbers of materials.
+  for (const uint32_t materials : {1U, 2U, 3U, 6U, 7U, 8U, 256U, 2U}) {
     const Voxels row = random_row(width(), materials, longest(), random);
     for (const MaterialId id : row) ++expected[id];
     layer.append_row(row.data());

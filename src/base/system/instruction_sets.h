@@ -16,8 +16,8 @@
 namespace ombre {
 
 struct InstructionSets {
-  bool sse4 = false, avx2 = false,
-       avx512 = false;  // HWY_SSE4, HWY_AVX2 and HWY_AVX3, with all features that they require
+  // HWY_SSE4, HWY_AVX2 and HWY_AVX3, with all features that they require.
+  bool sse4 = false, avx2 = false, avx512 = false;
 };
 
 InstructionSets instruction_sets();

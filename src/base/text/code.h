@@ -67,7 +67,7 @@ enum class Code : uint8_t {
 
 struct CodeInfo {
   Code code;
-  std::string_view name;      // for example "unknown-node"
+  std::string_view name;      // the code's name: "unknown-node"
   std::string_view sentence;  // the meaning
   std::string_view values;    // comma-separated names of the values of a message with this code: "node, similar"
 };

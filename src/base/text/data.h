@@ -16,12 +16,12 @@ struct Data;
 // An opaque object of the host program that data carries, such as a Python function.
 struct HostObject {
   virtual ~HostObject() = default;
-  virtual std::string describe() const { return "a function"; }  // for messages
+  virtual std::string describe() const { return "a function"; }  // description for messages
 };
 using HostObjectPtr = std::shared_ptr<const HostObject>;
 
 using DataList = std::vector<Data>;
-using DataMembers = std::vector<std::pair<std::string, Data>>;  // in the order written
+using DataMembers = std::vector<std::pair<std::string, Data>>;  // members in the order written
 
 struct Data {
   std::variant<std::monostate, bool, double, std::string, DataList, DataMembers, HostObjectPtr> value;

@@ -74,8 +74,8 @@ void Diagnostics::add(Diagnostic diagnostic) {
 
 void Diagnostics::add_all(const Diagnostics& others) {
   for (const Diagnostic& diagnostic : others.list_) add(diagnostic);
-  error_count_ +=
-      others.error_count_ - std::min(others.error_count_, most);  // errors that `others` counted but did not keep
+  // Adds the errors that `others` counted but did not keep.
+  error_count_ += others.error_count_ - std::min(others.error_count_, most);
 }
 
 void Diagnostics::add_new(const Diagnostic& diagnostic) {

@@ -26,7 +26,7 @@ class SourceText {
   const std::string& name() const { return name_; }  // path as the user wrote it
   std::string_view text() const { return text_; }
   Place place(size_t offset) const;
-  std::string_view line(int number) const;  // without its line ending; empty beyond the last line
+  std::string_view line(int number) const;  // a line without its line ending; empty beyond the last line
 
  private:
   size_t characters_before(size_t offset) const;

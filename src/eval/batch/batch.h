@@ -35,7 +35,7 @@ struct RowsToFill {
 class SourceRows {
  public:
   virtual ~SourceRows() = default;
-  virtual bool has(const program::Read& read) const = 0;  // if false, the source is evaluated at each point
+  virtual bool has(const program::Read& read) const = 0;  // false if the source must be evaluated at each point
   virtual void fill(const program::Read& read, const RowsToFill& rows) const = 0;
   // Fills rows with a slot of the program's part set `set`. Only called for programs with parts.
   virtual void fill_parts(uint32_t /*set*/, size_t /*slot*/, const RowsToFill&) const {}
@@ -49,7 +49,7 @@ struct BoxPoints {
 // A row of points of a narrow box. Starting an op on a row costs as much as dozens of points, so the rows of a layer
 // are joined into one. Each is padded to a multiple of batch_lanes. They need not be neighbours.
 struct PointRow {
-  const float* xs = nullptr;  // has padded width
+  const float* xs = nullptr;  // x coordinates, padded
   float y = 0;
 };
 struct BoxLayers {
@@ -160,19 +160,19 @@ class BatchEvaluator {
   const SourceRows* sources_ = nullptr;
   Shape shape_;
   size_t width_ = 0, rows_ = 0, layers_ = 0, j_ = 0, k_ = 0;
-  size_t box_width_ = 0, box_rows_ = 0;                  // of the points of a layer
+  size_t box_width_ = 0, box_rows_ = 0;                  // size of a layer in points
   std::array<std::vector<program::ValueId>, 3> inputs_;  // the inputs that are needed
   std::vector<Fact> facts_;
   std::vector<program::ValueId> order_, seen_;
   std::array<std::vector<float*>, 8> free_;  // free rows by mask
   std::array<std::vector<Step>, 9> steps_;   // steps by mask; [8] holds those of all axes that output 0 does not need
-  std::vector<std::pair<float*, float*>>
-      layer_numbers_;  // pairs: the row of a value that depends on z, and the place where rows read it
+  // Pairs of the row of a value that depends on z, and the place where rows read it.
+  std::vector<std::pair<float*, float*>> layer_numbers_;
   std::vector<std::pair<int, Place>> channels_;  // channels of samples, and the places of their values
   LargeArray<float> memory_;
   size_t memory_floats_ = 0;
   float* next_ = nullptr;
-  Values inside_;  // where sources are sampled; everywhere if there is no row
+  Values inside_;  // nonzero where sources are sampled; everywhere if there is no row
 };
 
 }  // namespace ombre::eval

@@ -55,7 +55,8 @@ class BoxIntervals {
   const program::Program* program_ = nullptr;
   size_t count_ = 0, stride_ = 0;  // number of boxes; floats from row to row
   std::vector<float> memory_;
-  float* floats_ = nullptr;               // for each instruction the lower ends, then the upper ends; at the end flags
+  // The lower ends and then the upper ends of each instruction; after these, flags of chosen boxes.
+  float* floats_ = nullptr;
   std::vector<int32_t> reached_, meets_;  // one flag per box, set if parts reach it, for the last `parts` instruction
   std::vector<program::PartIndex::Entry> near_;
 };

@@ -88,7 +88,7 @@ void run(const float* a, const float* b, const float* c, float* out, size_t coun
   }
 }
 
-using Row = std::array<std::array<Kernel, 2>, 8>;  // [shape][unknowns]
+using Row = std::array<std::array<Kernel, 2>, 8>;  // indexed [shape][unknowns]
 
 template <Op op, int arity, unsigned shape>
 constexpr void fill_shape(Row& row) {

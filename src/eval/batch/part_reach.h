@@ -22,7 +22,7 @@ class PartReach : public program::PartFilter {
   void ask(const program::PartTable& table, uint32_t body, const Box& where);
 
   BoxIntervals intervals_;
-  std::map<std::pair<const program::PartTable*, uint32_t>, program::Program> questions_;  // by table and body
+  std::map<std::pair<const program::PartTable*, uint32_t>, program::Program> questions_;  // programs by table and body
   std::vector<uint32_t> bodies_, together_, reaching_;
   std::vector<Box> boxes_;
 };

@@ -308,8 +308,8 @@ struct Plan {
   std::vector<const FunctionDef*> functions;
   std::vector<const ModuleDef*> modules;
   std::vector<const Statement*> actions;
-  std::vector<std::pair<const Assign*, const Assign*>>
-      replaced;  // pairs: a value that is never used, and the one that replaces it
+  // Pairs of a value that is never used, and the one that replaces it.
+  std::vector<std::pair<const Assign*, const Assign*>> replaced;
 
   void add(const Statement& statement);
   // Returns the last definition with that name, or null.
@@ -370,7 +370,7 @@ struct Group : Statement {
 struct CallStatement : Statement {
   CallStatement(Kind k, Name n) : Statement(k, n.span), name(n), whole(n.span) {}
   Name name;
-  Span whole;  // from the name to the closing parenthesis
+  Span whole;  // range from the name to the closing parenthesis
   std::vector<Argument> arguments;
   Block children;
 };
@@ -388,7 +388,7 @@ struct Condition : Statement {
 };
 
 struct File {
-  std::unique_ptr<const SourcePtr> source;  // on the heap, since spans point to it
+  std::unique_ptr<const SourcePtr> source;  // allocated on the heap, since spans point to it
   std::shared_ptr<Names> names;
   std::vector<StatementPtr> statements;
 };

@@ -146,7 +146,7 @@ void Interpreter::node_arguments(const std::vector<ast::Argument>& arguments, co
     const Value value = eval(*argument.value, scope);
     const ast::Span& span = argument.value->span;
     if (argument.name.symbol && argument.name.is_special()) {
-      set_special(argument.name.symbol, value, specials_from);  // for the children
+      set_special(argument.name.symbol, value, specials_from);  // makes the variable visible to the children
       invocation.has_own_facets |= argument.name.symbol == facets_name_;
       continue;
     }

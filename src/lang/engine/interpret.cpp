@@ -56,7 +56,7 @@ Interpreter::Nodes Interpreter::run() {
     const ScopePtr& scope = unit_scope(main);
     try {
       run_actions(main.plan, scope, nodes);
-    } catch (const Failure&) {  // of an assertion
+    } catch (const Failure&) {  // a failed assertion stops the script
     }
   } catch (const LimitReached& limit) {
     report({Severity::error, at_.range(), limit.message, limit.hint, Code::limit});

@@ -205,10 +205,11 @@ class Interpreter {
   std::unordered_map<Symbol, Value> constants_;
   std::unordered_set<Symbol> no_constants_;
   std::unordered_map<Symbol, bool> known_nodes_;
-  std::unordered_map<Symbol, Value> overrides_;  // from the command line
+  std::unordered_map<Symbol, Value> overrides_;  // values of variables from the command line
   std::unordered_map<const Unit*, ScopePtr> unit_scopes_;
 
-  std::vector<std::pair<Symbol, Value>> specials_;       // of the calls that are being evaluated, innermost last
+  // Special variables of the calls that are being evaluated, innermost last.
+  std::vector<std::pair<Symbol, Value>> specials_;
   std::vector<const ast::CallStatement*> module_calls_;  // calls that are being evaluated, innermost last
   int depth_ = 0;
   int node_depth_ = 0;           // number of calls of nodes whose children are being evaluated

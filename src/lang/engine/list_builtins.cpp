@@ -121,7 +121,7 @@ class Search {
 
   const BuiltinCall& call_;
   double most_, column_;
-  std::vector<Value> characters_;  // of the string that is searched, if it is one
+  std::vector<Value> characters_;  // characters of the string that is searched; empty for a list
 };
 
 Value search(const BuiltinCall& call) { return Search(call).run(); }

@@ -23,8 +23,8 @@ struct Options {
   std::vector<Definition> definitions;
   std::vector<std::string> needed;  // variables that the script must have, since they are set later
   Limits limits;
-  int threads = 1;                               // with more than one, long lists are read ahead of their evaluation
-  const StopFlag* stop = nullptr;                // checked regularly; Cancelled is thrown if it is set
+  int threads = 1;                 // with more than one thread, long lists are read ahead of their evaluation
+  const StopFlag* stop = nullptr;  // checked regularly; Cancelled is thrown if it is set
   std::function<void(const std::string&)> echo;  // receives one line without its line ending; may be empty
   // Returns the content of a file for `include` and `use`, or nothing if there is no such file. If empty, the file
   // system is used.

@@ -100,7 +100,7 @@ class Scope {
 
   ScopePtr parent_;
   const ast::Plan* plan_;
-  const Children* children_;    // of the enclosing module call; valid while its statements run
+  const Children* children_;    // children of the enclosing module call; valid while its statements run
   const Unit* unit_ = nullptr;  // set for a file's outermost scope
   std::vector<std::pair<Symbol, Value>> variables_;
   std::unordered_map<Symbol, size_t> index_;

@@ -66,9 +66,9 @@ class Value {
 class Object {
  public:
   virtual ~Object() = default;
-  virtual std::string describe() const = 0;  // for example "a value that varies in space"
-  virtual std::string text() const = 0;      // as echo prints it
-  virtual Data data() const = 0;             // as a parameter of a node
+  virtual std::string describe() const = 0;  // description for messages: "a value that varies in space"
+  virtual std::string text() const = 0;      // text that echo prints
+  virtual Data data() const = 0;             // data for a parameter of a node
   // Returns a part by name. If there is none, returns nothing and sets `names` to the names of all parts.
   virtual std::optional<Value> part(const std::string& name, std::string& names, Meter& meter) const = 0;
   // Applies an operator or builtin function, given by its name in scripts ("?:" for a condition with two values).

@@ -19,25 +19,22 @@ using Product = std::shared_ptr<const void>;
 
 struct Argument {
   std::string name;        // empty if positional
-  SourceRange name_where;  // of the name, if there is one
+  SourceRange name_where;  // range of the name, if there is one
   Data value;              // value.where is the range of the argument's expression, or of a plain string's characters
 };
 
 // One call of a node with evaluated arguments.
 struct Invocation {
-  std::string name;   // as written
-  SourceRange where;  // of the name
-  SourceRange whole;  // from the name to the closing parenthesis
+  std::string name;   // name as written
+  SourceRange where;  // range of the name
+  SourceRange whole;  // range from the name to the closing parenthesis
   std::vector<Argument> arguments;
-  std::vector<Product> children;  // without null results
+  std::vector<Product> children;  // products of the children, without null results
   // Position after the last child of each statement in the braces. Loops, modules and conditions may give several
   // children or none.
   std::vector<size_t> group_ends;
-  enum class Braces : uint8_t {
-    none,
-    empty,
-    filled
-  } braces = Braces::none;               // also `filled` for a single child without braces
+  // A single child without braces counts as `filled`.
+  enum class Braces : uint8_t { none, empty, filled } braces = Braces::none;
   double facets = 0;                     // value of $fn at the call; 0 if it was not set
   bool has_own_facets = false;           // true if $fn is one of the arguments
   std::string wrong_facets;              // description of $fn if it is not a number: "a string"
@@ -52,11 +49,11 @@ class Vocabulary {
  public:
   virtual ~Vocabulary() = default;
   virtual bool knows(std::string_view name) const = 0;
-  virtual std::vector<std::string> names() const = 0;  // for suggestions
-  virtual std::string hint(
-      std::string_view unknown) const = 0;  // what to write in place of the unknown name; empty if there is no hint
+  virtual std::vector<std::string> names() const = 0;  // all names, for suggestions
+  // Returns what to write in place of an unknown name; empty if there is no hint.
+  virtual std::string hint(std::string_view unknown) const = 0;
   virtual std::optional<Data> constant(std::string_view name) const = 0;  // materials, axes
-  virtual std::vector<std::string> constants() const = 0;                 // for suggestions
+  virtual std::vector<std::string> constants() const = 0;                 // all names of constants, for suggestions
   // Returns null if the call gives nothing, or is wrong; then diagnostics were added.
   virtual Product make(Invocation call, Diagnostics& diagnostics) = 0;
   // Calls in expressions: whether a name can be called, the names, and the value of a call. value() returns nothing and

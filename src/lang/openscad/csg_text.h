@@ -8,9 +8,8 @@
 namespace ombre::lang::openscad {
 
 enum class CsgForm : uint8_t {
-  openscad,  // as OpenSCAD prints it, with six digits
-  exact      // with all digits and with everything that OpenSCAD omits or does not know, so that it is read back to the
-             // same tree
+  openscad,  // six digits, as OpenSCAD prints it
+  exact      // all digits, and everything that OpenSCAD omits or does not know; reads back to the same tree
 };
 
 // Paths of imported files are written relative to `folder`. The root's group is left out unless it is marked or is not

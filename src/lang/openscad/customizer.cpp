@@ -14,7 +14,7 @@ using ast::Expr;
 
 struct Comment {
   size_t begin, end;  // including the comment signs
-  std::string text;   // without the comment signs
+  std::string text;   // text without the comment signs
   bool is_block;
 };
 

@@ -19,7 +19,7 @@ struct Parameter {
   std::string section;  // empty if there is none; "Hidden" marks parameters that users should not see
   Kind kind = Kind::number;
   Data value;                                         // the script's value, with its position
-  std::optional<double> least, step, most;            // for a number, or each number of a vector
+  std::optional<double> least, step, most;            // limits of a number, or of each number of a vector
   std::optional<size_t> longest;                      // greatest number of characters of a text
   std::vector<std::pair<Data, std::string>> choices;  // values and their labels
 };

@@ -38,13 +38,13 @@ class ModuleCall {
   double number(std::string_view parameter, double otherwise) const { return number(parameter).value_or(otherwise); }
   bool flag(std::string_view parameter, bool otherwise) const;
   std::string text(std::string_view parameter, const std::string& otherwise = "") const;
-  std::string shown(std::string_view parameter) const;  // as in messages
+  std::string shown(std::string_view parameter) const;  // value as messages show it
   void warn(const std::string& text) const;
   void deprecate(const std::string& text) const;
   void deprecate_here(const std::string& text) const;
   void note(const std::string& text) const;
 
-  solids::Fragments fragments() const;          // from $fn, $fa and $fs at the call
+  solids::Fragments fragments() const;          // fragments from $fn, $fa and $fs at the call
   solids::Fragments checked_fragments() const;  // enforces the least values of $fa and $fs
   std::string complete_path(const std::string& path) const;
   const Trees& children();
@@ -59,7 +59,7 @@ class ModuleCall {
   const ScopePtr& scope_;
   std::vector<std::pair<std::string_view, Value>> values_;
   std::optional<Trees> children_;
-  std::optional<solids::Semantics> semantics_;  // of the argument `semantics`
+  std::optional<solids::Semantics> semantics_;  // value of the argument `semantics`
 };
 
 // A builtin module: the parameters that may be positional, those that must be named, and the function that makes its
@@ -88,8 +88,8 @@ class Evaluator {
  private:
   friend class ModuleCall;
 
-  static constexpr int spare_levels =
-      200;  // part of the allowed levels, reserved for what the last call still evaluates
+  // Levels that are reserved for what the last allowed call still evaluates.
+  static constexpr int spare_levels = 200;
 
   // Thrown to stop the evaluation after a message was added.
   struct Stopped {};
@@ -232,10 +232,11 @@ class Evaluator {
   std::unordered_map<const Unit*, std::vector<std::pair<Symbol, Value>>> unit_specials_;
   std::unordered_map<const SourcePtr*, std::string> shown_files_;
 
-  std::vector<std::pair<Symbol, Value>> specials_;  // of the calls that are being evaluated, innermost last
-  std::vector<std::string> module_names_;           // of the modules that are being evaluated, outermost first
-  std::vector<const solids::Tree*> roots_;          // marked with "!"
-  ast::Span at_;                                    // position of the current evaluation
+  // Special variables of the calls that are being evaluated, innermost last.
+  std::vector<std::pair<Symbol, Value>> specials_;
+  std::vector<std::string> module_names_;   // names of the modules that are being evaluated, outermost first
+  std::vector<const solids::Tree*> roots_;  // marked with "!"
+  ast::Span at_;                            // position of the current evaluation
   int depth_ = 0, nested_statements_ = 0;
   int traced_ = 0;  // number of calls around an error that were reported
 };

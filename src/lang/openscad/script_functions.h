@@ -18,7 +18,7 @@ struct FunctionCall {
   Meter& meter;
   Problems& problems;
   const std::vector<std::string>& modules;  // names of the modules that are being evaluated, outermost first
-  std::mt19937& random;                     // for rands() without a seed
+  std::mt19937& random;                     // generator of rands() without a seed
   const ast::Call& written;
 
   size_t size() const { return arguments.size(); }

@@ -19,7 +19,7 @@ struct Message {
   std::string text;
   std::string file;  // empty if the message has no position
   int line = 0;
-  Code code = Code::script;  // of an error
+  Code code = Code::script;  // code of an error
 
   bool operator==(const Message&) const = default;
 };

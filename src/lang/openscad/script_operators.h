@@ -8,7 +8,7 @@
 
 namespace ombre::lang::openscad {
 
-using Problems = std::vector<std::string>;  // texts of warnings, whose place the caller knows
+using Problems = std::vector<std::string>;  // texts of warnings; the caller adds the position
 
 // Applies any operator except "&&" and "||", which do not evaluate both sides.
 Value binary(ast::Operator op, const Value& left, const Value& right, Meter& meter, Problems& problems);

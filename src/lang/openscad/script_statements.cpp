@@ -230,7 +230,7 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
     return nullptr;
   }
   const SpecialsMark mark(*this);
-  ScopePtr inner;  // has the variables of the children, which are computed once
+  ScopePtr inner;  // scope of the children, whose variables are computed once
   const auto run_child = [&](const Value& each) {
     const auto chosen = chosen_child(each, plan.actions.size());
     if (!chosen) return;

@@ -20,7 +20,7 @@ class Words {
   virtual ~Words() = default;
   virtual bool makes_solid(std::string_view word) const = 0;
   virtual bool gives_value(std::string_view word) const = 0;
-  virtual std::vector<std::string> names() const = 0;  // for suggestions
+  virtual std::vector<std::string> names() const = 0;  // all names, for suggestions
   // Makes the content of a solids::Word from the trees in the call's braces, one for each statement. `call.children` is
   // empty. Returns null and adds diagnostics if something is wrong.
   virtual std::shared_ptr<const void> make(Invocation call, const std::vector<solids::TreePtr>& children,

@@ -139,8 +139,7 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Dia
   if (type.inputs.most > 0) put_first(take_solids(call.arguments), call);
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
   if (!values) return nullptr;
-  if (call.children.empty() && call.has_wrong_children && type.inputs.least > 0)
-    return nullptr;  // an error was reported already
+  if (call.children.empty() && call.has_wrong_children && type.inputs.least > 0) return nullptr;  // reported already
   const bool is_grouped = type.inputs.grouped && !has_single_children(call);
   std::vector<NodePtr> children = nodes_of(std::move(call.children));
   if (is_grouped) {

@@ -11,7 +11,7 @@ namespace ombre::nodes {
 // The values of a solid that are filtered, and the size of the cells.
 struct FilterUse {
   bool materials = true;
-  bool count_void = false;              // if true, the outside of the solid counts as void, else not at all
+  bool count_void = false;              // counts the outside of the solid as void; else it does not count
   std::vector<std::string> attributes;  // names of attributes that are numbers
   std::optional<Vec3> cell_mm;
 };

@@ -189,7 +189,7 @@ class VoronoiCells final : public program::FieldSource {
   static constexpr std::string_view channels[] = {"index", "border", "point", "x", "y", "z"};
   static constexpr int index = 0, border = 1, point = 2, x = 3;
   static constexpr double most_index = (1 << 24) - 1;
-  static constexpr int64_t reach = 2;  // in cells
+  static constexpr int64_t reach = 2;  // number of cells searched on each side
 
   struct Nearest {
     Vec3 at;

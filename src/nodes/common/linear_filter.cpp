@@ -50,7 +50,7 @@ std::optional<Factors> factors_of(const Kernel& kernel) {
 }
 
 std::vector<double> gaussian_weights(double sigma) {
-  constexpr double reach = 4;  // in sigmas
+  constexpr double reach = 4;  // number of sigmas at which weights end
   const auto radius = static_cast<int>(std::floor(reach * sigma + 0.5));
   std::vector<double> weights;
   for (int n = -radius; n <= radius; ++n) weights.push_back(math::exp(-0.5 * n * n / (sigma * sigma)));

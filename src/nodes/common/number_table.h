@@ -12,13 +12,13 @@ namespace ombre::nodes {
 enum class TableMode : uint8_t {
   step,    // value at the greatest key that is not above the input
   linear,  // linear interpolation between keys
-  cubic,   // for one input: cubics that are monotone where the values are (F. N. Fritsch and J. Butland, 1984)
+  cubic,   // cubics of a single input that are monotone where the values are (F. N. Fritsch and J. Butland, 1984)
 };
 
 struct TableKeys {
   std::vector<std::vector<double>> axes;  // the keys of each of one to three inputs, in ascending order
-  std::vector<std::vector<double>>
-      values;  // for each output, the values for all combinations of keys; the last input varies fastest
+  // For each output, the values for all combinations of keys. The last input varies fastest.
+  std::vector<std::vector<double>> values;
 };
 
 // Returns the table for rows of keys followed by values. Returns the problem if rows lack combinations of keys or

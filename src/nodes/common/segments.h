@@ -7,7 +7,7 @@
 namespace ombre::nodes {
 
 struct Segment {
-  Vec3 start, end;  // in mm
+  Vec3 start, end;  // end points in mm
 
   // Returns the position of the nearest point, from 0 at the start to 1 at the end.
   program::Field along(const program::Point& p) const;

@@ -61,7 +61,7 @@ class LatticeCopies {
   Affine frame_from_here_;
   std::array<Row, 3> rows_;
   std::array<double, 3> steps_{};  // along the frame's axes
-  Box original_, box_;             // in this space, and in the frame
+  Box original_, box_;             // bounds of the original in this space, and in the frame
   Window holding_, around_;
 };
 

@@ -136,7 +136,7 @@ struct Tpms {
 
  private:
   struct Sample {
-    Field value, squared_slope;  // of the function minus the level; the slope is per mm
+    Field value, squared_slope;  // function minus the level, and its squared gradient in 1/mm^2
   };
 
   static Field phase(Field x, Field length) { return x / length * (2 * std::numbers::pi); }
@@ -153,8 +153,7 @@ struct Tpms {
 
   Sample at(const Point& p) const {
     const Waves x(phase_x(p)), y(phase_y(p)), z(phase_z(p));
-    Field value = minus_level(p), by_x = p.constant(0), by_y = by_x,
-          by_z = by_x;  // value and its derivatives by the phases
+    Field value = minus_level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;  // derivatives by the phases
     for (const Term& term : chosen().terms) {
       const Field fx = x.value(term.x), fy = y.value(term.y), fz = z.value(term.z);
       value = value + fx * fy * fz * term.factor;
@@ -186,7 +185,7 @@ struct Tpms {
       return result;
     }
     if (const auto by_rule = program::gradient((this->*of)(p), p)) return *by_rule;
-    constexpr double step = 1e-2;  // in mm
+    constexpr double step = 1e-2;  // step of differences in mm
     for (int n = 0; n < 3; ++n) {
       Vec3 by;
       by[n] = step;

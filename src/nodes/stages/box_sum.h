@@ -10,7 +10,7 @@ inline constexpr MaterialId void_material = 0;
 // The size of the box around a voxel along x, y and z. If it is even, one more voxel lies below than above.
 struct BoxSums {
   std::array<int, 3> size{3, 3, 3};
-  bool count_void = false;  // if true, the outside of the solid counts as void, else not at all
+  bool count_void = false;  // counts the outside of the solid as void; else it does not count
   std::optional<Vec3> cell_mm;
 };
 

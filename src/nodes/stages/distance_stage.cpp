@@ -77,7 +77,7 @@ class Sweeping {
 
   // Next to the surface, the nearest point is that of the plane through the surface's intersections with lattice lines.
   void begin(const Cell& at, size_t n) {
-    Vec3 slope;  // of the plane: 1 over the distance to the intersection along each axis
+    Vec3 slope;  // slope of the plane: 1 over the distance to the intersection along each axis
     for (size_t axis = 0; axis < 3; ++axis) {
       const double way = way_to_crossing(at, n, axis);
       if (way != 0) slope[static_cast<int>(axis)] = 1 / way;
@@ -91,7 +91,7 @@ class Sweeping {
 
   // Returns the signed distance to the intersection, or 0 if the neighbours are on the same side.
   double way_to_crossing(const Cell& at, size_t n, size_t axis) const {
-    constexpr double least = 1e-6;  // in cells, for a surface through the centre
+    constexpr double least = 1e-6;  // least distance in cells, for a surface through the centre
     double nearest = 0;
     for (const int side : {-1, 1}) {
       const int64_t next = at[axis] + side;

@@ -16,7 +16,7 @@ struct BallRow {
 };
 
 struct Ball {
-  std::array<int64_t, 3> radius{};  // in cells
+  std::array<int64_t, 3> radius{};  // radius along each axis in cells
   std::vector<BallRow> rows;
 };
 
@@ -47,8 +47,8 @@ FlagGrid near(const FlagGrid& grid, const Ball& ball, uint8_t wanted, const Stop
   FlagGrid made;
   for (size_t axis = 0; axis < 3; ++axis) made.size[axis] = grid.size[axis] - 2 * ball.radius[axis];
   made.flags.assign(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]), 0);
-  std::vector<int64_t> before(static_cast<size_t>(grid.size[0]) +
-                              1);  // for each cell of a row, the number of wanted cells before it
+  // For each cell of a row, the number of wanted cells before it.
+  std::vector<int64_t> before(static_cast<size_t>(grid.size[0]) + 1);
   for (int64_t k = 0; k < made.size[2]; ++k)
     for (int64_t j = 0; j < made.size[1]; ++j) {
       design::check_stop(stop);

@@ -25,9 +25,8 @@ void add_void(Composition& made, Field share) {
 struct AttributeOf {
   SolidName solid;
   std::string name;
-  AttributeDeclaration declared;  // set when the node is made
-  std::vector<std::pair<MaterialId, std::string>>
-      shares;  // for a mixture: its materials with the names of their numbers
+  AttributeDeclaration declared;                           // set when the node is made
+  std::vector<std::pair<MaterialId, std::string>> shares;  // materials of a mixture with the names of their numbers
 
   static Spec<AttributeOf> spec() {
     return {"attribute_of",

@@ -18,7 +18,7 @@ namespace {
 using namespace design;
 using program::Op;
 
-constexpr double noise_period = 289;  // in cells
+constexpr double noise_period = 289;  // number of cells after which the noise repeats
 // The greatest possible sum of the gradients, near (0.355, 0.481, 0.5) of a cell, if each corner has its best gradient.
 constexpr double noise_peak = 1.0363538112118031;
 
@@ -30,7 +30,7 @@ Field permuted(Field v) { return remainder((v * 34 + 1) * v, noise_period); }
 
 Field mixed(Field a, Field b, Field weight) { return a + weight * (b - a); }
 
-using Corners = std::array<Field, 8>;  // by x + 2 y + 4 z
+using Corners = std::array<Field, 8>;  // values of the eight corners, indexed by x + 2 y + 4 z
 
 // A coordinate in units of cells.
 struct CellAxis {
@@ -65,7 +65,7 @@ struct Noise {
   double gain = 0.5, lacunarity = 2;
   bool turbulence = false;
   int period = 0;
-  program::SourceField source;  // for kinds without a formula; made with the node
+  program::SourceField source;  // source of kinds without a formula; made with the node
 
   static Spec<Noise> spec() {
     return {"noise",
@@ -160,7 +160,7 @@ struct Noise {
 
   struct Lattice {
     std::array<CellAxis, 3> axes;
-    std::array<Corners, 3> gradients;  // by axis
+    std::array<Corners, 3> gradients;  // gradients at the corners, by axis
     Corners heights;                   // values of the corners' linear functions at the point
 
     Lattice(const Noise& noise, const Point& p, int octave)

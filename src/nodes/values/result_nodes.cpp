@@ -29,7 +29,7 @@ struct Results {
   std::optional<double> within;
   double otherwise = 0, deform = 0;
   std::shared_ptr<const ResultNumbers> loaded;  // set when the node is made
-  size_t chosen = 0;                            // component
+  size_t chosen = 0;                            // number of the chosen component
 
   static Spec<Results> spec() {
     return {
@@ -83,7 +83,7 @@ struct Results {
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;
-    path.content = loaded->source->content();  // of both files
+    path.content = loaded->source->content();  // includes the content of both files
     values = request.values.path;
     return choose(reader);
   }

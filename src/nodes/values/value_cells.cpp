@@ -23,8 +23,8 @@ constexpr std::string_view border_doc = "Distance to the nearest border of the c
 // A position in a hexagonal grid. The integers q and r count hexagons along x and along a direction at 60 degrees to
 // it.
 struct HexPlace {
-  Field q, r;  // of the hexagon
-  Field x, y;  // from its centre, in widths
+  Field q, r;  // index of the hexagon
+  Field x, y;  // position relative to its centre, in widths
 };
 
 // Finds the nearest centre by rounding cube coordinates: Amit Patel, "Hexagonal grids", 2013.

@@ -319,7 +319,7 @@ struct MixMany {
 struct ColourMixture {
   Numbers3 wanted;
   SharedList<MaterialName> materials;
-  std::vector<Vec3> colours;  // in linear light; set when the node is made, like the table
+  std::vector<Vec3> colours;  // the materials' colours in linear light; set when the node is made, like the table
   program::SourceField table;
 
   static Spec<ColourMixture> spec() {
