@@ -49,7 +49,7 @@ inline Field at_most(Field a, double b, Border border) { return border == Border
 
 // Values that parts are asked for, besides "inside".
 enum class PartQuery : uint8_t {
-  interior,  // true inside but not on the surface; no other values
+  interior,  // whether the point is inside and not on the surface; nothing else
   mix,       // sums of composition over the parts that hold the point, and their number
   first,     // composition of the first part that holds the point
   last,

@@ -82,7 +82,7 @@ class Parser {
  private:
   static constexpr int deepest = 200, most_operators = 200000;
 
-  // Tokens.
+  // Functions that read tokens.
 
   void advance() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
@@ -157,7 +157,7 @@ class Parser {
     return false;
   }
 
-  // Trees.
+  // Functions that build trees.
 
   static std::shared_ptr<Node> make(Kind kind, uint32_t begin, uint32_t end) {
     auto node = std::make_shared<Node>();

@@ -170,7 +170,7 @@ TEST_F(ValueNodes, MixOfMaterialsHasTheirShares) {
   EXPECT_EQ(fractions(mix, {0.25, 0, 0}), (Fractions{{"red", 0.75}, {"blue", 0.25}}));
   EXPECT_EQ(fractions(mix, {-3, 0, 0}), (Fractions{{"red", 1}, {"blue", 0}}));
   EXPECT_EQ(fractions(mix, {3, 0, 0}), (Fractions{{"red", 0}, {"blue", 1}}));
-  // Half red and half that mixture.
+  // This mixture is half red and half the one above.
   const NodePtr more = make("mix", {{"a", Data("red")}, {"b", object(mix)}});
   EXPECT_EQ(fractions(more, {0.25, 0, 0}), (Fractions{{"red", 0.875}, {"blue", 0.125}}));
   const NodePtr third = make("mix", {{"a", object(mix)}, {"b", Data("clear")}, {"t", Data(0.5)}});

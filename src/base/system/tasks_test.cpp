@@ -165,7 +165,7 @@ TEST(Threads, NeverMoreThanRequested) {
 }
 
 #ifndef OMBRE_PLAIN_THREADS
-// Needs threads for each inner run as well.
+// This test needs cores for the threads of each inner run as well.
 TEST(Threads, RunsWithinTasksShareThem) {
   if (core_count() < 2) GTEST_SKIP();
   const tbb::global_control enough(tbb::global_control::max_allowed_parallelism, 8);

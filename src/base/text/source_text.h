@@ -9,9 +9,7 @@
 
 namespace ombre {
 
-// Lines end with "
-// ", "\r
-// " or "\r".
+// Lines end with "\n", "\r\n" or "\r".
 inline constexpr std::string_view line_ends = "\n\r";
 inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 

@@ -1,6 +1,4 @@
-// Tests of lines and columns. Columns count code points, a tab counts as one, and lines end with "
-// ", "\r
-// " or "\r".
+// Tests of lines and columns. Columns count code points, a tab counts as one, and lines end with "\n", "\r\n" or "\r".
 #include "base/text/source_text.h"
 
 #include <gtest/gtest.h>

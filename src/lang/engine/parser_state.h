@@ -61,7 +61,7 @@ class Parser {
     int count_;
   };
 
-  // Tokens.
+  // Functions that read tokens.
   Token token(size_t ahead = 0) { return tokens_.ahead(ahead); }
   TokenKind kind(size_t ahead = 0) { return token(ahead).kind; }
   std::string_view text(const Token& token) const { return text_.substr(token.begin, token.end - token.begin); }
@@ -82,7 +82,7 @@ class Parser {
   ast::Name name(const char* what);
   ast::Name name_at(ast::Span where, std::string_view text);
 
-  // Statements.
+  // Functions that read statements.
   void statements(std::vector<ast::StatementPtr>& into, bool inside_braces);
   void resynchronise();
   void defer(ast::StatementPtr& statement) const;
@@ -103,7 +103,7 @@ class Parser {
   bool at_last_of_braces() { return dialect_ == Dialect::vcad && at(TokenKind::right_brace); }
   static ast::Statement::Kind call_kind(std::string_view name);
 
-  // Expressions.
+  // Functions that read expressions.
   ast::ExprPtr expression();
   ast::ExprPtr conditional();
   ast::ExprPtr chain(int precedence);

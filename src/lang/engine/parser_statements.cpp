@@ -31,7 +31,7 @@ std::string quoted(std::string_view text) {
 
 }  // namespace
 
-// Tokens.
+// Functions that read tokens.
 
 Parser::Level::Level(Parser& parser) : parser_(parser) {
   if (parser_.depth_ >= deepest_nesting)
@@ -84,7 +84,7 @@ Name Parser::name(const char* what) {
 
 Name Parser::name_at(Span where, std::string_view text) { return {names_.intern(text), where}; }
 
-// Statements.
+// Functions that read statements.
 
 std::vector<StatementPtr> Parser::file() {
   std::vector<StatementPtr> result;

@@ -127,7 +127,7 @@ class Evaluator {
     const Unit* used = nullptr;  // the file that defines the function, if it is one of `use`
   };
 
-  // Messages.
+  // Functions that report messages.
   void say(Message::Kind kind, std::string text, const ast::Span& where, Code code = Code::script);
   void warn(std::string text, const ast::Span& where);
   void warn_all(Problems& problems, const ast::Span& where);

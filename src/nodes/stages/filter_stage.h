@@ -24,7 +24,7 @@ class FilterStage : public design::HaloStage {
   const FilterUse& use() const { return use_; }
   Hash hash_with(const std::string& key) const;
 
-  // Numbers of channels.
+  // These functions return numbers of channels.
   size_t fractions(const design::StageValues& read) const { return read.channels() - 1 - use_.attributes.size(); }
   size_t attribute(const design::StageValues& read, size_t n) const { return fractions(read) + n; }
   static size_t inside(const design::StageValues& read) { return read.channels() - 1; }
