@@ -1,4 +1,4 @@
-// Values of attributes, solids and rows of numbers as parameters.
+// Parameters that are values of attributes, solids, or rows of numbers.
 #include <algorithm>
 #include <charconv>
 
@@ -18,13 +18,13 @@ size_t numbers_in(ValueType type) {
     case ValueType::colour:
       return 4;
     case ValueType::mixture:
-    case ValueType::label:  // which attributes of designs do not set
+    case ValueType::label:  // attributes of designs cannot be labels
       break;
   }
   return 0;
 }
 
-// "#rrggbb" or "#rrggbbaa".
+// Reads a colour, "#rrggbb" or "#rrggbbaa".
 std::optional<std::array<Number, 4>> colour_of(const std::string& text) {
   if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
   std::array<Number, 4> colour{0, 0, 0, 1};

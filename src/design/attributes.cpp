@@ -11,7 +11,7 @@ namespace {
 constexpr double endless = std::numeric_limits<double>::infinity();
 const Interval from_zero{0, endless}, any_number = Interval::everything(), one{0, 1};
 
-// Units are those of the processes that take the values.
+// Standard attributes. Units are those of the processes that use the values.
 const StandardAttribute table[] = {
     {"modulus", ValueType::number, "MPa", from_zero, 0, "Young's modulus"},
     {"poissons_ratio", ValueType::number, "1", {-1, 0.5}, 0, "Poisson's ratio"},

@@ -1,4 +1,4 @@
-// Whole numbers as parameters.
+// Parameters that are whole numbers.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ bool read(const Data& data, const Domain& domain, int& value, const Reader& read
   const int least = static_cast<int>(std::max(domain.least, -1e9)),
             greatest = static_cast<int>(std::min(domain.greatest, 1e9));
   const double* number = data.number();
-  // A quotient such as 0.3 / 0.1 is whole but for rounding.
+  // Accepts rounding errors: a quotient such as 0.3 / 0.1 is nearly whole.
   constexpr double noise = 1e-9;
   const double whole = number ? std::round(*number) : 0;
   if (!number || !(std::abs(*number - whole) <= noise) || whole < least || whole > greatest)

@@ -10,7 +10,7 @@
 namespace ombre::design {
 namespace {
 
-// The least version that has all of a design: values of nodes are new in 2.
+// Versions of the design file. Value nodes need version 2; other designs are written as version 1.
 constexpr double version_without_values = 1, version_with_values = 2;
 
 using NodeName = std::function<std::string(const Node&)>;
@@ -33,7 +33,7 @@ Data sampling_data(const Sampling& sampling) {
       {"min", vector_data(sampling.box.lo)}, {"max", vector_data(sampling.box.hi)}, {"voxel", Data(std::move(voxel))}});
 }
 
-// Ids count nodes in the order in which they are first needed.
+// Assigns ids to nodes in the order in which they are first needed.
 std::map<const Node*, std::string> node_ids(const std::vector<const Node*>& nodes) {
   std::map<const Node*, std::string> ids;
   for (const Node* node : nodes) ids.emplace(node, "n" + std::to_string(ids.size() + 1));
@@ -100,7 +100,7 @@ Data to_data(const Design& design) {
 
 namespace {
 
-// Hashes of nodes by their types, parameters and the hashes of their inputs, so that equal sub-designs count as one.
+// Hashes nodes by their types, parameters and the hashes of their inputs, so that equal sub-designs have equal hashes.
 class NodeHasher {
  public:
   explicit NodeHasher(const std::vector<NodePtr>& roots) {
@@ -137,7 +137,8 @@ class NodeHasher {
   }
 
   std::unordered_map<const Node*, Hash> shared_;
-  std::vector<Hash> waiting_;  // of nodes that are an input of one node alone, which comes after its inputs
+  // Hashes of nodes that are an input of exactly one node, which is hashed after all its inputs.
+  std::vector<Hash> waiting_;
 };
 
 }  // namespace
@@ -178,7 +179,8 @@ const Node* find_host_function(const Design& design) {
 
 namespace {
 
-// One name is one thing: a number in one place and a colour in another cannot be written into one grid.
+// Checks that each attribute has a single type. A number and a colour of the same name could not be written into one
+// grid.
 bool check_attributes(const Design& design, Diagnostics& diagnostics) {
   bool good = true;
   std::map<std::string, ValueType> known;

@@ -1,4 +1,4 @@
-// A design: materials, parts, perhaps a box to sample; what every front end makes and every job takes.
+// A design: materials, parts, and optionally a box to sample. Every front end makes one, every job takes one.
 #pragma once
 
 #include <array>
@@ -18,55 +18,57 @@ struct Part {
   NodePtr solid;
 };
 
-// What `root` gives: the box to sample and the voxel size, mm.
+// The sampling that `root` declares: the box and the voxel size, in mm.
 struct Sampling {
   Box box;
   std::array<Pitch, 3> pitch;
 };
 
-// The name that front ends give what stands in no named part.
+// Name of the part that front ends make of solids outside named parts.
 inline constexpr const char* nameless_part = "part";
 
 struct Design {
   MaterialTable materials;
-  std::vector<Part> parts;  // at least one; they may overlap
+  std::vector<Part> parts;  // at least one; parts may overlap
   std::optional<Sampling> sampling;
 
-  // Of the job at hand, for nodes that are made as finely as it asks for. No part of the design: neither its file nor
-  // its hash has it.
+  // Resolution of the current job, for nodes whose precision depends on it. It is not part of the design: neither the
+  // file nor the hash contains it.
   std::optional<JobScale> job_scale = {};
-  // The same of the job's voxels, and of what makes stages.
+  // The current job's voxel lattice and the host that makes its stages; not part of the design either.
   std::optional<StageLattice> job_lattice = {};
   std::shared_ptr<StageHost> stages = {};
 
   std::vector<NodePtr> roots() const;
-  // The job's, else that of the voxels to sample; nothing when neither is known.
+  // Returns the job's scale, else that of the design's sampling, else nothing.
   std::optional<JobScale> scale() const;
-  // The job's, else that of the voxels to sample; nothing when neither is known.
+  // Returns the job's lattice, else that of the design's sampling, else nothing.
   std::optional<StageLattice> lattice() const;
 };
 
 Design for_job(Design design, const JobScale& scale);
 Design for_lattice(Design design, const StageLattice& lattice);
 
-// The design file: format, version, materials, sampling, nodes (each once), parts.
+// Returns the design file: format, version, materials, sampling, nodes (each once), parts.
 Data to_data(const Design& design);
-// Nothing, and diagnostics with places, when it is wrong: unknown types, wrong values, missing or circular references.
+// Reads a design file. Returns nothing and adds diagnostics with positions if it is wrong: unknown types, wrong values,
+// missing or circular references.
 std::optional<Design> read_design(const Data& data, const Registry& registry, SourceLoader* loader,
                                   Diagnostics& diagnostics);
 
-// Over the design file's form with defaults filled in; names of variables, node ids and places left
-// out, files named by their content.
+// Hashes the design file with defaults filled in. Names of variables, node ids and positions do not count; files are
+// identified by their content.
 Hash hash(const Design& design);
 
-// A node with a parameter that the host program computes, or null. Nothing tells whether two runs mean the same
-// function, so such designs are not saved, and their jobs are not resumed.
+// Returns a node with a parameter that the host program computes, or null. Such designs are not saved and their jobs
+// are not resumed, since nothing tells whether two runs mean the same function.
 const Node* find_host_function(const Design& design);
 
-// Are the indices of cells used only below what repeats, and is each attribute of one type? Else diagnostics say where.
+// Checks that indices of cells are used only below nodes that repeat space, and that each attribute has a single type.
+// Returns false and adds diagnostics if not.
 bool check_design(const Design& design, Diagnostics& diagnostics);
 
-// An indented tree for people, with each solid's kind of distance; shared nodes are printed once.
+// Returns an indented tree for people, with each solid's kind of distance. Shared nodes are printed once.
 std::string to_tree(const Design& design);
 
 }  // namespace ombre::design

@@ -1,4 +1,4 @@
-// Reads design files. Files of nodes may refer to one another in any order, but not in a circle.
+// Reads design files. Nodes may refer to each other in any order, but not in a circle.
 #include <algorithm>
 #include <unordered_map>
 
@@ -12,8 +12,8 @@ struct Entry {
   const Data* data = nullptr;
   NodePtr node;
   enum class State : uint8_t { unseen, open, done } state = State::unseen;
-  std::vector<const Data*> uses = {};  // its references to nodes, once it was open
-  size_t uses_made = 0;                // the first ones of these
+  std::vector<const Data*> uses = {};  // its references to nodes, once it is open
+  size_t uses_made = 0;                // number of references whose nodes are made
 };
 
 class DesignReader {
@@ -127,7 +127,8 @@ class DesignReader {
     }
   }
 
-  // Depth first with a stack of our own: files may nest as deep as they like before that is an error.
+  // Traverses depth first with an explicit stack, since files may nest to any depth before that is reported as an
+  // error.
   NodePtr resolve(const Data& reference) {
     std::vector<const Data*> stack{&reference};
     while (!stack.empty()) {
@@ -142,7 +143,7 @@ class DesignReader {
       }
       Entry& entry = found->second;
       if (entry.state == Entry::State::done) {
-        if (!entry.node) return nullptr;  // reported already
+        if (!entry.node) return nullptr;  // an error was reported already
         stack.pop_back();
         continue;
       }
@@ -161,8 +162,8 @@ class DesignReader {
     return entries_.at(*reference.string()).node;
   }
 
-  // The first node among the inputs and in the parameters that is not made yet. False when they lead back to a node
-  // that waits for them.
+  // Finds the first node among the inputs and in the parameters that is not made yet. Returns false if the references
+  // form a circle.
   bool find_pending(Entry& entry, const Data*& pending) {
     if (entry.uses.empty() && !find_uses(entry)) return false;
     for (; entry.uses_made < entry.uses.size(); ++entry.uses_made) {
@@ -192,7 +193,7 @@ class DesignReader {
     return inputs->list() != nullptr;
   }
 
-  // References such as {"from": "n3", "output": "value"} and, of solids, {"from": "n2"}.
+  // Collects references such as {"from": "n3", "output": "value"} and, to solids, {"from": "n2"}.
   bool find_values(const Data& data, std::vector<const Data*>& uses) {
     if (const DataList* list = data.list())
       return std::ranges::all_of(*list, [&](const Data& element) { return find_values(element, uses); });
@@ -208,7 +209,7 @@ class DesignReader {
     return true;
   }
 
-  // Replaces ids by their nodes.
+  // Replaces ids by nodes.
   Data with_nodes(const Data& data) const {
     if (const DataList* list = data.list()) {
       DataList result;

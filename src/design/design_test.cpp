@@ -1,4 +1,4 @@
-// Graphs of nodes: typed inputs and outputs, sharing, hashes. With nodes made for these tests.
+// Tests of node graphs with nodes defined here: typed inputs and outputs, sharing, hashes.
 #include "design/design.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace ombre::design {
 namespace {
 
-// Gives values of each type.
+// A node with an output of each type.
 struct Ramp {
   Number slope = 1;
   MaterialName low, high;
@@ -109,7 +109,7 @@ class Designs : public testing::Test {
     return values[flat.outputs[0]];
   }
 
-  // An output of a node, as a parameter takes it.
+  // Returns data that gives a node's output to a parameter.
   static Data output(const NodePtr& node, const std::string& name) {
     return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))}, {"output", Data(name)}});
   }
@@ -118,7 +118,7 @@ class Designs : public testing::Test {
     return Data(DataMembers{{"formula", Data(text)}, {"with", Data(DataMembers{{"v", output(node, name)}})}});
   }
 
-  // A ball of radius 5 + x/2, from x = 0 on.
+  // Returns a ball whose radius is 5 where x <= 0, and grows by x/2 from there.
   NodePtr egg() { return make("ball", {{"radius", formula("5 + v/2", make("ramp", {}), "value")}}); }
 
   Data json_of(const NodePtr& node) { return to_data({materials_, {{"part", node}}, std::nullopt}); }
@@ -145,7 +145,7 @@ TEST_F(Designs, ValuesAreEvaluatedWhereTheirSolidIs) {
 }
 
 TEST_F(Designs, ValuesMayUseValues) {
-  const NodePtr steep = make("ramp", {{"slope", output(make("ramp", {}), "value")}});  // x^2
+  const NodePtr steep = make("ramp", {{"slope", output(make("ramp", {}), "value")}});  // its value is x^2
   const NodePtr ball = make("ball", {{"radius", output(steep, "value")}});
   EXPECT_EQ(distance(ball, {3, 4, 0}), 5 - 9);
   EXPECT_EQ(ball->depth(), 3);
@@ -169,10 +169,10 @@ TEST_F(Designs, MaterialsMayBeMixtures) {
 }
 
 TEST_F(Designs, BoundsUseTheRangesOfValues) {
-  // x is at most 8 within the box, so the radius is at most 9.
+  // Within the box x is at most 8, so the radius is at most 9.
   const Box box{{-8, -20, -20}, {8, 20, 20}};
   EXPECT_EQ(egg()->bounds(box), (Box{{-8, -9, -9}, {8, 9, 9}}));
-  // A declared range holds everywhere.
+  // A declared range holds at every point.
   const NodePtr ball = make("ball", {{"radius", formula("5 + v", make("ramp", {}), "share")}});
   EXPECT_EQ(ball->bounds(design_space()), Box::centered({6, 6, 6}));
 }
@@ -229,7 +229,7 @@ TEST_F(Designs, ASolidUnderSeveralFramesIsOneBody) {
   EXPECT_EQ(calls, 2u);
 }
 
-// So many that looking through all of a node's inputs for each of them would take minutes.
+// With so many inputs, a quadratic search would take minutes.
 TEST_F(Designs, NodesWithVeryManyInputsAreRead) {
   constexpr size_t count = 150'000;
   DataList nodes, inputs;
@@ -249,7 +249,7 @@ TEST_F(Designs, NodesWithVeryManyInputsAreRead) {
   EXPECT_EQ(design->parts[0].solid->inputs().size(), count);
 }
 
-// Each level uses the one below twice: 2^40 paths.
+// Each level uses the one below twice, which makes 2^40 paths.
 TEST_F(Designs, SharedNodesAreQueriedOnce) {
   NodePtr node = make("ball", {});
   for (int level = 0; level < 40; ++level) node = make("any", {}, {node, node});
@@ -273,7 +273,7 @@ TEST_F(Designs, HashesLeaveOutWhatDoesNotMatter) {
     return hash({materials_, {{"part", make("ball", {{"radius", radius}, {"material", material}})}}, std::nullopt});
   };
   const Hash plain = hash_of(Data(2.0), Data("Red"));
-  EXPECT_EQ(hash_of(Data(2.0), Data("red")), plain);   // case
+  EXPECT_EQ(hash_of(Data(2.0), Data("red")), plain);   // case is ignored
   EXPECT_EQ(hash_of(Data(2.0), Data(1.0)), plain);     // a material's number
   EXPECT_EQ(hash_of(Data(2.0), Data("")), plain);      // the default
   EXPECT_EQ(hash_of(Data("1 + 1"), Data("")), plain);  // a constant expression

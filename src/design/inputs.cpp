@@ -1,4 +1,4 @@
-// Inputs of nodes, as the lowering answers for them.
+// Access of nodes to their inputs, implemented by the lowering.
 #include "base/text/text.h"
 #include "design/lowering.h"
 #include "design/node.h"

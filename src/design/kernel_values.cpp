@@ -1,4 +1,4 @@
-// Parameters that are weights around a voxel, and lists of texts.
+// Parameters that are weights around a voxel, or lists of texts.
 #include <cmath>
 
 #include "base/text/text.h"
@@ -10,7 +10,7 @@ namespace {
 constexpr size_t most_along = 1000, most_weights = 1'000'000;
 constexpr const char* example = "write for example [[[1, 2, 1]]]: lists along x of lists along y of lists along z";
 
-// How many lists stand in each other; the first element of each counts.
+// Returns the depth of nested lists, following the first element of each.
 int nesting(const Data& data) {
   int depth = 0;
   for (const Data* at = &data; at->list() && !at->list()->empty(); at = &at->list()->front()) ++depth;

@@ -1,4 +1,4 @@
-// What nodes lower to.
+// The results of lowering nodes: fields, compositions, and what is known of them.
 #pragma once
 
 #include <array>
@@ -18,57 +18,58 @@ namespace ombre::design {
 using program::Field;
 using program::Point;
 
-// Volume fractions at a point. They sum to one; a material that is not listed has none.
+// Volume fractions at a point. They sum to one; a material that is not listed has fraction 0.
 struct Composition {
-  std::vector<std::pair<MaterialId, Field>> fractions;  // ascending ids
-  // Fields that are 1 where something is wrong with the composition; numbers of Lowering's checks.
+  std::vector<std::pair<MaterialId, Field>> fractions;  // in ascending order of ids
+  // Pairs of the number of one of Lowering's checks and a field that is 1 where the composition violates it.
   std::vector<std::pair<uint32_t, Field>> checks;
 
   static Composition pure(MaterialId material, Field one) { return {{{material, one}}, {}}; }
 };
 
-// Where a value will be used. Outside of a solid its composition matters only if something above
-// (a blend, a complement) makes points inside that were outside.
+// The points at which a value is used. Outside a solid its composition matters only if a node above it, such as a blend
+// or a complement, adds these points to the inside.
 enum class Demand : uint8_t { inside, everywhere };
 
-// The influence of solids beyond their surfaces, by which they are joined smoothly.
+// The influence of solids beyond their surfaces, for smooth blends.
 struct Falloff {
-  std::function<Field(Field distance, const Point& p)> weight;  // 0 from reach_mm on
+  std::function<Field(Field distance, const Point& p)> weight;  // 0 for distances of reach_mm or more
   double reach_mm = 0;
 };
 
-// Whether a solid's surface belongs to it: then a point is a member where the distance is at most 0, else below 0.
+// Says whether a solid includes its surface: a point belongs to the solid if its distance is at most 0, or else if it
+// is below 0.
 enum class Border : uint8_t { included, excluded };
 inline Border other(Border border) { return border == Border::included ? Border::excluded : Border::included; }
-// a <= b with the border, a < b without.
+// Returns a <= b if the border is included, else a < b.
 inline Field at_most(Field a, Field b, Border border) {
   return border == Border::included ? less_equal(a, b) : less(a, b);
 }
 inline Field at_most(Field a, double b, Border border) { return border == Border::included ? a <= b : a < b; }
 
-// Outputs of the parts besides "inside".
+// Values that parts are asked for, besides "inside".
 enum class PartQuery : uint8_t {
-  interior,  // only whether a point is inside and not on the surface; nothing else
-  mix,       // of the composition: sums over the parts that hold the point, and their number
-  first,     // the composition of the first part that holds the point
+  interior,  // whether the point is inside and not on the surface; nothing else
+  mix,       // sums of composition over the parts that hold the point, and their number
+  first,     // composition of the first part that holds the point
   last,
-  along,  // the place along the first part that holds the point
+  along,  // position along the first part that holds the point
 };
 
-// Parts at a point, as fields.
+// Fields of a set of parts at a point.
 struct PartFields {
-  Field inside;             // or interior
-  Field count;              // of mix: how many hold the point
-  Composition composition;  // of mix: sums of fractions; checks where they are 1
+  Field inside;             // or the interior, for that query
+  Field count;              // number of parts that hold the point; for mix
+  Composition composition;  // sums of fractions, valid where their checks are 0; for mix
   Field along;
-  Field weight;                    // with a falloff: the sum of the weights
-  Composition weighed;             // the same, with fractions times weights
-  std::vector<size_t> others;      // inputs that are not among the parts
-  std::optional<MaterialId> only;  // all parts are of this one material, and nothing can be wrong
+  Field weight;                    // sum of the weights; with a falloff
+  Composition weighed;             // sums of weighted fractions; with a falloff
+  std::vector<size_t> others;      // numbers of inputs that are not among the parts
+  std::optional<MaterialId> only;  // set if all parts consist of this material and no check can fail
 };
 
-// What is known of a solid's g: an exact distance; a bound of it that changes at most `lipschitz` times
-// as fast as the point moves; or a value of which only the sign is meant.
+// The quality of a solid's distance function g: an exact distance; a bound that changes at most `lipschitz` times as
+// fast as the point moves; or a function of which only the sign is meaningful.
 struct Metric {
   enum class Kind : uint8_t { exact, bounded, implicit };
   Kind kind = Kind::exact;
@@ -90,33 +91,33 @@ inline std::string_view name(Metric::Kind kind) {
   return kind == Metric::Kind::exact ? "exact" : kind == Metric::Kind::bounded ? "bounded" : "implicit";
 }
 
-// A value has one of these types. A vector has three numbers; a colour has red, green, blue and alpha from 0 to 1, in
-// sRGB. A label is one of several names: its number is the name's place in their list, from 1 on; 0 is none of them.
+// The type of a value. A vector has three numbers. A colour has red, green, blue and alpha from 0 to 1, in sRGB. A
+// label is the position of a name in a list, counted from 1; 0 stands for none.
 enum class ValueType : uint8_t { number, vector, colour, mixture, label };
 std::string_view name(ValueType type);
 
-// How an attribute's values combine where solids overlap, number by number. Between solids that are blended, `mix`
-// weighs them by their influence; elsewhere it is the mean.
+// The rule that combines an attribute's values where solids overlap, number by number. Between blended solids, `mix`
+// weights them by their influence; elsewhere it is the mean.
 enum class Overlap : uint8_t { first, last, mean, min, max, sum, mix };
 inline constexpr std::array<std::string_view, 7> overlap_names{"first", "last", "mean", "min", "max", "sum", "mix"};
-Overlap overlap_called(std::string_view name);  // which is one of the names
+Overlap overlap_called(std::string_view name);  // `name` must be one of overlap_names
 
 struct AttributeDeclaration {
   std::string name, unit;
-  double default_value = 0;  // where no solid gives one
+  double default_value = 0;  // value where no solid sets it
   Overlap overlap = Overlap::first;
   ValueType type = ValueType::number;
-  std::array<double, 4> default_numbers{};  // of vectors and colours
-  std::vector<std::string> materials = {};  // of a mixture: those that it may hold, in the order of their ids
-  std::vector<std::string> labels = {};     // of a label: the names
-  Interval range = Interval::everything();  // that its numbers are meant to lie in
+  std::array<double, 4> default_numbers{};  // defaults of vectors and colours
+  std::vector<std::string> materials = {};  // materials that a mixture may contain, in order of their ids
+  std::vector<std::string> labels = {};     // names of a label
+  Interval range = Interval::everything();  // range in which its numbers should lie
   bool operator==(const AttributeDeclaration&) const = default;
 };
 
-// An attribute is asked for number by number. These are the names of its numbers: of a number or label its own, of
-// others "fibre.x", "color_rgba.r", "tissue.red". Names of attributes have no dots.
+// Returns the names of an attribute's numbers, by which it is evaluated. A number or label has the attribute's own
+// name; other types have several: "fibre.x", "color_rgba.r", "tissue.red". Names of attributes have no dots.
 std::vector<std::string> parts_of(const AttributeDeclaration& declaration);
-// "fibre" of "fibre.x".
+// Returns the attribute's name: "fibre" for "fibre.x".
 std::string_view attribute_of_part(std::string_view part);
 // Returns the default of one of an attribute's numbers.
 double default_of(const AttributeDeclaration& declaration, std::string_view part);

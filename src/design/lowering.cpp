@@ -11,7 +11,8 @@ namespace ombre::design {
 
 namespace {
 
-// A stage where there is no job: all its channels are 0, and the distance to what it flags is as large as can be.
+// Replaces a stage if there is no job. All its channels are 0, and the distance to its flagged cells is as large as
+// possible.
 class EmptyStage final : public program::FieldSource {
  public:
   explicit EmptyStage(const Stage& stage) : name_(stage.name()), content_(stage.content()) {}
@@ -53,7 +54,7 @@ bool are_whole_voxels(Vec3 offset, const StageLattice& lattice) {
 
 }  // namespace
 
-// A sub-program under construction. Its outputs are added as callers ask for them.
+// A sub-program under construction. Outputs are added when callers need them.
 struct LoweringContext::Body {
   program::Builder builder;
   Lowering lowering;
@@ -74,7 +75,7 @@ struct LoweringContext::Body {
     return it->second;
   }
 
-  // The field of an output where the body is called with p.
+  // Returns the field of an output when the body is called at p.
   Field call(const std::string& name, Field field, const Point& p) {
     if (const auto constant = builder.constant_value(field)) return p.constant(*constant);
     return p.builder().call(program, number(name, field), p.x, p.y, p.z);
@@ -101,7 +102,8 @@ LoweringContext::LoweringContext(const MaterialTable& materials, const std::vect
 
 LoweringContext::~LoweringContext() = default;
 
-// The first node that sets an attribute says what it is; a mixture holds the materials of all, a label the names.
+// Adds a declaration. The first node that sets an attribute determines it; a mixture gets the materials of all nodes, a
+// label their names.
 void LoweringContext::declare(const AttributeDeclaration& declared) {
   const auto known = std::ranges::find(attributes_, declared.name, &AttributeDeclaration::name);
   if (known == attributes_.end()) return attributes_.push_back(declared);
@@ -212,7 +214,7 @@ Lowering::Key Lowering::key_of(const Node& node, const Point& p, Query query) {
 }
 
 LoweringContext::Body* Lowering::body_for(const Node& node) {
-  if (node.uses_cell()) return nullptr;  // bodies know no cell
+  if (node.uses_cell()) return nullptr;  // bodies do not know the cell
   return &node != own_ && !stands_alone_ && context_.is_shared(node) ? &context_.body_of(node) : nullptr;
 }
 
@@ -276,7 +278,7 @@ Field Lowering::along(const Node& node, const Point& p) {
   if (auto* body = body_for(node)) return body->call("t", body->lowering.along(node, body->frame()), p);
   if (const auto own = node.along(Inputs(node, this), p)) return *own;
   if (const auto inner = node.inner(p)) return along(*node.inputs()[0], *inner);
-  // Of several, the first that is made of struts and holds the point.
+  // Uses the first input that consists of struts and holds the point.
   Field result;
   for (size_t i = node.inputs().size(); i-- > 0;) {
     const Node& input = *node.inputs()[i];
@@ -342,7 +344,7 @@ bool LoweringContext::carries(const Node& node, std::string_view attribute) {
     return std::ranges::any_of(node.inputs(), [&](const NodePtr& input) { return carries(*input, attribute); });
   };
   if (!is_shared(node)) return some_input();
-  // Computed once, since there may be very many ways to it.
+  // The answer is cached, since a node may be reached in very many ways.
   const std::pair key(&node, std::string(attribute));
   const auto known = [&]() -> std::optional<bool> {
     const std::scoped_lock lock(queries_mutex_);
@@ -378,9 +380,9 @@ uint32_t Lowering::add_check(const Node& node, const std::string& message) {
 
 std::optional<PartFields> Lowering::many_parts(const Node& node, const PartList& list, PartQuery query, const Point& p,
                                                const Falloff* falloff) {
-  if (stands_alone_) return std::nullopt;  // tables do not hold tables
-  // The parts take the frame in, so that they are evaluated at the program's own inputs; those that are kept for other
-  // programs do not.
+  if (stands_alone_) return std::nullopt;  // tables cannot contain tables
+  // Without a memory, the parts include the point's affine map, so that they are evaluated at the program's own inputs.
+  // Parts that are kept for other programs do not include it.
   const auto map = context_.has_memory() ? std::nullopt : p.from_inputs();
   const ManyParts* parts = context_.many_parts(node, list, query, map.value_or(Affine{}), falloff);
   if (!parts) return std::nullopt;

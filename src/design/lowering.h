@@ -1,4 +1,4 @@
-// Lowering: asks nodes for fields at points and remembers the answers.
+// Lowering: computes fields of nodes at points and caches the results.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace ombre::design {
 
-// What a job tells of when a check's mark is 1 at a voxel.
+// A condition that a job reports if its flag is 1 at a voxel.
 struct Check {
   SourceRange where;
   std::string message;
@@ -26,17 +26,17 @@ struct Check {
 struct ManyParts;
 struct PartsQuestion;
 
-// State that all lowerings of one design share: checks and bodies.
+// State that all lowerings of one design share, such as checks and bodies.
 class LoweringContext {
  public:
-  // `scale` of the job, if it is known. Tables of many parts are made on up to `threads` threads; 0: all cores.
+  // `scale` is the job's, if known. Tables of many parts are made on up to `threads` threads; 0 means all cores.
   LoweringContext(const MaterialTable& materials, const std::vector<NodePtr>& roots,
                   std::optional<JobScale> scale = std::nullopt, int threads = 1);
-  // Where stages get their lattice and are made. Without this they are 0 everywhere.
+  // Sets the lattice and the host of stages. Without this call all stages are 0 everywhere.
   void use_stages(const std::optional<StageLattice>& lattice, std::shared_ptr<StageHost> host);
-  // Tables of many parts are taken from there, and kept there. Each has the frame of its node, so that it does not
-  // depend on what stands above; without a memory tables have the frame of the program, whose values are rounded
-  // otherwise.
+  // Sets a memory that keeps tables of many parts. Tables in the memory are made in the frame of their node, so that
+  // they do not depend on nodes above. Without a memory they are made in the frame of the program, which rounds values
+  // differently.
   void use_memory(SubDesignMemory* memory) { memory_ = memory; }
   bool has_memory() const { return memory_ != nullptr; }
   ~LoweringContext();
@@ -44,28 +44,29 @@ class LoweringContext {
   const MaterialTable& materials() const { return materials_; }
   const std::vector<Check>& checks() const { return checks_; }
   const std::vector<AttributeDeclaration>& attributes() const { return attributes_; }
-  // Remarks of nodes while they were lowered, each once.
+  // Messages that nodes reported during lowering, each once.
   const Diagnostics& diagnostics() const { return diagnostics_; }
   void report(const Diagnostic& diagnostic);
   uint32_t register_check(const Node& node, const std::string& message);
-  // As the node has them, where transforms above shrink or stretch it; where there are several ways to it, the least.
+  // Returns the job's scale in the node's space, after the scaling by transforms above. If several paths lead to the
+  // node, returns the finest scale.
   std::optional<JobScale> scale(const Node& node);
   program::SourceField staged(const Node& node, const StagePtr& stage);
-  // Parts of the node as a table, placed in the frame of the program that will hold it; null where
-  // it does not pay.
+  // Returns a table of the node's parts in the frame of the program that will contain it, or null if a table does not
+  // pay.
   const ManyParts* many_parts(const Node& node, const PartList& list, PartQuery query, const Affine& node_from_program,
                               const Falloff* falloff);
-  // Writes the code of the bodies into their programs; call it when nothing more will be lowered.
+  // Writes the code of all bodies into their programs. Must be the last call.
   void finish_bodies();
 
  private:
   friend class Lowering;
   struct Body;
   Body& body_of(const Node& node);
-  // A node's space as the job sees it.
+  // The relation between a node's space and the space of the root.
   struct View {
-    double scale = 1;            // a length there for one of the root's; where there are several ways, the least
-    std::optional<Vec3> offset;  // a point there less the same point of the root, if they differ by whole voxels only
+    double scale = 1;  // length in the node's space per length in the root's; the least one if there are several paths
+    std::optional<Vec3> offset;  // translation from the root's space, if they differ only by whole voxels
   };
   View view(const Node& node);
   void find_views();
@@ -83,15 +84,15 @@ class LoweringContext {
   std::optional<StageLattice> lattice_;
   std::shared_ptr<StageHost> stages_;
   int threads_;
-  // Lowerings that stand alone may ask at once.
+  // Guards state that independent lowerings may use at the same time.
   std::mutex queries_mutex_;
-  std::unordered_map<const Node*, View> views_;  // found when they are needed
+  std::unordered_map<const Node*, View> views_;  // computed when first needed
   std::vector<Check> checks_;
   Diagnostics diagnostics_;
   std::map<std::pair<const Node*, std::string>, uint32_t> check_numbers_;
   std::vector<AttributeDeclaration> attributes_;
-  std::unordered_set<const Node*> shared_;                       // used more than once
-  std::map<std::pair<const Node*, std::string>, bool> carries_;  // does a node have an attribute?
+  std::unordered_set<const Node*> shared_;                       // nodes that are used more than once
+  std::map<std::pair<const Node*, std::string>, bool> carries_;  // whether a node has an attribute
   std::unordered_map<const Node*, std::unique_ptr<Body>> bodies_;
   std::vector<Body*> body_order_;
   using PartsKey = std::tuple<const Node*, PartQuery, bool, std::array<double, 12>>;
@@ -102,8 +103,8 @@ class LoweringContext {
 // Returns the materials that a material parameter may give at some point, in ascending order.
 std::vector<MaterialId> materials_of(const MaterialName& name, const MaterialTable& table);
 
-// Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program
-// that is called at each point where it is asked for.
+// Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program that is called at
+// each point where it is needed.
 class Lowering : public OutputFields {
  public:
   Lowering(LoweringContext& context, program::Builder& builder) : context_(context), builder_(builder) {
@@ -114,7 +115,7 @@ class Lowering : public OutputFields {
   Lowering& operator=(const Lowering&) = delete;
 
   Field distance(const Node& node, const Point& p);
-  Field membership(const Node& node, const Point& p, Border border);  // truth value
+  Field membership(const Node& node, const Point& p, Border border);  // a truth value
   Field inside(const Node& node, const Point& p) { return membership(node, p, Border::included); }
   Composition composition(const Node& node, const Point& p, Demand demand);
   Field attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
@@ -122,11 +123,12 @@ class Lowering : public OutputFields {
   Composition mixture(const Node& node, const Point& p);
   Field along(const Node& node, const Point& p);
 
-  // Parts of a node as rows of a table; nothing if they are few. A node has one list and one falloff.
+  // Returns the parts of a node from a table, or nothing if there are too few. Each node has only one list and one
+  // falloff.
   std::optional<PartFields> many_parts(const Node& node, const PartList& list, PartQuery query, const Point& p,
                                        const Falloff* falloff);
-  // From here on, nodes that are used more than once are not called as bodies, and checks are kept here
-  // instead of in the context: for sub-programs that stand for themselves. Several may be made at once.
+  // Makes this lowering independent of the context: shared nodes are not called as bodies, and checks are kept here. It
+  // is used for separate sub-programs, of which several may be made at the same time.
   void write_bodies_out() { stands_alone_ = true; }
   struct LocalCheck {
     const Node* node;
@@ -135,7 +137,7 @@ class Lowering : public OutputFields {
   const std::vector<LocalCheck>& local_checks() const { return local_checks_; }
 
   bool has_attribute(const Node& node, std::string_view name);
-  // Of an attribute, or of one of its numbers.
+  // Returns the declaration of an attribute, or of one of its numbers.
   const AttributeDeclaration* declaration(std::string_view name) const;
   const std::vector<AttributeDeclaration>& attributes() const { return context_.attributes_; }
   MaterialId material(const MaterialName& name) const;
@@ -176,12 +178,12 @@ class Lowering : public OutputFields {
 
   LoweringContext& context_;
   program::Builder& builder_;
-  const Node* own_ = nullptr;  // the node whose body this is: it is lowered here, not called
+  const Node* own_ = nullptr;  // the node whose body this is; it is lowered here instead of called
   bool stands_alone_ = false;
   std::vector<LocalCheck> local_checks_;
   std::unordered_map<Key, Field, KeyHash> fields_;
   std::unordered_map<Key, VectorField, KeyHash> numbers_;
-  std::unordered_map<Key, Composition, KeyHash> compositions_;  // and mixtures
+  std::unordered_map<Key, Composition, KeyHash> compositions_;  // compositions and mixtures
 
   friend class LoweringContext;
 };

@@ -1,4 +1,4 @@
-// Solids within a node as many parts of a few kinds (program/parts.h).
+// Solids within a node, stored as many parts of a few kinds (program/parts.h).
 #pragma once
 
 #include <memory>
@@ -9,17 +9,17 @@
 
 namespace ombre::design {
 
-// A set of parts, without a place.
+// A set of parts, in no particular frame.
 struct ManyParts {
   std::shared_ptr<const program::PartSet> set;
-  // What compositions come from.
+  // The slots that hold a composition.
   struct CompositionSlots {
-    std::vector<std::pair<MaterialId, size_t>> materials;  // ascending
-    std::vector<std::pair<uint32_t, size_t>> checks;       // numbers of Lowering's checks
+    std::vector<std::pair<MaterialId, size_t>> materials;  // materials and their slots, in ascending order
+    std::vector<std::pair<uint32_t, size_t>> checks;       // numbers of Lowering's checks and their slots
   };
 
-  size_t count_slot = 0, along_slot = 0, weight_slot = 0;  // 0: there is none
-  CompositionSlots held, weighed;                          // of parts that hold the point; by their weights
+  size_t count_slot = 0, along_slot = 0, weight_slot = 0;  // 0 if there is no such slot
+  CompositionSlots held, weighed;  // composition of parts that hold the point, and weighted composition
   std::vector<size_t> others;
   std::optional<MaterialId> only;
 

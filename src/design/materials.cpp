@@ -5,7 +5,7 @@
 namespace ombre::design {
 namespace {
 
-constexpr size_t most_materials = 255;  // ids fit a byte, 0 is void
+constexpr size_t most_materials = 255;  // ids fit into a byte, and 0 is void
 
 std::optional<uint8_t> channel(const Data& entry, std::string_view key, std::optional<uint8_t> otherwise,
                                Diagnostics& diagnostics) {
@@ -23,7 +23,7 @@ std::optional<uint8_t> channel(const Data& entry, std::string_view key, std::opt
   return std::nullopt;
 }
 
-// Is the material marked as support? Whatever is not a truth value is an error.
+// True if the material is marked as support. Adds a diagnostic if the property is no truth value.
 bool is_marked_as_support(const DataMembers& properties, Diagnostics& diagnostics) {
   for (const auto& [key, value] : properties) {
     if (key != "support") continue;
@@ -64,7 +64,7 @@ std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& 
       if (key != "name" && key != "r" && key != "g" && key != "b" && key != "a")
         material.properties.emplace_back(key, value);
     if (to_lower(material.name) == "void") {
-      all[0].properties = material.properties;  // its id and colour are fixed
+      all[0].properties = material.properties;  // void keeps its id and colour
       continue;
     }
     if (table.find(material.name)) {

@@ -1,4 +1,4 @@
-// The materials that a design may name: ids, colours, and whatever else a file says of them.
+// The materials that a design may use: ids, colours, and other properties from a file.
 #pragma once
 
 #include <array>
@@ -19,30 +19,30 @@ struct Material {
   std::string name;
   MaterialId id = 0;
   Rgba colour{};
-  DataMembers properties;  // modulus, density, support, ...: kept as written
+  DataMembers properties;  // modulus, density, support, ..., kept as written
 };
 
-// `void` is id 0; the others count from 1 in the order of their file.
+// `void` has id 0. The other materials are numbered from 1 in the order of their file.
 class MaterialTable {
  public:
   MaterialTable();
-  // From {"materials": [{"name", "r", "g", "b", "a", ...}]}. Nothing, and diagnostics, when wrong.
+  // Reads {"materials": [{"name", "r", "g", "b", "a", ...}]}. Returns nothing and adds diagnostics if it is wrong.
   static std::optional<MaterialTable> read(const Data& data, Diagnostics& diagnostics);
-  // The list in the form that `read` takes.
+  // Returns the list in the form that `read` takes.
   Data to_data() const;
 
-  const std::vector<Material>& all() const { return *all_; }  // by id, void first
-  const Material* find(std::string_view name) const;          // names match without regard to case
+  const std::vector<Material>& all() const { return *all_; }  // indexed by id, with void first
+  const Material* find(std::string_view name) const;          // case is ignored
   const Material* find(MaterialId id) const { return id < all_->size() ? &(*all_)[id] : nullptr; }
-  // What holds parts up while they are printed: the material with the property "support": true, else the one of this
-  // name; null if there is neither.
+  // Returns the material of supports: the one with the property "support": true, else the one named "support", else
+  // null.
   const Material* support() const;
-  const Material& first() const { return (*all_)[all_->size() > 1 ? 1 : 0]; }  // what is meant when none is given
+  const Material& first() const { return (*all_)[all_->size() > 1 ? 1 : 0]; }  // the default where no material is given
   std::vector<std::string> names() const;
 
  private:
-  std::shared_ptr<std::vector<Material>> all_;  // copies share it: nodes point at materials
-  MaterialId support_ = 0;                      // the one that is marked; 0: none is
+  std::shared_ptr<std::vector<Material>> all_;  // shared by copies, since nodes point to materials
+  MaterialId support_ = 0;                      // id of the material marked as support; 0 if there is none
 };
 
 }  // namespace ombre::design

@@ -40,7 +40,7 @@ size_t Node::first_output() const {
 }
 
 Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
-  // What is only a few nodes in a row is evaluated again: remembering it would cost more.
+  // Short chains of nodes are evaluated again, since caching would cost more.
   constexpr int few = 4;
   if (node.depth() <= few && node.inputs().size() <= 1) return node.reach(Inputs(node, nullptr, this), where, margin);
   const auto known = last_.find(&node);
@@ -71,7 +71,7 @@ Node::~Node() {
 std::vector<const Node*> topological(const std::vector<NodePtr>& roots) {
   std::vector<const Node*> order;
   std::unordered_set<const Node*> seen;
-  // What only one node holds cannot be seen twice.
+  // A node with a single owner cannot be visited twice.
   const auto is_new = [&](const NodePtr& node) { return node.use_count() == 1 || seen.insert(node.get()).second; };
   struct Visit {
     const Node* node;

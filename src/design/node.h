@@ -1,4 +1,4 @@
-// Nodes: a type, its parameters, its inputs. Immutable once made; shared where used twice.
+// Nodes: a type, parameters and inputs. A node is immutable once made, and shared if it is used more than once.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ class Lowering;
 class NodeType;
 class Stage;
 
-// Bounds already asked for: a sub-design may be reached in very many ways.
+// A cache of bounds, since a sub-design may be reached in very many ways.
 class BoundsMemory {
  public:
   Box of(const Node& node, const Box& where, double margin);
@@ -41,7 +41,7 @@ class PartList {
  public:
   virtual ~PartList() = default;
   virtual size_t count() const = 0;
-  // Encloses the points of `where` at which the part's g is `margin` or less.
+  // Returns a box around the points of `where` at which the part's distance function g is at most `margin`.
   virtual Box reach(size_t i, const Box& where, double margin) const = 0;
   virtual bool uses_cell(size_t i) const = 0;
   virtual Field distance(const Inputs& in, size_t i, const Point& p) const = 0;
@@ -50,25 +50,25 @@ class PartList {
   virtual Composition composition(const Inputs& in, size_t i, const Point& p, Demand demand) const = 0;
 };
 
-// A node's inputs as its methods see them: by number, at a point of the node's choice.
+// The inputs of a node as its methods see them: selected by number, and evaluated at a point that the method chooses.
 class Inputs {
  public:
   Inputs(const Node& node, Lowering* lowering, BoundsMemory* memory = nullptr)
       : node_(node), lowering_(lowering), memory_(memory) {}
 
   size_t count() const;
-  // Are only bounds, the metric or ranges of numbers asked for? Then nothing is known of solids but that.
+  // True if only bounds, the metric or ranges of numbers are computed. Nothing else is known of the inputs then.
   bool are_ranges() const { return !lowering_; }
   const Node& node() const { return node_; }
   const Node& input(size_t i) const;
 
   Box bounds(size_t i, const Box& where) const { return reach(i, where, 0); }
-  // Encloses the points of `where` at which the input's g is `margin` or less; margin >= 0.
+  // Returns a box around the points of `where` at which the input's g is at most `margin`, which must be >= 0.
   Box reach(size_t i, const Box& where, double margin) const;
   Metric metric(size_t i) const;
 
   Field distance(size_t i, const Point& p) const;
-  Field membership(size_t i, const Point& p, Border border) const;  // truth value
+  Field membership(size_t i, const Point& p, Border border) const;  // a truth value
   Field inside(size_t i, const Point& p) const { return membership(i, p, Border::included); }
   Composition composition(size_t i, const Point& p, Demand demand) const;
   Field attribute(size_t i, std::string_view attribute_name, const Point& p, Demand demand) const;
@@ -76,113 +76,115 @@ class Inputs {
   Field along(size_t i, const Point& p) const;
   AttributeDeclaration declaration(std::string_view attribute_name) const;
 
-  // The inputs as a table of many parts; nothing if they are few.
+  // Returns the inputs as a table of many parts, or nothing if there are too few.
   std::optional<PartFields> many_parts(PartQuery query, const Point& p, const Falloff* falloff = nullptr) const;
-  // The same of parts that the node has itself.
+  // Returns a table of parts that are not inputs, or nothing if there are too few.
   std::optional<PartFields> many_parts(PartQuery query, const Point& p, const PartList& list) const;
 
-  // All inputs at one point.
+  // Evaluates all inputs at one point.
   std::vector<Field> distances(const Point& p) const;
   std::vector<Field> memberships(const Point& p, Border border) const;
 
-  MaterialId material(const MaterialName& name) const;  // which is no mixture
-  // The composition of a material alone, or of the mixture at the point.
+  MaterialId material(const MaterialName& name) const;  // must not be a mixture
+  // Returns the composition of a single material, or of the mixture at the point.
   Composition composition_of(const MaterialName& name, const Point& p) const;
-  // Of a solid that a parameter holds: mm, negative inside. Anything where only ranges are evaluated.
+  // Returns the distance in mm to a solid that a parameter holds, negative inside. If only ranges are evaluated,
+  // returns a field that may have any value.
   Field distance_to(const SolidName& solid, const Point& p) const;
   Field inside_of(const SolidName& solid, const Point& p) const;
-  // What it is made of at the point, inside or not. Not where only ranges are evaluated.
+  // Returns the composition of the solid at the point, inside or outside. Must not be called if only ranges are
+  // evaluated.
   Composition composition_of(const SolidName& solid, const Point& p) const;
-  // One of the numbers of its attributes.
+  // Returns a number of one of the solid's attributes.
   Field attribute_of(const SolidName& solid, std::string_view attribute_name, const Point& p) const;
-  // The input's attribute, or number of one, that formulas call by this name in small letters; empty: it has none.
+  // Returns the name of the input's attribute, or of its number, whose lower-case name this is; "" if there is none.
   std::string attribute_called(size_t i, std::string_view lower_case) const;
-  // How fine the job is in this node's space, if it is known.
+  // Returns the scale of the job in this node's space, if known.
   std::optional<JobScale> scale() const;
-  // The source that gives what a stage of this node computes.
+  // Returns the source of the values that a stage of this node computes.
   program::SourceField staged(const std::shared_ptr<const Stage>& stage) const;
-  // Reported once for each job that lowers the node.
+  // Reports a message once for each job that lowers the node.
   void report(Severity severity, const std::string& message, const Phrase& hint) const;
-  // A flag that is 1 where something is wrong; `message` is reported once, with the count of voxels.
+  // Registers a check. `bad` is 1 where something is wrong; then `message` is reported once, with the number of voxels.
   std::pair<uint32_t, Field> check(Field bad, const std::string& message) const;
 
  private:
   const Node& node_;
-  Lowering* lowering_;    // null where only bounds or the metric are asked for
-  BoundsMemory* memory_;  // set where bounds are asked for
+  Lowering* lowering_;    // null if only bounds or the metric are computed
+  BoundsMemory* memory_;  // set while bounds are computed
 };
 
-// What a node's outputs are evaluated with. Where only ranges of numbers are evaluated, `in` has no lowering: it knows
-// the inputs' bounds, and nothing else.
+// The arguments of a node's outputs. If only ranges are evaluated, `in` has no lowering and knows only the inputs'
+// bounds.
 struct Ask {
   const Inputs& in;
   const Point& p;
 };
 
-// What helps to make a faster program of a design. No trait changes what a design means.
+// Hints for faster programs. They do not change the meaning of a design.
 struct Traits {
-  double most_evaluations_of_input = 1;  // an upper bound of how often one evaluation of the node evaluates an input
-  size_t instances = 1;                  // number of inner solids (struts, say) that may become rows of a table
-  bool gives_cell = false;               // does it set the cell's numbers ci, cj and ck for what lies below it?
-  std::optional<Vec3> cell_size = {};    // steps at which copies of a unit cell join, mm
-  // Of copies at steps of at least these (mm), the one whose origin is nearest always has the least g, wherever the
-  // others are.
+  double most_evaluations_of_input = 1;  // greatest number of evaluations of an input during one evaluation of the node
+  size_t instances = 1;                  // number of inner solids, such as struts, that may become rows of a table
+  bool gives_cell = false;               // true if it sets the cell's numbers ci, cj and ck for the nodes below
+  std::optional<Vec3> cell_size = {};    // steps in mm at which copies of a unit cell join
+  // Least steps in mm between copies for which the copy with the nearest origin always has the least g.
   Vec3 nearest_copy_is_enough_from = {Box::inf, Box::inf, Box::inf};
 };
 
-// Its parameters, and what they mean, are in the type that is made from a plain struct (spec.h). One piece of
-// memory holds all of it but lists: designs may have millions.
+// A node of a design. Its type, which is made from a plain struct (spec.h), describes its parameters. Except for lists
+// a node occupies a single block of memory, since designs may have millions.
 class Node {
  public:
   Node() = default;
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
-  virtual ~Node();  // without recursion: chains may be long
-  // What a node gets when its parameters are set; from then on it stays as it is.
+  virtual ~Node();  // not recursive, since chains may be long
+  // Completes a node after its parameters are set. It is immutable from then on.
   void finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& values, SourceRange where);
 
   virtual const NodeType& type() const = 0;
-  // Encloses the points of `where` at which g is `margin` (mm, not negative) or less.
+  // Returns a box around the points of `where` at which g is at most `margin` (mm, not negative).
   virtual Box reach(const Inputs& in, const Box& where, double margin) const = 0;
-  // Solids give `distance`; the others have defaults that follow from it or from the inputs.
+  // Solids implement `distance`. The other functions have defaults that use it or the inputs.
   virtual Field distance(const Inputs& in, const Point& p) const = 0;
   virtual std::optional<Field> membership(const Inputs& in, const Point& p, Border border) const = 0;
   virtual std::optional<Composition> composition(const Inputs& in, const Point& p, Demand demand) const = 0;
   virtual std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p,
                                          Demand demand) const = 0;
   virtual std::optional<AttributeDeclaration> declares() const = 0;  // the attribute that it sets
-  // Is it of its one input's shape, to which it gives a material, an attribute or a name?
+  // True if it has the shape of its single input, to which it adds a material, an attribute or a name.
   virtual bool keeps_shape() const = 0;
-  // Where a node that only moves the question asks its input.
+  // Returns the point at which the input is evaluated, if the node only maps points.
   virtual std::optional<Point> inner(const Point& p) const = 0;
-  // Along struts: 0 at their start, 1 at their end. Nothing where the inputs are to be evaluated.
+  // Returns the position along struts, from 0 at their start to 1 at their end, or nothing if the inputs are to be
+  // evaluated.
   virtual std::optional<Field> along(const Inputs& in, const Point& p) const = 0;
   virtual Traits traits() const = 0;
-  // Of the shape that it has: its own, or those of the node that it carries something to.
+  // Returns the traits of its shape: its own, or those of its input if it keeps that shape.
   Traits traits_of_shape() const;
 
-  // Value nodes have outputs, in the order of their type's list.
-  virtual bool gives(size_t output) const = 0;                           // do its parameters allow this one?
-  virtual VectorField numbers(size_t output, const Ask& ask) const = 0;  // of a number x alone
+  // Outputs of value nodes are numbered in the order of their type's list.
+  virtual bool gives(size_t output) const = 0;                           // false if its parameters rule this output out
+  virtual VectorField numbers(size_t output, const Ask& ask) const = 0;  // a single number is in x
   virtual Composition mixture(const Ask& ask) const = 0;
-  size_t first_output() const;  // that it gives
+  size_t first_output() const;  // the first one that gives() allows
 
   std::span<const NodePtr> inputs() const { return {inputs_.get(), input_count_}; }
-  // The nodes whose outputs its parameters hold, each once.
+  // Returns the nodes whose outputs its parameters hold, each once.
   std::span<const NodePtr> values() const { return {inputs_.get() + input_count_, value_count_}; }
-  // Both.
+  // Returns the inputs and the values.
   std::span<const NodePtr> dependencies() const { return {inputs_.get(), size_t{input_count_} + value_count_}; }
   const SourceRange& where() const { return where_; }
 
-  bool is_nothing() const;  // a solid without a point
+  bool is_nothing() const;  // true for a solid without points
 
-  // The smallest known box around what is inside within `where`.
+  // Returns the smallest known box around the inside within `where`.
   Box bounds(const Box& where) const;
   Metric metric() const { return {static_cast<Metric::Kind>(kind_), lipschitz_}; }
   int depth() const { return depth_; }  // 1 for a leaf
-  // Do its numbers, or those of its inputs, depend on the cell that a repeating node above it gives?
+  // True if its numbers, or those of its inputs, depend on the cell of a repeating node above.
   bool uses_cell() const { return uses_cell_; }
-  bool has_along() const;  // is it, or one of its inputs, made of struts?
+  bool has_along() const;  // true if it or one of its inputs consists of struts
 
  private:
   virtual Metric find_metric(const Inputs& in) const = 0;
@@ -190,17 +192,17 @@ class Node {
   virtual bool has_cell_numbers() const = 0;
 
   SourceRange where_;
-  std::unique_ptr<NodePtr[]> inputs_;  // and then the values
+  std::unique_ptr<NodePtr[]> inputs_;  // inputs, followed by values
   uint32_t input_count_ = 0;
   uint16_t value_count_ = 0;
-  // In few bits, since designs may have millions of nodes; the metric in parts.
+  // Stored in few bits, since designs may have millions of nodes. The metric is stored as its kind and its constant.
   uint16_t depth_ : 12 = 1;
   uint16_t kind_ : 3 = 0;
   uint16_t uses_cell_ : 1 = 0;
   double lipschitz_ = 1;
 };
 
-// All nodes below and including the roots, each once, inputs and values before the nodes that use them.
+// Returns all nodes at and below the roots, each once. Inputs and values come before the nodes that use them.
 std::vector<const Node*> topological(const std::vector<NodePtr>& roots);
 
 }  // namespace ombre::design

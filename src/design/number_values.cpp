@@ -1,4 +1,4 @@
-// Numbers that may vary in space.
+// Parameters that are numbers which may vary in space.
 #include <algorithm>
 
 #include "design/outputs.h"

@@ -1,4 +1,4 @@
-// Outputs of value nodes, and formulas of them, as data.
+// Outputs of value nodes, and formulas with them, as data.
 #include <algorithm>
 
 #include "base/system/assert.h"
@@ -39,7 +39,7 @@ const FormulaObject* formula_object(const Data& data) {
   return dynamic_cast<const FormulaObject*>(data.host_object().get());
 }
 
-// A node, and the output and coordinate that a text names.
+// A node with the output and coordinate that a text selects.
 struct Named {
   NodePtr node;
   size_t output = 0;
@@ -110,7 +110,7 @@ std::optional<expr::Expression> number_of(const Data& data, const Reader& reader
   return std::nullopt;
 }
 
-// {"formula": "2*v", "with": {"v": ...}}
+// Reads {"formula": "2*v", "with": {"v": ...}}.
 std::optional<expr::Expression> formula_with(const Data& data, const Domain& domain, const Reader& reader) {
   const Data *formula = data.find("formula"), *with = data.find("with");
   if (!formula->string() || (with && !with->members())) {

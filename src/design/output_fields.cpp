@@ -7,7 +7,7 @@
 namespace ombre::design {
 namespace {
 
-// Stands for what is not known where only ranges are evaluated.
+// Represents an unknown value where only ranges are evaluated.
 class Anything : public program::FieldSource {
  public:
   std::string name() const override { return "anything"; }

@@ -1,4 +1,4 @@
-// Outputs of value nodes, and the data by which parameters are given them.
+// Outputs of value nodes, and the data that gives them to parameters.
 #pragma once
 
 #include <map>
@@ -24,22 +24,22 @@ struct VectorField {
 // A number that a node gives, or one coordinate of a vector.
 struct NodeOutput {
   NodePtr node;
-  size_t output = 0;  // its place in the list of the node's type
-  int axis = -1;      // of a vector
+  size_t output = 0;  // position in the type's list of outputs
+  int axis = -1;      // coordinate of a vector
 
-  std::string name() const;  // "value", "index.x"
+  std::string name() const;  // the output's name: "value" or "index.x"
 };
 
-// Gives the fields of outputs at points of its builder.
+// Computes fields of outputs at points of its builder.
 class OutputFields : public program::BuilderUser {
  public:
   virtual Field number(const NodeOutput& output, const Point& p) = 0;
 };
 
-// The fields of outputs where there is no lowering, for as long as this lives.
+// Computes fields of outputs without a lowering. It must live as long as the builder uses it.
 class OutputsAlone : public OutputFields {
  public:
-  // `by_ranges`: a number with a declared range may be anything within it.
+  // With `by_ranges`, a number with a declared range may have any value within it.
   OutputsAlone(program::Builder& builder, bool by_ranges) : builder_(builder), by_ranges_(by_ranges) {
     builder.set_user(this);
   }
@@ -57,10 +57,10 @@ class OutputsAlone : public OutputFields {
   std::map<Key, VectorField> known_;
 };
 
-// A field that may be anything in a range, where only ranges are evaluated.
+// Returns a field that may have any value in a range, for evaluation of ranges only.
 Field anything(const Point& p, const Interval& range = Interval::everything());
 
-// An output as a part of formulas.
+// An output as an operand of formulas.
 class OutputInput final : public expr::Input {
  public:
   explicit OutputInput(NodeOutput output) : output_(std::move(output)) {}
@@ -74,10 +74,10 @@ class OutputInput final : public expr::Input {
 };
 
 expr::Expression expression_of(NodeOutput output);
-// The nodes whose outputs a formula holds, in its order.
+// Returns the nodes whose outputs a formula uses, in order of occurrence.
 std::vector<NodePtr> nodes_of(const expr::Expression& expression);
 
-// Data that stands for the first output of a node that the node gives.
+// Data that stands for the first output that the node gives.
 class NodeObject final : public HostObject {
  public:
   explicit NodeObject(NodePtr node) : node_(std::move(node)) {}
@@ -99,26 +99,26 @@ class FormulaObject final : public HostObject {
   expr::Expression expression_;
 };
 
-// Is the data one of these two, or an object such as {"from": ..., "output": "value"}?
+// True if the data is one of these two, or an object such as {"from": ..., "output": "value"}.
 bool is_value(const Data& data);
-bool is_mixture(const Data& data);  // of materials
-// Reads data that is a value. Nothing, and a diagnostic, when it gives no number.
+bool is_mixture(const Data& data);  // true for a mixture of materials
+// Reads data that is a value. Returns nothing and adds a diagnostic if it gives no number.
 std::optional<expr::Expression> read_formula(const Data& data, const Domain& domain, const Reader& reader);
-// The numbers of data that is an output with several, such as a node's index; empty for other data.
+// Returns the numbers of an output that has several, such as a node's index. Returns an empty list for other data.
 std::vector<expr::Expression> vector_of(const Data& data, const Reader& reader);
-// The same for mixtures; null, and a diagnostic, when it gives none.
+// Reads an output that is a mixture. Returns null and adds a diagnostic if it is none.
 NodePtr read_mixture(const Data& data, const Reader& reader);
 
-// {"from": node, "output": "value"} or {"formula": "2*v", "with": {"v": {"from": node, "output": "value"}}}, where the
-// nodes are NodeObjects.
+// Returns {"from": node, "output": "value"} or {"formula": "2*v", "with": {"v": {"from": node, "output": "value"}}}, in
+// which nodes are NodeObjects.
 Data write_formula(const expr::Expression& expression);
-Data write_mixture(const Node& node);  // its NodeObject does not hold the node
-// A solid as a parameter: a NodeObject, or {"from": node}. Null, and a diagnostic, when it is no solid.
+Data write_mixture(const Node& node);  // its NodeObject does not own the node
+// Reads a solid as a parameter: a NodeObject or {"from": node}. Returns null and adds a diagnostic if it is no solid.
 NodePtr read_solid(const Data& data, const Reader& reader);
-Data write_solid(const Node& node);  // as of mixtures
-// Data of a parameter, of which all NodeObjects hold their nodes, which are among `nodes`.
+Data write_solid(const Node& node);  // its NodeObject does not own the node
+// Returns the data with all its NodeObjects replaced by ones that own their nodes, which are among `nodes`.
 Data with_held_nodes(const Data& data, std::span<const NodePtr> nodes);
-// Replaces each NodeObject by the text that `name` gives.
+// Replaces each NodeObject by the text that `name` returns.
 Data with_names(const Data& data, const std::function<std::string(const Node&)>& name);
 
 }  // namespace ombre::design

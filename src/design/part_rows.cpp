@@ -16,13 +16,13 @@ using program::SlotKind;
 
 namespace {
 
-// Pieces of a part, and of all parts together.
+// Greatest number of pieces of one part, and of all parts together.
 constexpr size_t most_pieces = 8, most_pieces_together = 2'000'000;
-// Parts are written out in full, with all that they repeat, and without tables of their own.
+// Limits of a part that goes into a table. Such parts are written out with all their repetitions and contain no tables.
 constexpr double most_repetitions = 64;
 constexpr size_t most_solids = 256;
 
-// How often the innermost nodes are evaluated; infinite for parts of too many solids.
+// Returns how often the innermost nodes are evaluated, or infinity for parts of too many solids.
 double repetitions(const Node& node, size_t& solids) {
   solids += node.traits().instances;
   if (solids > most_solids) return std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ static int longest_axis(const Box& box) {
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
-// They meet.
+// Returns the intersection of cells that intersect.
 static Cells common(Cells a, const Cells& b) {
   for (size_t axis = 0; axis < 3; ++axis) {
     a.first[axis] = std::max(a.first[axis], b.first[axis]);
@@ -74,7 +74,7 @@ void PartRows::add(size_t part) {
   if (!try_add(part)) made_.others.push_back(part);
 }
 
-// False: the part does not go into a table.
+// Returns false if the part cannot be a row of a table.
 bool PartRows::try_add(size_t part) {
   const auto& [context, node, list, query, falloff, node_from_program, finest_mm] = question_;
   if (list.uses_cell(part)) return false;
@@ -130,7 +130,7 @@ Box PartRows::reach(size_t part, const Box& where) const {
   return question_.list.reach(part, where, question_.falloff ? question_.falloff->reach_mm : 0);
 }
 
-// Before the part's row is there.
+// Must be called before the part's row is added.
 void PartRows::note_materials(const std::optional<MaterialId>& only) {
   if (set_->reference.size() == 0)
     only_ = only;
@@ -146,7 +146,7 @@ void PartRows::add_to(program::PartTable& table, const Program& program, const B
     if (slots_[slot] >= 0) widen(slot, values_[program.outputs[static_cast<size_t>(slots_[slot])]]);
 }
 
-// What a slot can be where parts are, whoever evaluates it; 0 is what it has where no part reaches.
+// Extends the range of a slot where parts reach, for every evaluator. Where no part reaches, slots are 0.
 void PartRows::widen(size_t slot, const Interval& value) {
   if (reach_.size() <= slot) reach_.resize(slot + 1);
   reach_[slot] =
@@ -163,7 +163,7 @@ void PartRows::set_ranges() {
   }
 }
 
-// Pieces of a part's box that share no inside. A strut that lies across its box fills little of it.
+// Adds pieces of a part's box that do not overlap, since for example a diagonal strut fills little of its box.
 void PartRows::add_pieces(size_t part, const Box& whole) {
   find_slices(part, whole);
   if (volume(whole) > 0.5 * program::volume(whole)) find_halves(whole);
@@ -176,7 +176,7 @@ double PartRows::volume(const Box& whole) const {
   return sum;
 }
 
-// Slices across the longest side, as small as the node knows.
+// Cuts the box into slices across its longest side, and shrinks each to the bounds that the node knows.
 void PartRows::find_slices(size_t part, const Box& whole) {
   pieces_.clear();
   const int axis = longest_axis(whole);
@@ -193,7 +193,7 @@ void PartRows::find_slices(size_t part, const Box& whole) {
   }
 }
 
-// Halves, quarters and so on, without those where intervals see nothing of the part.
+// Halves the box repeatedly, and drops the boxes in which intervals show that the part is absent.
 void PartRows::find_halves(const Box& whole) {
   pieces_.clear();
   open_.assign(1, Cells{});
@@ -213,7 +213,7 @@ void PartRows::find_halves(const Box& whole) {
     Cells low = cells, high = cells;
     low.last[axis] = static_cast<uint8_t>((cells.first[axis] + cells.last[axis]) / 2);
     high.first[axis] = static_cast<uint8_t>(low.last[axis] + 1);
-    // The widest box is cut first.
+    // The oldest, and therefore largest, box is cut next.
     open_.insert(open_.begin(), {low, high});
   }
 }
@@ -247,7 +247,7 @@ SlotKind PartRows::fraction_kind() const {
 void PartRows::add_fractions(Field flag, Field weight, const Point& p) {
   const Field zero = p.constant(0);
   for (const auto& [id, fraction] : composition_.fractions) {
-    // select, not a product: what a part says of a point outside of it may not be a number.
+    // Uses select instead of a product, since values of a part outside it may be NaN.
     const Field term = question_.query == PartQuery::mix ? select(flag, fraction, zero) : fraction;
     add_output(named_slot({false, id}, fraction_kind()).slot, "fraction", term);
     if (!weight) continue;
@@ -256,7 +256,7 @@ void PartRows::add_fractions(Field flag, Field weight, const Point& p) {
   }
 }
 
-// Checks that cannot fail where the part is are left out; the others share one for each kind of node.
+// Drops checks that cannot fail within the part. The others are merged for each type of node.
 void PartRows::add_checks(Lowering& lowering, bool is_weighed, Field flag, const Box& box) {
   if (composition_.checks.empty()) return;
   program::Outputs flags;
@@ -276,7 +276,7 @@ void PartRows::add_checks(Lowering& lowering, bool is_weighed, Field flag, const
 }
 
 void PartRows::append(const PartRows& later) {
-  std::vector<size_t> places(later.set_->slots.size());  // of its slots, here
+  std::vector<size_t> places(later.set_->slots.size());  // numbers of its slots in this object
   std::iota(places.begin(), places.end(), size_t{0});
   for (const NamedSlot& theirs : later.named_) {
     NamedSlot& named = named_slot(theirs.use, later.set_->slots[theirs.slot]);

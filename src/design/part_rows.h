@@ -1,4 +1,4 @@
-// Parts of a node as rows of a table, lowered one by one. Runs of parts are made apart and appended in order.
+// Lowers parts of a node into rows of a table. Ranges of parts are lowered in parallel and appended in order.
 #pragma once
 
 #include <compare>
@@ -18,34 +18,34 @@ struct PartsQuestion {
   const Node& node;
   const PartList& list;
   PartQuery query;
-  const Falloff* falloff;  // or null
+  const Falloff* falloff;  // may be null
   Affine node_from_program;
-  double finest_mm;  // boxes of parts are cut into pieces about so large
+  double finest_mm;  // approximate size of the pieces into which boxes of parts are cut
 };
 
 class PartRows {
  public:
   explicit PartRows(const PartsQuestion& question);
-  // All parts of the node will be appended: makes room for them once.
+  // Reserves memory for all parts of the node.
   void expect_all();
-  // The next part of the node's; may be called in rows of the same question at once.
+  // Adds a part of the node. Different PartRows of the same question may be used in parallel.
   void add(size_t part);
   void append(const PartRows& later);
-  // When all are added.
+  // Returns the table after all parts are added.
   ManyParts finish() &&;
 
  private:
-  // What a slot is for, where it is not one that every table has.
+  // Identifies the use of a slot, except for those that every table has.
   struct SlotUse {
     bool is_weighed = false;
     std::optional<MaterialId> material;
-    const NodeType* checked = nullptr;  // one check stands for all nodes of the type
+    const NodeType* checked = nullptr;  // one check stands for all nodes of this type
     auto operator<=>(const SlotUse&) const = default;
   };
   struct NamedSlot {
     SlotUse use;
     size_t slot;
-    Lowering::LocalCheck check{};  // the first one of its type
+    Lowering::LocalCheck check{};  // the first check of this type
   };
 
   bool needs_composition() const;
@@ -72,23 +72,23 @@ class PartRows {
 
   PartsQuestion question_;
   Affine program_from_node_;
-  bool is_turned_ = false;  // parts have frames of their own, within one that is turned
+  bool is_turned_ = false;  // parts have frames of their own within a rotated frame
   size_t most_pieces_ = 0;
 
   ManyParts made_;
   std::shared_ptr<program::PartSet> set_ = std::make_shared<program::PartSet>();
   std::vector<NamedSlot> named_;  // in the order of their slots
-  std::vector<Interval> reach_;   // by slot
+  std::vector<Interval> reach_;   // indexed by slot
   std::optional<MaterialId> only_;
 
-  // Of the part being added; kept for their memory.
+  // Data of the part that is being added. The memory is reused.
   program::Builder builder_;
   program::Workspace workspace_;
-  program::Program program_, signs_, batch_, reached_;  // `reached_` is its first output alone
+  program::Program program_, signs_, batch_, reached_;  // `reached_` has only the first output
   program::Outputs outputs_;
   Composition composition_;
   bool has_checks_ = false;
-  std::vector<int> slots_;  // outputs by slot, or -1
+  std::vector<int> slots_;  // output number of each slot, or -1
   std::vector<Interval> values_;
   std::vector<program::Cells> open_, pieces_;
 };

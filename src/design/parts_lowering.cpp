@@ -1,4 +1,4 @@
-// Tables of many parts: when they pay, and those that are remembered.
+// Tables of many parts: decides when they pay, and keeps them in memory.
 #include <cmath>
 
 #include "base/system/tasks.h"
@@ -9,14 +9,15 @@
 namespace ombre::design {
 namespace {
 
-// A few parts are worth a table where they are short and leave most of the space between them empty. Else less is to be
-// computed when they are written out and shortened tile by tile; of many the index in space spares more.
+// Thresholds of tables. With `many_parts` or more, the index in space saves time. Fewer are worth a table only if they
+// are short and leave most of the space between them empty; otherwise it is faster to write them out and to shorten the
+// code for each tile.
 constexpr size_t least_parts = 3, many_parts = 32;
 constexpr double most_filling_of_few = 0.25;
-constexpr size_t longest_of_few = 100;  // instructions
+constexpr size_t longest_of_few = 100;  // number of instructions
 constexpr size_t parts_per_task = 256;
 
-// Half the distance from part to part, about.
+// Returns about half the distance between neighbouring parts.
 double finest_piece(const Node& node, const PartList& list, const Affine& node_from_program) {
   const Vec3 size = image(inverse(node_from_program), node.bounds(design_space())).size();
   return 0.5 * std::cbrt(size.x * size.y * size.z / static_cast<double>(list.count()));
@@ -47,20 +48,20 @@ bool pays(const ManyParts& made, size_t count) {
   return made.set->index.filling() <= most_filling_of_few;
 }
 
-constexpr size_t bytes_of_row = 1024;  // in both tables and the index, about
+constexpr size_t bytes_of_row = 1024;  // approximate size of a row in both tables and the index
 
-// Null where a table does not pay.
+// Returns null if a table does not pay.
 std::shared_ptr<const ManyParts> make_if_it_pays(const PartsQuestion& question, int threads) {
   auto made = std::make_shared<const ManyParts>(make_parts(question, threads));
   return pays(*made, question.list.count()) ? made : nullptr;
 }
 
-// A memory also knows that a table does not pay.
+// An entry of the memory. `parts` is null if a table does not pay.
 struct KeptParts {
   std::shared_ptr<const ManyParts> parts;
 };
 
-// Numbers of checks mean something within one context only.
+// True if the parts have checks, whose numbers are valid only within one context.
 bool has_checks(const ManyParts& parts) { return !parts.held.checks.empty() || !parts.weighed.checks.empty(); }
 
 }  // namespace
@@ -92,14 +93,15 @@ std::shared_ptr<const ManyParts> LoweringContext::remembered(const PartsQuestion
   if (const auto known = memory_->find(key)) return std::static_pointer_cast<const KeptParts>(known)->parts;
   const size_t reports_before = reports();
   auto made = make_if_it_pays(question, threads_);
-  // What nodes report is reported by each job.
+  // Tables of nodes that report messages are not kept, since each job must report them.
   if (reports() == reports_before && !(made && has_checks(*made)))
     memory_->keep(key, std::make_shared<const KeptParts>(KeptParts{made}),
                   made ? bytes_of_row * question.list.count() : 0);
   return made;
 }
 
-// The node with all below it, and what the whole design says of its attributes. A node has one list of parts.
+// Hashes the node with everything below it, and the declarations of attributes in the whole design. A node has only one
+// list of parts.
 Hash LoweringContext::hash_of_parts(const PartsQuestion& question) const {
   Design design;
   design.materials = materials_;

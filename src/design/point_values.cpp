@@ -1,4 +1,4 @@
-// Parameters that are points, and fonts.
+// Parameters that are points or fonts.
 #include "design/values.h"
 
 namespace ombre::design {

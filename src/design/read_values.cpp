@@ -1,4 +1,4 @@
-// Values of parameters from plain data.
+// Reads values of parameters from plain data.
 #include <algorithm>
 
 #include "base/system/assert.h"
@@ -51,7 +51,7 @@ bool in_range(double v, const Domain& domain) {
   return std::isfinite(v) && v <= domain.greatest && (domain.above_least ? v > domain.least : v >= domain.least);
 }
 
-// What computations put beyond an end of the range by their rounding is the end.
+// Moves a number that rounding has put just beyond an end of the range to that end.
 double without_noise(double v, const Domain& domain) {
   constexpr double noise = 1e-12;
   if (v < domain.least && !domain.above_least && v >= domain.least - noise * std::max(1.0, std::abs(domain.least)))
@@ -67,7 +67,7 @@ bool read_vector(const Data& data, const Domain& domain, const Reader& reader) {
   return is_list(data, 3) || reader.fail(data, "three numbers (x, y, z)" + with_unit(domain));
 }
 
-// Most expressions are plain numbers, which need no parser.
+// Reads plain numbers, which most expressions are, without the parser.
 std::optional<double> plain_number(const std::string& text) {
   const bool begins_one = !text.empty() && (text[0] == '-' || text[0] == '.' || (text[0] >= '0' && text[0] <= '9'));
   return begins_one ? parse_number(text) : std::nullopt;
@@ -104,8 +104,8 @@ void warn_of_two_meanings(const std::string& name, const SourceRange& where, con
        "give the script's variable another name if you mean that one"});
 }
 
-// Adds to the known variables those that are attributes of the inputs. False, and a diagnostic, where the script has a
-// number or value of that name too.
+// Adds those variables to the known ones that are attributes of the inputs. Returns false and adds a diagnostic if the
+// script has a number or value of that name, too.
 bool add_attributes(const expr::Expression& expression, const Data& data, const Domain& domain, const Reader& reader,
                     std::vector<std::string>& known) {
   if (!domain.child_attributes || !reader.inputs) return true;
@@ -130,7 +130,7 @@ bool add_attributes(const expr::Expression& expression, const Data& data, const 
   return good;
 }
 
-// Replaces variables that formulas do not have themselves by the script's numbers and values.
+// Replaces variables that formulas do not define by numbers and values of the script.
 std::optional<expr::Expression> with_named_values(const expr::Expression& expression, const Data& data,
                                                   const std::vector<std::string>& known, const Domain& domain,
                                                   const Reader& reader) {
@@ -152,7 +152,7 @@ std::optional<expr::Expression> with_named_values(const expr::Expression& expres
   return good ? std::optional(std::move(result)) : std::nullopt;
 }
 
-// The expression of a text, with the values that it calls by names.
+// Reads the expression of a text, including the values that it refers to by name.
 std::optional<expr::Expression> read_expression(const Data& data, const Domain& domain, const Reader& reader) {
   const std::string& text = *data.string();
   auto expression = expr::Expression::parse(text, data.where, reader.diagnostics);
@@ -171,7 +171,7 @@ std::optional<expr::Expression> read_expression(const Data& data, const Domain& 
 bool set_expression(expr::Expression expression, const Data& data, const Domain& domain, Number& value,
                     const Reader& reader) {
   const auto constant = expression.constant_value();
-  // An infinite one is left to the job, which counts where it matters.
+  // An infinite constant stays an expression, and the job counts the voxels where it matters.
   if (!constant || (!std::isfinite(*constant) && !std::isfinite(domain.least))) {
     for (const NodePtr& node : nodes_of(expression)) reader.keep(node);
     value = std::move(expression);
@@ -323,7 +323,7 @@ bool read(const Data& data, const Domain& domain, MaterialName& value, const Rea
   return false;
 }
 
-// A text is a material where there is one of that name, else an expression.
+// A text is a material if there is one of that name, else an expression.
 bool read(const Data& data, const Domain& domain, NumberOrMaterial& value, const Reader& reader) {
   value = {};
   const bool is_name = data.string() && reader.materials.find(*data.string());
@@ -341,7 +341,7 @@ bool read(const Data& data, const Domain&, FilePath& value, const Reader& reader
 
 namespace {
 
-// One element stands for a list of one.
+// A single element counts as a list of one element.
 template <class T>
 bool read_list(const Data& data, const Domain& domain, SharedList<T>& value, const Reader& reader) {
   const std::span<const Data> elements = data.list() ? std::span<const Data>(*data.list()) : std::span(&data, 1);

@@ -65,7 +65,7 @@ std::vector<std::string> Registry::value_names() const { return names_of(types_,
 
 namespace {
 
-// Examples are written as scripts.
+// Returns an example, which is written as a script.
 Phrase example_of(const NodeType& type) {
   if (type.example.empty()) return {};
   return spelled::either("for example " + type.example, "ombre nodes " + type.name + " says what it takes",
@@ -105,7 +105,7 @@ bool check_inputs(const NodeType& type, const std::vector<NodePtr>& inputs, cons
 
 bool is_nothing(const NodePtr& input) { return input->is_nothing(); }
 
-// Leaves out inputs that do not count. Nothing, where that is what a node of the type makes of them.
+// Removes empty inputs. Returns an empty solid if the node would then be empty, else null.
 NodePtr nothing_of(const NodeType& type, std::vector<NodePtr>& inputs) {
   const OfNothing rule = type.inputs.of_nothing;
   const auto first = std::ranges::find_if(inputs, is_nothing);
@@ -117,10 +117,10 @@ NodePtr nothing_of(const NodeType& type, std::vector<NodePtr>& inputs) {
   return inputs.empty() ? nothing : nullptr;
 }
 
-// The nodes of values, with the numbers of the parameters that hold them.
+// Value nodes with the numbers of the parameters that hold them.
 using UsedValues = std::vector<std::pair<size_t, NodePtr>>;
 
-// Sorts by parameters, in whatever order these were given.
+// Returns each node once, sorted by parameter, whatever order the parameters were given in.
 std::vector<NodePtr> each_once(UsedValues used) {
   std::ranges::stable_sort(used, {}, [](const auto& value) { return value.first; });
   std::vector<NodePtr> nodes;
@@ -130,7 +130,7 @@ std::vector<NodePtr> each_once(UsedValues used) {
   return nodes;
 }
 
-// Is it within the limits of designs?
+// Returns false and adds a diagnostic if the node exceeds the limits of designs.
 bool fits(const NodeType& type, const std::vector<NodePtr>& inputs, const std::vector<NodePtr>& values,
           const Reader& reader) {
   const auto is_too_deep = [](const NodePtr& other) { return other->depth() >= deepest_design; };

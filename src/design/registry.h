@@ -1,4 +1,4 @@
-// The node types there are. Everything that lists nodes reads this.
+// The registry of node types. Everything that lists nodes reads it.
 #pragma once
 
 #include <functional>
@@ -15,27 +15,28 @@ struct ParameterInfo {
   std::string name, doc;
   std::string_view kind;  // "number or field", ...
   Domain domain;
-  Data default_value;  // null when it is required
+  Data default_value;  // null if the parameter is required
 };
 
-// What a node makes of inputs that are nothing.
+// The effect of empty inputs on a node.
 enum class OfNothing : uint8_t {
-  gives_nothing,  // where one of them is nothing, so is the whole
-  left_out,       // they do not count; where none is left, the whole is nothing
-  cuts_nothing,   // the same, but of a first input that is nothing, nothing is left
-  counts,         // they are inputs like any others
+  gives_nothing,  // one empty input makes the result empty
+  left_out,       // empty inputs are ignored; if none is left, the result is empty
+  cuts_nothing,   // like left_out, but an empty first input makes the result empty
+  counts,         // empty inputs are treated like any others
 };
 
 struct OutputInfo {
   std::string name, doc;
   ValueType type = ValueType::number;
-  Interval range = Interval::everything();  // of a number
+  Interval range = Interval::everything();  // range of a number
 };
 
-// How many solids a node takes.
+// The number of solids that a node takes.
 struct InputInfo {
   size_t least = 0, most = 0;
-  bool grouped = false;  // what one statement of a script makes (a loop, a module) is one input, its union
+  // One statement of a script, such as a loop or a module call, makes one input, the union of its solids.
+  bool grouped = false;
   OfNothing of_nothing = OfNothing::gives_nothing;
 };
 inline constexpr InputInfo no_inputs{};
@@ -49,42 +50,43 @@ class NodeType {
  public:
   virtual ~NodeType() = default;
 
-  std::string name, category, sentence, example;  // `example` is .vcad
+  std::string name, category, sentence, example;  // `example` is a .vcad script
   InputInfo inputs;
   std::vector<ParameterInfo> parameters;
-  std::vector<OutputInfo> outputs;    // of value nodes; at most one is a mixture
-  bool is_nothing = false;            // its nodes are solids without a point
-  const NodeType* nothing = nullptr;  // the type of its registry that is nothing; null: there is none
+  std::vector<OutputInfo> outputs;    // outputs of value nodes; at most one is a mixture
+  bool is_nothing = false;            // true if its nodes are solids without points
+  const NodeType* nothing = nullptr;  // the registry's type of empty solids, or null
 
   // Nodes that are no solids give values.
   bool is_solid() const { return outputs.empty(); }
-  // The place of the output that is a mixture, or one beyond the last.
+  // Returns the number of the output that is a mixture, or the number of outputs if there is none.
   size_t mixture_output() const;
 
   virtual std::shared_ptr<Node> create() const = 0;
   virtual bool set(Node& node, size_t parameter, const Data& data, const Reader& reader) const = 0;
   virtual Data get(const Node& node, size_t parameter, bool for_hash) const = 0;
-  // Do its parameters say that it is nothing, as a text without letters does?
+  // True if its parameters make it empty, like a text without letters.
   virtual bool makes_nothing(const Node& node) const = 0;
-  // Fills in what defaults leave open and checks what involves several parameters.
+  // Fills in values that defaults leave open and checks combinations of parameters.
   virtual bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& inputs) const = 0;
 
-  // A copy of the node over other inputs. What it computed from its inputs when it was made stays as it is.
+  // Returns a copy of the node with other inputs. Data that it computed from its inputs when it was made is not
+  // updated.
   virtual NodePtr with_inputs(const Node& node, std::vector<NodePtr> others) const = 0;
 
-  // Index of the parameter, or -1.
+  // Returns the number of the parameter, or -1.
   int parameter(std::string_view parameter_name) const;
   std::vector<std::string> parameter_names() const;
 };
 
 class Registry {
  public:
-  // Adds node types from their plain structs (design/spec.h), in palette order.
+  // Adds node types made from their plain structs (design/spec.h), in the order of the palette.
   template <class... Nodes>
   void add();
 
   const std::vector<std::unique_ptr<NodeType>>& types() const { return types_; }
-  // Matches without regard to case, '-' and '_'.
+  // Finds a type by name; case, '-' and '_' are ignored.
   const NodeType* find(std::string_view name) const;
   std::vector<std::string> names() const;
   std::vector<std::string> solid_names() const;
@@ -103,16 +105,16 @@ struct NamedValue {
   Data data;
 };
 
-// Nodes above one another; what walks a design may recurse.
+// Greatest depth of nested nodes. Code that walks a design may be recursive.
 inline constexpr int deepest_design = 400;
-// Value nodes whose outputs one node's parameters may hold.
+// Greatest number of value nodes whose outputs the parameters of one node may hold.
 inline constexpr size_t most_values = 65535;
 
-// Makes a node. Null, and diagnostics, when something is wrong with it. What turns out to be nothing is a node of the
-// type that says so, whatever it was made from.
+// Makes a node. Returns null and adds diagnostics if something is wrong. If the solid turns out to be empty, returns a
+// node of the registry's empty type.
 NodePtr make_node(const NodeType& type, const std::vector<NamedValue>& values, std::vector<NodePtr> inputs,
                   const Reader& reader);
-// A solid without a point, for a node of the type; null where its registry has none.
+// Makes an empty solid in place of a node of the type. Returns null if the registry has no type of empty solids.
 NodePtr make_nothing(const NodeType& type, const SourceRange& where);
 
 }  // namespace ombre::design

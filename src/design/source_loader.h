@@ -1,5 +1,5 @@
-// Sources: what lies in files, or needs more than formulas. A node fills in a request, and somebody else reads and
-// builds.
+// Requests for data from files, or for fields that need more than formulas. A node fills in a request; code outside the
+// design reads and builds the source.
 #pragma once
 
 #include <functional>
@@ -20,128 +20,131 @@ class Loading;
 
 namespace ombre::design {
 
-// What of a file with several bodies is meant, and which materials these get.
+// The selection of bodies of a mesh file, and the materials that they get.
 struct MeshUse {
-  std::string object;                         // the name of one of the file's objects; empty: all
-  Choice inside = "nonzero";                  // or "parity", "generalized"
-  Choice materials = "one";                   // or "names", "colours"
-  MaterialName material;                      // of all, or of what has none in the file
-  std::vector<MaterialForName> material_map;  // before the names in the table of materials
+  std::string object;                         // name of one of the file's objects; empty for all
+  Choice inside = "nonzero";                  // rule for the inside: "nonzero", "parity" or "generalized"
+  Choice materials = "one";                   // source of materials: "one", "names" or "colours"
+  MaterialName material;                      // material of all bodies, or of those without one in the file
+  std::vector<MaterialForName> material_map;  // looked up before the table of materials
 };
 
 // The triangles and lattices of one material.
 struct MeshPart {
-  std::string material;         // its name in the design; empty: the use's own
-  program::SourceField source;  // with the channels "inside" and "distance"
-  bool is_exact = true;         // "distance" is the one to the surface everywhere
+  std::string material;         // name in the design; empty for the material of the MeshUse
+  program::SourceField source;  // has the channels "inside" and "distance"
+  bool is_exact = true;         // true if "distance" is the exact distance to the surface everywhere
 };
 
-// What a designer should know of a source, once it is made.
+// A message for the designer about a source that was made.
 struct Remark {
   Severity severity = Severity::warning;
   std::string message;
   Phrase hint;
 };
 
-// A source that is made when a job knows how finely. Thread-safe.
+// A source that is made once a job's resolution is known. Thread-safe.
 class PendingSource {
  public:
   virtual ~PendingSource() = default;
-  virtual Hash content() const = 0;  // of what it is made from
-  virtual Box bounds() const = 0;    // outside of it, nothing is inside
-  // For jobs of this scale, in the source's own space; without one, as finely as its size suggests. With the channels
-  // "inside" and "distance"; the same source for the same scale. Throws Error.
+  virtual Hash content() const = 0;  // hash of everything from which it is made
+  virtual Box bounds() const = 0;    // nothing is inside beyond this box
+  // Makes the source for a job of this scale, in the source's own space; without a scale, its size determines the
+  // resolution. It has the channels "inside" and "distance". The same scale gives the same source. Throws Error.
   virtual program::SourceField make(const std::optional<JobScale>& scale) const = 0;
-  // What is to be said of that source. It is made if need be.
+  // Returns messages about that source, which is made if necessary.
   virtual std::vector<Remark> remarks(const std::optional<JobScale>& /*scale*/) const { return {}; }
 };
 using PendingSourcePtr = std::shared_ptr<const PendingSource>;
 
 // The solids of one material.
 struct CadPart {
-  std::string material;  // as for meshes
+  std::string material;  // name of the material, as in MeshPart
   PendingSourcePtr source;
-  bool is_single = true;  // one solid, not several
+  bool is_single = true;  // true if it is a single solid
 };
 
-// An image as a field: channel "value", 0 for black to 1 for white, in pixels from its left lower corner.
+// An image as a field with the channel "value", from 0 for black to 1 for white, in pixels from its lower left corner.
 struct HeightImage {
   program::SourceField source;
-  double columns = 0, rows = 0;         // pixels
-  double step_across = 0, step_up = 0;  // the greatest differences between neighbours
+  double columns = 0, rows = 0;         // size in pixels
+  double step_across = 0, step_up = 0;  // greatest differences between neighbours
 };
 
-// Requests. A node fills one in; its members, and the content of its file, decide what `load` gives: null, and
-// diagnostics, where something is missing or wrong. Each kind's `load` is written in a file of its own in src/sources.
-// A file's path becomes the one where it was found, with the hash of its content.
+// Requests. A node fills in a request. Its members and the content of its file determine the result of `load`, which is
+// null, with diagnostics added, if something is missing or wrong. Each kind's `load` is in its own file in src/sources.
+// It sets a FilePath to the path where the file was found, with the hash of its content.
 
-// A mesh by its materials, each once, in the order in which the file comes to them; with "one" a single part. Open
-// meshes are errors unless the rule can do without.
+// A mesh, divided by materials in the order of their occurrence in the file; a single part if materials is "one". Open
+// meshes are errors unless the rule of `inside` accepts them.
 struct MeshRequest {
   using Result = std::vector<MeshPart>;
   FilePath file;
   MeshUse use;
-  double deform = 0;  // how many times the displacement moves the points of results
+  double deform = 0;  // factor of the displacement that moves the points of simulation results
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
 // A closed surface that a program made, with the names that it gave.
 struct MadeSolid {
-  std::string part, material;  // empty: none
+  std::string part, material;  // empty if there is none
   std::optional<Rgba> colour;
-  std::vector<Vec3> points;                        // mm
-  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
+  std::vector<Vec3> points;                        // corners in mm
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise seen from outside
 };
 
-// Made solids in the same way; `object` chooses one of the parts.
+// Solids that a program made, divided by materials as for a mesh. `object` selects one of the parts.
 struct SolidsRequest {
   using Result = std::vector<MeshPart>;
-  std::string name;  // of what made them, for messages
+  std::string name;  // name of their origin, for messages
   std::shared_ptr<const std::vector<MadeSolid>> solids;
   MeshUse use;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// An OpenSCAD script in the same way. Its parts, materials and colours are those that the script sets; where solids
-// overlap, the first wins.
+// The solids of an OpenSCAD script, divided by materials. The script sets their parts, materials and colours. Where
+// solids overlap, the first wins.
 struct ScadSolids {
   std::vector<MeshPart> parts;
-  std::vector<std::string> part_names;  // each once, in the order of the script; "" for solids of no part
+  std::vector<std::string> part_names;  // each once, in the order of the script; "" for solids outside parts
 };
-// The word for a part in a request: solids of no part are the "rest".
+// Returns the word for a part in a request; solids outside parts are the "rest".
 inline std::string part_word(const std::string& name) { return name.empty() ? "rest" : name; }
 struct ScadRequest {
   using Result = ScadSolids;
   FilePath file;
-  std::string script;         // the text, where it is not the file's; the file then says where its paths begin
-  ScriptVariables variables;  // take the place of the script's own
-  std::string part;           // the word for one part; empty: all of them
-  Choice materials = "auto";  // or as in MeshUse; auto: names where the script has some, else colours, else one
+  std::string script;  // the script's text if it is not the file's; the file then gives the base of relative paths
+  ScriptVariables variables;  // values that override the script's variables
+  std::string part;           // word of one part; empty for all
+  // Source of materials: as in MeshUse, or "auto": names if the script has some, else colours, else one.
+  Choice materials = "auto";
   MaterialName material;
   std::vector<MaterialForName> material_map;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// A CAD file in the same way.
+// The solids of a CAD file, divided by materials as for a mesh.
 struct CadRequest {
   using Result = std::vector<CadPart>;
   FilePath file;
-  MeshUse use;              // `inside` does not matter
-  bool is_exact = false;    // its surfaces, not triangles
-  double tolerance_mm = 0;  // how near triangles must be; 0: a quarter of a voxel
+  MeshUse use;              // `inside` is ignored
+  bool is_exact = false;    // uses the file's surfaces instead of triangles
+  double tolerance_mm = 0;  // greatest distance of triangles from the surface; 0 for a quarter of a voxel
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// What polygons bound, whatever z: channels "inside" and "distance". A warning for a ring that crosses itself.
+// A region that polygons bound, independent of z, with the channels "inside" and "distance". A ring that crosses itself
+// gives a warning.
 struct PolygonsRequest {
   using Result = program::FieldSource;
   Polygons polygons;
-  bool turns = false;  // about x = 0: edges there are no walls to what is inside
+  bool turns = false;  // the region is revolved about x = 0, where edges are no walls
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// The straight lines from each point to the next: channels "distance", mm, and "along", the share of the whole length,
-// from 0 to 1, up to the nearest place. Of separate points "distance" and "index", the number of the nearest.
+// The polyline through the points, with the channels "distance" in mm and "along", the share (0 to 1) of the whole
+// length up to the nearest position. For separate points the channels are "distance" and "index", the number of the
+// nearest point.
 struct PathRequest {
   using Result = program::FieldSource;
   std::vector<Vec3> points;
@@ -155,7 +158,7 @@ struct ImageRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// An image's pixels, rows from the top, each of red, green, blue and alpha as the file has them: sRGB from 0 to 255.
+// The pixels of an image, row by row from the top, as red, green, blue and alpha in sRGB from 0 to 255.
 struct ImagePixels {
   size_t columns = 0, rows = 0;
   std::vector<uint8_t> rgba;
@@ -166,57 +169,59 @@ struct PixelsRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// The numbers of a CSV file, line by line; words in its first line name the columns. All lines have equally many.
+// The numbers of a CSV file, line by line. Words in its first line are names of columns. All lines must have the same
+// number of values.
 struct TableRequest {
   using Result = std::vector<std::vector<double>>;
   FilePath file;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// The outlines of a text, as of polygons; sizes in mm.
+// The outlines of a text as polygons; sizes in mm.
 struct TextRequest {
   using Result = program::FieldSource;
-  FontName font;  // its content becomes that of the font that was found
+  FontName font;  // `load` sets its content to that of the font that was found
   std::string text;
   Choice style = "regular", h_align = "center", v_align = "center", measure = "capitals";
   double height_mm = 10, line_spacing = 1;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// The frame of a volume's places; L is left, P posterior, S superior, R right, A anterior.
+// The coordinate system of a medical volume. L is left, P posterior, S superior, R right, A anterior.
 enum class PatientSpace : uint8_t { unknown, ras, lps, las, left_handed };
 
-// A grid of numbers in the space of its voxels' indices: channels "value" (trilinear), "nearest", "cubic" and its
+// A grid of numbers in the space of voxel indices, with the channels "value" (trilinear), "nearest", "cubic" and its
 // derivatives "cubic_x", "cubic_y" and "cubic_z".
 struct VolumeGrid {
   program::SourceField source;
-  std::optional<Affine> space_from_index;  // in mm, where the file says it
+  std::optional<Affine> space_from_index;  // in mm, if the file gives it
   PatientSpace space = PatientSpace::unknown;
-  double otsu_level = 0;  // between its darker and its brighter values, by Otsu's method
-  // Encloses the places where a channel may have a value of the interval.
+  double otsu_level = 0;  // threshold between dark and bright values by Otsu's method
+  // Returns a box around the positions where a channel may have a value in the interval.
   std::function<Box(int channel, Interval values)> places;
 };
 
-// NRRD, NIfTI, MetaImage, VTI, NPY, raw numbers with a description beside them, a file or folder of DICOM, or an image
-// or a folder of images (PNG, TIFF, BMP), from the lowest layer up, whose numbers are those of the pixels.
+// A volume: NRRD, NIfTI, MetaImage, VTI, NPY, raw numbers with a description in a separate file, a file or folder
+// of DICOM, or an image or a folder of images (PNG, TIFF, BMP) from the lowest layer up, whose numbers are pixel
+// values.
 struct VolumeRequest {
   using Result = VolumeGrid;
   FilePath file;
-  std::string series = {};   // of several in a folder: its number or UID; empty: there is one
-  int channel = -1;          // of several values in each voxel, counted from 0; -1: there is one
-  std::string segment = {};  // of a segmentation, the name of one; it decides the channel; empty: none is meant
-  int64_t label = -1;        // the segment's number, once it is loaded
+  std::string series = {};   // number or UID of one of several series in a folder; empty if there is only one
+  int channel = -1;          // number, from 0, of one of several values per voxel; -1 if there is only one
+  std::string segment = {};  // name of a segment of a segmentation, which determines the channel; empty for none
+  int64_t label = -1;        // the segment's number, set by `load`
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// Coloured voxels in the space of their indices: the channel "nearest" is the number of a voxel's colour in the list,
-// counted from 1, and 0 where it is transparent.
+// Coloured voxels in the space of their indices. The channel "nearest" is the number of a voxel's colour in the list,
+// counted from 1, or 0 for transparent voxels.
 struct ColourGrid {
   VolumeGrid grid;
   std::vector<Rgba> colours;
 };
 
-// The images of a folder (PNG, TIFF, BMP), in the order of the numbers in their names, from the lowest layer up; or one
+// The images of a folder (PNG, TIFF, BMP) from the lowest layer up, sorted by the numbers in their names; or a single
 // file. In a layer x grows to the right and y upwards.
 struct ImageStackRequest {
   using Result = ColourGrid;
@@ -224,52 +229,54 @@ struct ImageStackRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// One field of the results of a simulation.
+// One field of simulation results.
 struct ResultNumbers {
-  program::SourceField source;  // in the file's space, mm; has the channel "inside" besides
-  std::string name, unit;       // of the field, as the file has it
-  std::vector<int> channels;    // of its components
+  program::SourceField source;  // values in the file's space, in mm; also has the channel "inside"
+  std::string name, unit;       // name and unit of the field in the file
+  std::vector<int> channels;    // channels of its components
 };
 
-// A file with a mesh, or points, and fields. Where there is no value the source's channels are NaN.
+// A file with a mesh, or points, and fields. Where there is no value, the source's channels are NaN.
 struct ResultsRequest {
   using Result = ResultNumbers;
   FilePath file;
-  FilePath values = {};             // the fields of a mesh in a deck; without a path: none
-  std::string field;                // a name or its beginning; empty: there is one
-  Choice outside = "none";          // of the mesh; or "nearest", "value"
-  std::optional<double> within_mm;  // how far the nearest place may be
-  double otherwise = 0;             // the value outside
-  Choice between = "weights";       // values between points without a mesh; or "nearest"
-  double deform = 0;                // how many times the displacement moves the mesh
+  FilePath values = {};             // file with the fields for a mesh in a deck; an empty path if there is none
+  std::string field;                // a name or its beginning; empty if there is only one field
+  Choice outside = "none";          // value outside the mesh; or "nearest", "value"
+  std::optional<double> within_mm;  // greatest distance to the nearest position
+  double otherwise = 0;             // value outside, for "value"
+  Choice between = "weights";       // interpolation between points without a mesh; or "nearest"
+  double deform = 0;                // factor of the displacement that moves the mesh
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// The kinds of sources there are.
+// All kinds of requests.
 using SourceRequest =
     std::variant<MeshRequest*, SolidsRequest*, ScadRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
                  PixelsRequest*, TableRequest*, TextRequest*, VolumeRequest*, ImageStackRequest*, ResultsRequest*>;
 
-// Which parts of a solid need support, on which grid.
+// The selection of surfaces that need support, and the grid on which supports are computed.
 struct SupportUse {
-  double angle_deg = 0;          // from the vertical; what hangs over by no more supports itself
-  std::optional<Vec3> pitch_mm;  // else the job's
+  double angle_deg = 0;          // greatest angle from the vertical at which surfaces support themselves
+  std::optional<Vec3> pitch_mm;  // the job's if not set
 };
 
 class SourceLoader {
  public:
   virtual ~SourceLoader() = default;
-  // What is requested, perhaps shared with others who requested the same; null, and diagnostics, if it cannot be had.
+  // Returns the requested data, which may be shared with equal requests. Returns null and adds diagnostics if it is not
+  // available.
   template <class Request>
   std::shared_ptr<const typename Request::Result> source(Request& request, const Reader& reader) {
     return std::static_pointer_cast<const typename Request::Result>(find(&request, reader));
   }
-  // What stands under a solid that has bounds, in a printer that builds it layer by layer: channels "inside" and
-  // "distance". It reaches up into the solid by part of a cell. Null, and diagnostics, without bounds.
+  // Returns a stage that computes supports below a solid, for a printer that builds layer by layer. It has the channels
+  // "inside" and "distance", and extends into the solid by a fraction of a cell. Returns null and adds diagnostics if
+  // the solid is unbounded.
   virtual StagePtr support(const NodePtr& solid, const SupportUse& use, const Reader& reader) = 0;
 
  protected:
-  // The `Result` of the request that the variant holds.
+  // Returns the `Result` of the request that the variant holds.
   virtual std::shared_ptr<const void> find(SourceRequest request, const Reader& reader) = 0;
 };
 

@@ -1,19 +1,21 @@
-// From a plain struct to a node type: reads the struct's spec() and the methods that it has.
+// Makes a node type from a plain struct, using the struct's spec() and its methods.
 //
-// A node is a struct with parameters as members and
-//   static Spec<T> spec()                     name, category, sentence, parameters, inputs, example
-//   Box bounds(where) const                   of leaves: encloses what is inside, within `where`; or
-//   Box reach(Inputs, where, margin) const    the same for the points with g <= margin
-//   Field distance([Inputs,] Point) const     negative inside; or, for nodes that only move the question,
-//   Point inner(Point) const                  where the input is evaluated, with `scale()` for its distance
-// and where the defaults do not fit
-//   Metric metric([Inputs]) const             default: exact for leaves with constant numbers
-//   membership, composition, attribute, declares, complete, along, traits, makes_nothing
+// A node is a struct with parameters as members. It has these methods:
+// - static Spec<T> spec() gives its name, category, sentence, parameters, inputs and an example.
+// - Box bounds(where) const, for leaves, returns a box around the inside within `where`.
+// - Box reach(Inputs, where, margin) const, for other nodes, returns a box around the points with g <= margin.
+// - Field distance([Inputs,] Point) const returns g, which is negative inside.
+// - Point inner(Point) const, in place of `distance` for nodes that only map points, returns the point at which the
+//   input is evaluated; `scale()` is the factor of its distance.
 //
-// A node that gives values has outputs in its spec instead of a shape. Each is a method of the struct, whose return
-// type is the output's type:
-//   Field number(Ask) const, VectorField vector(Ask) const, Composition mixture(Ask) const
-//   bool gives(output) const    default: all of them, whatever the parameters are
+// It may have these methods if the defaults do not fit:
+// - Metric metric([Inputs]) const; by default leaves with constant numbers are exact.
+// - membership, composition, attribute, declares, complete, along, traits, makes_nothing.
+//
+// A node that gives values has outputs in its spec instead of a shape. Each output is a method of the struct, whose
+// return type determines the output's type:
+// - Field number(Ask) const, VectorField vector(Ask) const, or Composition mixture(Ask) const.
+// - bool gives(output) const, which is true by default, says whether the parameters allow an output.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +25,7 @@
 
 namespace ombre::design {
 
-// Has the solid a composition of its own, besides the one of its material?
+// True if the solid has a composition of its own, besides that of its material.
 template <class T>
 concept HasComposition = requires(const T& t, const Inputs& in, const Point& p) {
   t.composition(in, p, Demand::inside);
@@ -74,13 +76,12 @@ struct Parameter {
   Domain domain;
   std::function<bool(T&, const Data&, const Reader&)> set;
   std::function<Data(const T&, bool)> get;
-  std::function<bool(const T&)> is_constant;    // for numbers that may be fields
-  std::function<bool(const T&)> uses_cell;      // the same
-  std::function<void(T&, const Reader&)> fill;  // what is meant where nothing is given
+  std::function<bool(const T&)> is_constant;    // true if the number is not a field; for numbers that may be fields
+  std::function<bool(const T&)> uses_cell;      // true if the field uses ci, cj or ck; for numbers that may be fields
+  std::function<void(T&, const Reader&)> fill;  // replaces a missing value by its default
 };
 
-// A method that gives an output; its return type is the output's type. `range_` of a number is what all its values lie
-// in.
+// A method that computes an output. Its return type is the output's type. `range_` contains all values of a number.
 template <class T>
 struct OutputSpec {
   OutputSpec(std::string_view name, Field (T::*method)(const Ask&) const, std::string_view doc,
@@ -116,11 +117,11 @@ struct Spec {
   std::vector<Parameter<T>> parameters;
   InputInfo inputs = no_inputs;
   std::string_view example;
-  outputs<T> values = {};  // none: it is a solid
+  outputs<T> values = {};  // empty for a solid
 };
 
-// The box that `within` gives for `where`. Where it depends on fields it is better within its last answer, since what
-// is looked for lies there.
+// Returns the box that `within` computes for `where`. If that depends on fields, the box is refined by calling `within`
+// again on the result.
 template <class Within>
 Box tightened(const Box& where, const Within& within) {
   constexpr int most = 16;
@@ -136,11 +137,11 @@ Box tightened(const Box& where, const Within& within) {
 template <class T>
 class NodeTypeOf;
 
-// A node and its struct.
+// A node with its struct.
 template <class T>
 class NodeOf final : public Node {
  public:
-  // Has neither a shape of its own nor another point: it carries something to its input's shape.
+  // True if it has neither a shape nor a map of points, but adds something to its input.
   static constexpr bool passes_on = !requires(const T& t, const Inputs& in, const Point& p) { t.distance(in, p); }
   &&!requires(const T& t, const Point& p) { t.distance(p); }
   &&!requires(const T& t, const Point& p) { t.inner(p); };
@@ -153,7 +154,7 @@ class NodeOf final : public Node {
 
   Box reach(const Inputs& in, const Box& where, double margin) const override {
     if constexpr (requires { data.reach(in, where, margin); }) return intersect(data.reach(in, where, margin), where);
-    // A leaf's g is at least the distance to its shape.
+    // The g of a leaf is at least the distance to its shape.
     else if constexpr (requires { data.bounds(where); }) {
       const auto within = [&](const Box& box) {
         return intersect(data.bounds(box.expanded(margin)).expanded(margin), box);
@@ -248,8 +249,8 @@ class NodeOf final : public Node {
 
  private:
   Metric find_metric(const Inputs& in) const override {
-    // A field in place of a number bends the shape that it belongs to; what only carries a field along
-    // leaves its input's shape as it is.
+    // A field in place of a number distorts the node's own shape. A node that only adds a field keeps its input's
+    // shape.
     if constexpr (!passes_on)
       if (!type_.has_constant_numbers(data)) return Metric::implicit();
     if constexpr (requires { data.metric(in); })
@@ -268,7 +269,7 @@ class NodeOf final : public Node {
   const NodeTypeOf<T>& type_;
 };
 
-// A method that has the name of one of a node's, but other arguments, would be passed over in silence.
+// Checks the signatures of a node's methods. A method with a wrong signature would otherwise be ignored silently.
 template <class T>
 consteval bool has_right_methods() {
   if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::distance)>; })

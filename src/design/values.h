@@ -1,4 +1,4 @@
-// The types that node parameters may have, and how plain data becomes them.
+// Types of node parameters, and their conversion from and to plain data.
 #pragma once
 
 #include <array>
@@ -22,21 +22,21 @@ namespace ombre::design {
 class Node;
 using NodePtr = std::shared_ptr<const Node>;
 
-// All of a design lies within this distance of the origin on each axis; mm.
+// All of a design lies within this distance (mm) of the origin on each axis.
 inline constexpr double design_limit_mm = 1e6;
 inline Box design_space() { return Box::centered({design_limit_mm, design_limit_mm, design_limit_mm}); }
 
-// A constant, or a field over space given by an expression, in which outputs of nodes may stand.
+// A constant, or a field over space given by an expression, which may contain outputs of nodes.
 class Number {
  public:
-  Number(double value = 0) : value_(value) {}           // NOLINT: a double is a Number
-  Number(expr::Expression e) : value_(std::move(e)) {}  // NOLINT
+  Number(double value = 0) : value_(value) {}           // NOLINT: implicit conversion from double
+  Number(expr::Expression e) : value_(std::move(e)) {}  // NOLINT: implicit conversion from an expression
   program::Field operator()(const program::Point& p) const { return at(p, nullptr); }
-  // With variables besides the coordinates.
+  // Evaluates with variables besides the coordinates.
   program::Field at(const program::Point& p, const expr::Variables& extra) const;
-  // Encloses its values there, with the ranges of variables besides the coordinates.
+  // Returns an interval that encloses its values in `where`, given the ranges of variables besides the coordinates.
   Interval range(const Box& where, const std::map<std::string_view, Interval>& extra = {}) const;
-  bool uses_cell() const;  // one of ci, cj, ck
+  bool uses_cell() const;  // true if it uses ci, cj or ck
   const double* constant() const { return std::get_if<double>(&value_); }
   const expr::Expression* expression() const { return std::get_if<expr::Expression>(&value_); }
   bool operator==(const Number&) const = default;
@@ -51,8 +51,8 @@ struct Numbers3 {
   bool operator==(const Numbers3&) const = default;
 };
 
-// A material of the design's table, which nodes do not outlive, or a node whose output is a mixture of materials, which
-// the node with the parameter holds. Both null: none was given.
+// A material of the design's table, which outlives the nodes, or a node whose output is a mixture and which the node
+// with the parameter owns. Both are null if no material is given.
 struct MaterialName {
   const Material* material = nullptr;
   const Node* mixture = nullptr;
@@ -60,49 +60,50 @@ struct MaterialName {
   bool operator==(const MaterialName&) const = default;
 };
 
-// What an attribute gives: one number; three, of a vector; four, of a colour; or a mixture of materials.
+// The value of an attribute: one number, three numbers of a vector, four numbers of a colour, or a mixture of
+// materials.
 struct AttributeValue {
   ValueType type = ValueType::number;
   std::array<Number, 4> numbers{};
-  MaterialName mixture = {};  // of that type alone
+  MaterialName mixture = {};  // mixture of materials, for the type mixture
   std::span<const Number> used() const;
   bool operator==(const AttributeValue&) const = default;
 };
 
-// A solid that a value is measured on, which the node with the parameter holds; null: none was given.
+// A solid on which a value is measured. The node with the parameter owns it. Null if none is given.
 struct SolidName {
   const Node* node = nullptr;
   bool operator==(const SolidName&) const = default;
 };
 
-// A pair of words, such as an attribute and the rule by which it is combined.
+// A pair of words, such as an attribute and its overlap rule.
 struct NamedWord {
   std::string name, word;
   bool operator==(const NamedWord&) const = default;
 };
 
-// One of the two; where neither is given, the number 0.
+// A number or a material. If neither is given, it is the number 0.
 struct NumberOrMaterial {
   Number number;
   MaterialName material;
   bool operator==(const NumberOrMaterial&) const = default;
 };
 
-// The design's material for one that a file calls `name`.
+// The design's material for the name `name` in a file.
 struct MaterialForName {
   std::string name;
   MaterialName material;
   bool operator==(const MaterialForName&) const = default;
 };
 
-// The material for a number.
+// The material at a number.
 struct MaterialStop {
   double at = 0;
   MaterialName material;
   bool operator==(const MaterialStop&) const = default;
 };
 
-// A list that does not change. Equal ones made in a row share their memory: loops make millions.
+// An immutable list. Consecutive equal lists share memory, since loops make millions of them.
 template <class T>
 class SharedList {
  public:
@@ -123,20 +124,20 @@ class SharedList {
   bool empty() const { return items().empty(); }
 
  private:
-  std::shared_ptr<const std::vector<T>> list_;  // null: it is empty
+  std::shared_ptr<const std::vector<T>> list_;  // null if empty
 };
 
-// A strut of a lattice, in mm.
+// A strut of a lattice; lengths in mm.
 struct Edge {
   Vec3 start, end;
-  double radius = 0;  // 0: that of the lattice
+  double radius = 0;  // 0 for the lattice's radius
   bool operator==(const Edge&) const = default;
 };
 
-// One of a parameter's choices: the text stands in its domain, or is a literal.
+// A word from a parameter's choices. Its text is part of the domain, or a literal.
 class Choice {
  public:
-  constexpr Choice(const char* text) : text_(text) {}  // NOLINT: a literal is a Choice
+  constexpr Choice(const char* text) : text_(text) {}  // NOLINT: implicit conversion from a literal
   std::string_view text() const { return text_; }
   bool operator==(std::string_view other) const { return text() == other; }
 
@@ -146,61 +147,61 @@ class Choice {
 
 struct FilePath {
   std::string path;
-  Hash content;  // of the file, known once it was loaded
+  Hash content;  // hash of the file's content, set when it is loaded
   bool operator==(const FilePath&) const = default;
 };
 
-// How many there are along x, y and z.
+// Numbers of items along x, y and z.
 using Counts3 = std::array<int, 3>;
 
-// Points in a list, all of three numbers, or all of two, with z = 0.
+// A list of points, all given by three numbers, or all by two with z = 0.
 struct Points {
   std::vector<Vec3> at;
-  bool are_flat = false;  // of two numbers
+  bool are_flat = false;  // given by two numbers
   bool operator==(const Points&) const = default;
 };
 
-// A font by its name, or by the path of its file.
+// A font, by its name or the path of its file.
 struct FontName {
   std::string name;
-  Hash content;  // of the font that was found
+  Hash content;  // hash of the font that was found
   bool operator==(const FontName&) const = default;
 };
 
-// Weights of the voxels around one, in lists along x of lists along y of lists along z.
+// Weights of the voxels around one, as lists along x of lists along y of lists along z.
 struct Kernel {
-  Counts3 size{};               // from 1 to 1000 each, where it is given
-  std::vector<double> weights;  // z fastest, at most 10^6; finite, their sum not negative, not all 0
+  Counts3 size{};               // numbers of weights, 1 to 1000 each, if given
+  std::vector<double> weights;  // z varies fastest; at most 10^6 finite weights, with a sum >= 0 and not all 0
   bool operator==(const Kernel&) const = default;
 };
 
-// Rows of equally many numbers, or the file that holds them.
+// Rows with the same number of values each, or the file that holds them.
 struct NumberTable {
   std::vector<std::vector<double>> rows;
-  FilePath file;  // empty: the rows were written out
+  FilePath file;  // empty if the rows were given directly
   bool operator==(const NumberTable&) const = default;
 };
 
-// Values by name for the variables of a script in another language: numbers, texts, truth values, and lists of them.
+// Values for the variables of a script in another language, by name: numbers, texts, truth values, and lists of them.
 struct ScriptVariables {
   DataMembers values;
   bool operator==(const ScriptVariables&) const = default;
 };
 
-// What a parameter may be, for checks, help and forms.
+// The values that a parameter may have, for checks, help and forms.
 struct Domain {
-  std::string_view unit;  // "mm", "deg", or none
+  std::string_view unit;  // "mm", "deg", or empty
   double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
-  bool above_least = false;            // greater than `least`, not equal
+  bool above_least = false;            // must be greater than `least`, not equal
   bool required = false;               // has no default
-  std::vector<std::string> choices;    // of a Choice
+  std::vector<std::string> choices;    // words of a Choice
   std::vector<std::string> variables;  // known in expressions besides the coordinates
-  bool may_mix = false;                // of a material: may it be a mixture?
-  bool one_is_enough = false;          // of three numbers: may one stand for itself and two zeros?
-  bool child_attributes = false;       // may expressions call attributes of the inputs by their names?
+  bool may_mix = false;                // a material may be a mixture
+  bool one_is_enough = false;     // of three numbers, a single one may be given, which stands for itself and two zeros
+  bool child_attributes = false;  // expressions may use attributes of the inputs by name
 };
 
-// The coordinates, and what a domain knows besides.
+// Returns the coordinates and the domain's additional variables.
 std::vector<std::string> known_variables(const Domain& domain);
 
 inline Domain any(std::string_view unit = "") {
@@ -234,12 +235,12 @@ inline Domain required(Domain domain = {}) {
   domain.required = true;
   return domain;
 }
-// Of three numbers, in whose place one may stand.
+// Domain of three numbers, in whose place a single one may be given.
 inline Domain one_or_three(Domain domain = {}) {
   domain.one_is_enough = true;
   return domain;
 }
-// Of materials, where mixtures may stand too.
+// Domain of materials that may be mixtures.
 inline Domain mixable(Domain domain = {}) {
   domain.may_mix = true;
   return domain;
@@ -248,7 +249,7 @@ inline Domain with_variables(std::vector<std::string> variables, Domain domain =
   domain.variables = std::move(variables);
   return domain;
 }
-// Of expressions that are evaluated over the node's input: d is its distance, t the place along its struts.
+// Domain of expressions that are evaluated over the node's input: d is its distance, t the position along its struts.
 inline Domain over_child(Domain domain = {}) {
   domain = with_variables({"d", "t"}, std::move(domain));
   domain.child_attributes = true;
@@ -263,26 +264,26 @@ inline const Domain positive_mm = positive("mm"), not_negative_mm = not_negative
 
 class SourceLoader;
 
-// Values by the names that formulas call them; nothing for an unknown name.
+// Returns the value that formulas know by this name, or nothing.
 using NamedValues = std::function<std::optional<Data>(const std::string& name)>;
 
-// What reading a parameter needs besides the data.
+// The context in which a parameter is read.
 struct Reader {
   const MaterialTable& materials;
   Diagnostics& diagnostics;
   SourceLoader* loader = nullptr;
-  SourceRange where;            // of the call, for messages about nothing that was written
-  std::string_view node, name;  // whose parameter is read
+  SourceRange where;            // position of the call, for messages about missing values
+  std::string_view node, name;  // node and parameter that are read
   const NamedValues* names = nullptr;
-  std::vector<NodePtr>* values = nullptr;        // gets the nodes whose outputs the parameter holds
-  const std::vector<NodePtr>* inputs = nullptr;  // of the node, whose attributes expressions may call
+  std::vector<NodePtr>* values = nullptr;        // collects the nodes whose outputs the parameter holds
+  const std::vector<NodePtr>* inputs = nullptr;  // the node's inputs, whose attributes expressions may use
 
   void keep(const NodePtr& value) const;
   bool fail(const Data& data, const std::string& expected, const Phrase& hint = {},
             Code code = Code::parameter_type) const;
 };
 
-// True when `data` was right; else a diagnostic was added.
+// The functions `read` return true if `data` is valid; otherwise they add a diagnostic.
 bool read(const Data& data, const Domain& domain, double& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, std::optional<double>& value, const Reader& reader);  // null: none
 bool read(const Data& data, const Domain& domain, int& value, const Reader& reader);
@@ -293,7 +294,7 @@ bool read(const Data& data, const Domain& domain, bool& value, const Reader& rea
 bool read(const Data& data, const Domain& domain, std::string& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Choice& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, Vec3& value, const Reader& reader);
-bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader);  // null: none
+bool read(const Data& data, const Domain& domain, std::optional<Vec3>& value, const Reader& reader);  // null means none
 bool read(const Data& data, const Domain& domain, Affine& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, MaterialName& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, NumberOrMaterial& value, const Reader& reader);
@@ -314,7 +315,7 @@ bool read(const Data& data, const Domain& domain, std::vector<NamedWord>& value,
 bool read(const Data& data, const Domain& domain, NumberTable& value, const Reader& reader);
 bool read(const Data& data, const Domain& domain, ScriptVariables& value, const Reader& reader);
 
-// The reverse. For hashes, files are named by their content.
+// The functions `write` convert values back to data. For hashes, files are identified by their content.
 Data write(double value, bool for_hash);
 Data write(const std::optional<double>& value, bool for_hash);
 Data write(int value, bool for_hash);
@@ -346,10 +347,10 @@ Data write(const std::vector<NamedWord>& value, bool for_hash);
 Data write(const NumberTable& value, bool for_hash);
 Data write(const ScriptVariables& value, bool for_hash);
 
-// The kind of the parameter that takes those arguments of a call whose names no other parameter has.
+// The kind of the parameter that collects the arguments of a call whose names match no other parameter.
 inline constexpr std::string_view variables_kind = "values by name";
 
-// "number or field", "material", ...: for help.
+// Returns the kind's name for help: "number or field", "material", ...
 template <class M>
 constexpr std::string_view kind_name() {
   if constexpr (std::is_same_v<M, double> || std::is_same_v<M, std::optional<double>>) return "number";

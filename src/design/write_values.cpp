@@ -1,4 +1,4 @@
-// Values of parameters as plain data.
+// Writes values of parameters as plain data.
 #include "design/outputs.h"
 #include "design/values.h"
 

@@ -13,7 +13,7 @@ using program::Program;
 
 namespace {
 
-// What does an op many at a time, or null.
+// Returns the function that computes an op for a row of numbers, or null if there is none.
 math::RowFunction row_function(Op op) {
   static const math::RowFunctions best = math::row_functions().front();
   switch (op) {
@@ -27,7 +27,7 @@ math::RowFunction row_function(Op op) {
   }
 }
 
-// How far behind an instruction its source's other channels are looked for.
+// Number of following instructions that are searched for other channels of the same source.
 constexpr size_t channel_reach = 32;
 
 bool is_other_channel(const Program& program, const Instruction& in, const Instruction& other) {
@@ -60,7 +60,7 @@ void RowEvaluator::run_input(int axis, double* out) const {
     std::copy_n(given.data(), given.size(), out);
 }
 
-// All values are written before they are read, so none are set here.
+// Allocates memory without initialising it, since all values are written before they are read.
 void RowEvaluator::make_room(const Program& program) {
   if (program.code.size() <= room_) return;
   values_ = std::make_unique_for_overwrite<double[]>(program.code.size() * width_);

@@ -1,4 +1,4 @@
-// Evaluates programs over rows of points in double precision: the reference, one op at a time.
+// Evaluates programs over rows of points in double precision, one op at a time; this is the reference.
 #pragma once
 
 #include <functional>
@@ -10,37 +10,39 @@
 
 namespace ombre::eval {
 
-// Fills values with a source's answers along the row; false if it has none, and the source is evaluated point by point.
+// Fills `values` with a source's values along the row. Returns false if it cannot; then the source is evaluated at each
+// point.
 using SourceRow = std::function<bool(const program::Read&, std::span<double> values)>;
 
-// Holds the values of a program's instructions at up to `width` points. Every value has the bits that
-// evaluate_point gives.
+// Computes the values of a program's instructions at up to `width` points. Results are bit-identical to those of
+// evaluate_point.
 class RowEvaluator {
  public:
   explicit RowEvaluator(size_t width) : width_(width) {}
 
   size_t width() const { return width_; }
-  // Points (xs[n], y, z), or (xs[n], ys[n], zs[n]). Call one of them before run.
+  // Sets the points to (xs[n], y, z), or to (xs[n], ys[n], zs[n]). One of the two functions must be called before run.
   void set_row(std::span<const double> xs, double y, double z);
   void set_points(std::span<const double> xs, std::span<const double> ys, std::span<const double> zs);
-  // Instructions [begin, end); those before `begin` were run on this row already.
+  // Runs instructions [begin, end). Those before `begin` must have been run on this row.
   void run(const program::Program& program, size_t begin, size_t end, const SourceRow& source_row);
   std::span<const double> values(program::ValueId id) const { return {values_.get() + id * width_, xs_.size()}; }
 
  private:
   void run_input(int axis, double* out) const;
-  // Instruction i, and those like it before `end` that ask the same source at the same points for other channels.
+  // Samples the source of instruction i, and of the instructions before `end` that read other channels of that source
+  // at the same points.
   void run_source(const program::Program& program, size_t i, size_t end, const SourceRow& source_row);
   double* row(program::ValueId id) { return values_.get() + id * width_; }
   void make_room(const program::Program& program);
 
   size_t width_;
-  std::span<const double> xs_, ys_, zs_;  // ys_ and zs_ are empty where the points are a row
+  std::span<const double> xs_, ys_, zs_;  // ys_ and zs_ are empty if the points are a row along x
   double y_ = 0, z_ = 0;
-  std::unique_ptr<double[]> values_;  // of instructions, each at `width_` points
-  size_t room_ = 0;                   // for so many instructions
-  std::vector<Vec3> points_;          // of a source
-  std::vector<bool> done_;            // together with another channel
+  std::unique_ptr<double[]> values_;  // `width_` values for each instruction
+  size_t room_ = 0;                   // number of instructions that values_ has room for
+  std::vector<Vec3> points_;          // points at which a source is sampled
+  std::vector<bool> done_;            // instructions that were sampled together with another channel
   std::vector<int> channels_;
   std::vector<double*> channel_rows_;
 };

@@ -16,9 +16,9 @@ using program::Field;
 using program::Op;
 using program::Point;
 
-constexpr size_t longest_remembered = 1024;  // characters of a formula
+constexpr size_t longest_remembered = 1024;  // longest formula in the cache, in characters
 
-// Angles about the z axis and from it, and distances from it and from the origin.
+// Returns the value of a coordinate, or nothing if there is none of that name.
 std::optional<Field> coordinate(std::string_view name, const Point& p) {
   Builder& builder = p.builder();
   if (name == "x") return p.x;
@@ -76,11 +76,11 @@ class Lowerer {
     if (extra_)
       if (const auto field = extra_(name)) return *field;
     const auto field = coordinate(name, p_);
-    // Checked before lowering; a value is needed all the same.
+    // Unknown variables were reported before, but lowering still needs a value.
     return field ? *field : p_.constant(std::numeric_limits<double>::quiet_NaN());
   }
 
-  // a + b + c + ... without recursion to the left: sums may be long.
+  // Lowers a + b + c + ... without recursion on the left operand, since sums may be long.
   Field chain(const Node& node) {
     std::vector<const Node*> links{&node};
     while (links.back()->operands[0]->kind == Kind::binary) links.push_back(links.back()->operands[0].get());
@@ -133,7 +133,7 @@ class Lowerer {
   const Variables& extra_;
 };
 
-// All nodes, in the order of the text.
+// Visits all nodes in the order of the text.
 template <class F>
 void each_node(const Node& root, F f) {
   std::vector<const Node*> open{&root};
@@ -163,7 +163,7 @@ bool contains(const std::vector<InputPtr>& inputs, const Input& input) {
   return std::ranges::any_of(inputs, [&](const InputPtr& known) { return known->is_same(input); });
 }
 
-// A tree with other subtrees in the place of some variables.
+// Replaces some variables of a tree by subtrees.
 class Substitution {
  public:
   explicit Substitution(const std::function<NodePtr(const Node&)>& other) : other_(other) {}
@@ -178,7 +178,7 @@ class Substitution {
   }
 
  private:
-  // a + b + c + ... without recursion to the left, as in Lowerer::chain.
+  // Copies a + b + c + ... without recursion on the left operand, since sums may be long.
   NodePtr of_chain(const NodePtr& node) const {
     std::vector<NodePtr> links{node};
     while (links.back()->operands[0]->kind == Kind::binary) links.push_back(links.back()->operands[0]);
@@ -203,8 +203,8 @@ class Substitution {
   const std::function<NodePtr(const Node&)>& other_;
 };
 
-// The range of the text's own characters: in its file if it stands there literally, else in a
-// source made of the text alone.
+// Returns the range of the text's own characters: in its file if the text occurs there literally, else in a source that
+// consists of the text alone.
 SourceRange text_range(const std::string& text, const SourceRange& where) {
   if (where.source && where.end - where.begin == text.size() &&
       where.source->text().substr(where.begin, text.size()) == text)
@@ -247,7 +247,7 @@ std::vector<FunctionInfo> function_table() {
 
 std::optional<Expression> Expression::parse(const std::string& text, const SourceRange& where,
                                             Diagnostics& diagnostics) {
-  // Loops make the same few again and again.
+  // Caches recent formulas, since loops make the same few again and again.
   struct Known {
     std::string text;
     std::optional<Expression> expression;
@@ -266,7 +266,7 @@ std::optional<Expression> Expression::parse(const std::string& text, const Sourc
 Expression Expression::constant(double value) {
   auto node = std::make_shared<Node>();
   node->number = std::abs(value);
-  // Prints a sign before a number, as it is read.
+  // Represents the sign as a negation, as the parser does.
   if (std::signbit(value)) node = make_node(Kind::negate, {node});
   return {std::move(node), format_number(value)};
 }
@@ -399,7 +399,7 @@ std::optional<Linear> combine_linear(Binary binary, Linear a, Linear b) {
 
 std::optional<Linear> linear(const Node& node, std::string_view variable);
 
-// a + b + c + ... without recursion to the left, as in Lowerer::chain.
+// Handles a + b + c + ... without recursion on the left operand, since sums may be long.
 std::optional<Linear> linear_chain(const Node& node, std::string_view variable) {
   std::vector<const Node*> links{&node};
   while (links.back()->operands[0]->kind == Kind::binary) links.push_back(links.back()->operands[0].get());

@@ -1,6 +1,6 @@
-// Mathematical expressions in strings: parsed, checked, printed, lowered to fields.
+// Mathematical expressions in strings: parsing, checks, printing, and lowering to fields.
 //
-// The dialect is the one that designs know from ExprTk: see docs/user/expressions.md.
+// The syntax follows ExprTk; docs/user/expressions.md describes it.
 #pragma once
 
 #include <array>
@@ -16,57 +16,61 @@
 
 namespace ombre::expr {
 
-// Gives the field of a variable, or nothing if it has no such variable.
+// Returns the field of a variable, or nothing if there is no such variable.
 using Variables = std::function<std::optional<program::Field>(std::string_view name)>;
 
-// A handle: copies share what was parsed, and so do formulas of one text that a thread parses in a row.
+// A parsed expression. Copies share the tree, and a thread that parses the same text again gets a cached one.
 class Expression {
  public:
-  // constant + slope * variable.
+  // The linear function constant + slope * variable.
   struct Linear {
     double constant = 0, slope = 0;
     bool operator==(const Linear&) const = default;
   };
 
-  // Nothing, and diagnostics that point into the string, when it is wrong. `where` is the range of
-  // the string's characters in its file, if they stand there literally. Unknown functions and wrong
-  // argument counts are found here, unknown variables by `check_variables`.
+  // Returns nothing and adds diagnostics that point into the string if it is wrong. `where` is the range of the
+  // string's characters in its file, if they occur there literally. Unknown functions and wrong numbers of arguments
+  // are reported here, unknown variables by `check_variables`.
   static std::optional<Expression> parse(const std::string& text, const SourceRange& where, Diagnostics& diagnostics);
   static Expression constant(double value);
-  // The first channel of a source at the point, as a function of the host program gives it. Its text tells
-  // functions apart, but cannot be parsed.
+  // Returns an expression for the first channel of a source at the point, such as a function of the host program. Its
+  // text identifies the function but cannot be parsed.
   static Expression of_source(const program::SourceField& source);
   static Expression of_input(InputPtr input);
-  // Makes an expression of smaller ones. The function must exist and take so many arguments.
+  // Combines expressions. The function must exist and take that number of arguments.
   static Expression negate(const Expression& a);
   static Expression logical_not(const Expression& a);
   static Expression binary(Binary binary, const Expression& a, const Expression& b);
   static Expression call(const std::string& function, const std::vector<Expression>& arguments);
   static Expression conditional(const Expression& condition, const Expression& yes, const Expression& no);
-  // Replaces some variables by other expressions. `other` gets the variable's name and the bytes of its text.
+  // Replaces some variables by other expressions. `other` gets the node of a variable, with its name and the range of
+  // its text.
   using Substitutes = std::function<std::optional<Expression>(const Node& variable)>;
   Expression with_substitutes(const Substitutes& other) const;
 
-  // Every variable must be among `known`; `text` and `where` as it was parsed.
+  // Returns false and adds a diagnostic unless every variable is among `known`. `text` and `where` are those given to
+  // parse().
   bool check_variables(const std::vector<std::string>& known, const std::string& text, const SourceRange& where,
                        Diagnostics& diagnostics) const;
-  // The place of a variable; `text` and `where` as it was parsed.
+  // Returns the range of a variable. `text` and `where` are those given to parse().
   static SourceRange place(const Node& variable, const std::string& text, const SourceRange& where);
   bool uses(std::string_view variable) const;
-  const program::SourceField& source() const { return root().source; }  // null: it is a formula
-  // The number, if the expression has no variables.
+  const program::SourceField& source() const { return root().source; }  // null if it is a formula
+  // Returns the number if the expression has no variables, else nothing.
   std::optional<double> constant_value() const;
-  // As it is written: sums, and products and quotients with constants. Nothing where it depends on other variables.
+  // Returns the linear form of an expression that is written as sums, and as products and quotients with constants.
+  // Returns nothing if it has another form or depends on other variables.
   std::optional<Linear> linear_in(std::string_view variable) const;
 
-  // Spelt in one way: what is the same but for spaces, case and brackets prints the same. Inputs are v, or v1, v2, ...
+  // Canonical text: expressions that differ only in spaces, case or brackets have the same text. Inputs are named v, or
+  // v1, v2, ...
   const std::string& text() const { return parsed_->canonical; }
-  // The same for people, with the inputs' own names.
+  // Returns the canonical text with the inputs' own names, for people.
   std::string text_with_names() const;
-  // Each once, in the order in which they first occur.
+  // Inputs in the order of their first occurrence, each once.
   const std::vector<InputPtr>& inputs() const { return parsed_->inputs; }
-  std::string input_name(size_t i) const;  // in text()
-  // Numbers, variables, operators and so on; 0 for a formula that was read.
+  std::string input_name(size_t i) const;  // name of input i in text()
+  // Number of nodes of the tree; 0 for a parsed formula.
   size_t size() const { return parsed_->size; }
 
   program::Field lower(const program::Point& p, const Variables& extra) const;
@@ -82,17 +86,17 @@ class Expression {
   };
   Expression(NodePtr root, std::string canonical)
       : parsed_(std::make_shared<const Parsed>(Parsed{std::move(root), std::move(canonical)})) {}
-  explicit Expression(NodePtr root);  // which may hold inputs
+  explicit Expression(NodePtr root);  // the tree may contain inputs
   const Node& root() const { return *parsed_->root; }
 
   std::shared_ptr<const Parsed> parsed_;
 };
 
-// x y z rho phic r theta phis ci cj ck: what every expression knows.
+// Coordinates that every expression may use: x y z rho phic r theta phis ci cj ck.
 const std::vector<std::string>& coordinate_names();
-// ci cj ck: the cell's indices, known below what repeats space.
+// Indices of the cell: ci cj ck, defined below nodes that repeat space.
 const std::array<std::string_view, 3>& cell_names();
-// A table of the functions, for the documentation: name, arguments, meaning.
+// A function as the documentation lists it: name, arguments, meaning.
 struct FunctionInfo {
   std::string_view name, arguments, meaning;
 };

@@ -49,7 +49,7 @@ int level_of(Binary binary) {
   }
 }
 
-// The first spelling of each is the canonical one.
+// Spellings of operators. The first spelling of each is the canonical one.
 constexpr Operator operators[] = {
     {"+", Binary::add},           {"-", Binary::subtract},
     {"*", Binary::multiply},      {"/", Binary::divide},
@@ -82,7 +82,7 @@ class Parser {
  private:
   static constexpr int deepest = 200, most_operators = 200000;
 
-  // Tokens
+  // Functions that read tokens.
 
   void advance() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
@@ -110,10 +110,10 @@ class Parser {
     else
       ++at_;
     while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0) == 0x80)
-      ++at_;  // the rest of a UTF-8 letter
+      ++at_;  // skips the other bytes of a UTF-8 character
   }
 
-  // The dot of "fibre.x".
+  // True at a dot that joins names, as in "fibre.x".
   bool begins_part() const { return text_[at_] == '.' && at_ + 1 < text_.size() && is_letter(text_[at_ + 1]); }
 
   void read_number() {
@@ -129,7 +129,7 @@ class Parser {
 
   bool is_symbol(std::string_view symbol) const { return now_.type == Token::Type::symbol && now_.text == symbol; }
 
-  // Messages: only the first mistake of an expression is reported; the others mostly follow from it.
+  // Reports an error. Only the first error of an expression is reported, since the others mostly follow from it.
 
   void fail(const Token& token, std::string message, Phrase hint = {}) {
     if (failed_) return;
@@ -157,7 +157,7 @@ class Parser {
     return false;
   }
 
-  // Trees
+  // Functions that build trees.
 
   static std::shared_ptr<Node> make(Kind kind, uint32_t begin, uint32_t end) {
     auto node = std::make_shared<Node>();
@@ -194,7 +194,7 @@ class Parser {
       if (++operators_ > most_operators)
         fail(now_, "this expression has more than " + format_count(most_operators) + " operators");
       if (!implicit_) advance();
-      // Powers group to the right, everything else to the left.
+      // Powers associate to the right, all other operators to the left.
       const NodePtr right = *binary == Binary::power ? power_exponent() : expression(level + 1);
       if (failed_) return nullptr;
       auto node = make(Kind::binary, left->begin, right->end);
@@ -205,7 +205,7 @@ class Parser {
     return nullptr;
   }
 
-  // The operator that comes next. Two operands side by side are multiplied.
+  // Returns the next operator. Two adjacent operands are multiplied.
   std::optional<Binary> next_operator() {
     implicit_ = false;
     if (now_.type == Token::Type::symbol || now_.type == Token::Type::name) {
@@ -220,7 +220,7 @@ class Parser {
     return std::nullopt;
   }
 
-  // -x^2 is -(x^2), 2^-x is 2^(-x), 2^3^2 is 2^(3^2).
+  // Reads an exponent: -x^2 is -(x^2), 2^-x is 2^(-x), 2^3^2 is 2^(3^2).
   NodePtr power_exponent() { return expression(level_power); }
 
   NodePtr conditional(const NodePtr& condition) {
@@ -284,7 +284,8 @@ class Parser {
     if (is_symbol("(")) {
       const Function* function = find_function(lower);
       if (function) return call(token, *function);
-      // x(y + 1): a variable times a bracket; anything else is a misspelt function.
+      // A name before a bracket, as in x(y + 1), is a variable times the bracket; any other name is a misspelt
+      // function.
       if (!is_variable_like(lower)) {
         unknown_function(token);
         return nullptr;
@@ -407,7 +408,7 @@ class Printer {
   }
 
  private:
-  // A chain to the left is printed without recursion: it may be long.
+  // Prints a chain of left operands without recursion, since it may be long.
   std::string print_chain(const Node& node) const {
     std::vector<const Node*> chain{&node};
     const int level = level_of(node);
@@ -429,8 +430,8 @@ class Printer {
     return level_of(node) < least_level ? "(" + text + ")" : text;
   }
 
-  // What follows a sign or ^ may have a sign of its own. No more brackets than the text had, so that what
-  // reads also reads back.
+  // Prints an operand of a sign or of ^, which may have a sign of its own. Adds no more brackets than the text had, so
+  // that what was parsed can be parsed again.
   std::string signed_operand(const Node& node) const {
     const bool is_signed = node.kind == Kind::negate || node.kind == Kind::logical_not;
     return is_signed ? print(node) : bracketed(node, level_power);

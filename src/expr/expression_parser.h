@@ -1,4 +1,4 @@
-// Text -> tree, by precedence climbing.
+// Parser and printer of expression trees; parsing is by precedence climbing.
 #pragma once
 
 #include <functional>
@@ -11,13 +11,13 @@
 
 namespace ombre::expr {
 
-// Null, and one diagnostic, when the text is wrong. `where` covers the text's characters.
+// Returns null and adds one diagnostic if the text is wrong. `where` is the range of the text's characters.
 std::shared_ptr<const Node> parse_tree(std::string_view text, const SourceRange& where, Diagnostics& diagnostics);
 
-// The name of an input in a text.
+// Returns the name of an input in a printed text.
 using InputNames = std::function<std::string(const Input& input)>;
 
-// Spelt in one way, with no more brackets than are needed.
+// Returns the canonical text, without unnecessary brackets.
 std::string print_tree(const Node& node, const InputNames& names = nullptr);
 
 }  // namespace ombre::expr

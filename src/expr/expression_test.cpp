@@ -141,7 +141,7 @@ TEST(Expression, PrintsInOneWay) {
     const auto once = parse(text, d);
     ASSERT_TRUE(once) << to_text(d);
     EXPECT_EQ(parse(once->text(), d)->text(), once->text());
-    // The same meaning, not only the same text.
+    // The text has the same meaning, too.
     EXPECT_EQ(parse(once->text(), d)->constant_value(), once->constant_value());
   }
 }
@@ -187,7 +187,7 @@ TEST(Expression, LinearFunctionsAreKnown) {
 
 namespace {
 
-// The number that the point's x is multiplied by.
+// An input that is the point's x times a number.
 class Multiple : public Input {
  public:
   explicit Multiple(double by) : by_(by) {}

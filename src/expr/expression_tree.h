@@ -31,12 +31,12 @@ enum class Binary : uint8_t {
   logical_nor,
 };
 
-// A value that a formula gets from elsewhere, such as an output of a node.
+// A value that a formula gets from outside, such as an output of a node.
 class Input {
  public:
   virtual ~Input() = default;
   virtual program::Field field(const program::Point& p) const = 0;
-  virtual std::string name() const = 0;  // for people
+  virtual std::string name() const = 0;  // name for people
   virtual bool is_same(const Input& other) const = 0;
 };
 using InputPtr = std::shared_ptr<const Input>;
@@ -45,16 +45,16 @@ struct Node {
   Kind kind = Kind::number;
   Binary binary = Binary::add;
   double number = 0;
-  std::string name;  // of a variable or function, lower case
+  std::string name;  // name of a variable or function, in lower case
   std::vector<std::shared_ptr<const Node>> operands;
-  program::SourceField source;  // of a value that the host program computes: its channel 0
+  program::SourceField source;  // its channel 0 is a value that the host program computes
   InputPtr input;
-  uint32_t begin = 0, end = 0;  // bytes of the expression's text
+  uint32_t begin = 0, end = 0;  // range of bytes in the expression's text
 
   Node() = default;
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
-  ~Node();  // without recursion: sums may be long
+  ~Node();  // not recursive, since sums may be long
 };
 
 using NodePtr = std::shared_ptr<const Node>;

@@ -30,7 +30,7 @@ Field sign(Arguments a) {
   return program::less(zero, v) - program::less(v, zero);
 }
 
-// Density of the normal distribution.
+// Returns the density of the normal distribution.
 Field normal_dist(Arguments a) {
   program::Builder& builder = *a[0].builder;
   const Field mean = a.size() > 1 ? a[1] : builder.constant(0), deviation = a.size() > 2 ? a[2] : builder.constant(1);

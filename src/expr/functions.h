@@ -1,4 +1,4 @@
-// The functions of expressions: their argument counts and what they become.
+// The functions of expressions: their numbers of arguments and how they are lowered to fields.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@ namespace ombre::expr {
 
 struct Function {
   std::string_view name;
-  int least, most;  // arguments; most -1: any number
+  int least, most;  // numbers of arguments; most is -1 if there is no limit
   std::string_view arguments, meaning;
   program::Field (*lower)(std::span<const program::Field>);
 };

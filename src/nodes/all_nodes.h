@@ -1,11 +1,11 @@
-// Every node there is.
+// The registry of all nodes.
 #pragma once
 
 #include "design/registry.h"
 
 namespace ombre::nodes {
 
-// All families, in the order of the palette.
+// Returns all families of nodes, in the order of the palette.
 const design::Registry& registry();
 
 }  // namespace ombre::nodes

@@ -1,4 +1,4 @@
-// Fillets and chamfers against their geometry.
+// Compares fillets and chamfers with their geometry.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -23,7 +23,7 @@ std::vector<Vec3> random_centres(size_t count) {
   return centres;
 }
 
-// Of radius 1.5, blue and red in turn.
+// Returns balls of radius 1.5, alternately blue and red.
 design::NodePtr balls(size_t count, const std::string& kind, const std::string& parameters) {
   std::vector<design::NodePtr> parts;
   for (const Vec3 c : random_centres(count)) {
@@ -38,7 +38,7 @@ design::NodePtr balls(size_t count, const std::string& kind, const std::string& 
 TEST(Blend, OfWallsAtARightAngleIsACircle) {
   const double k = 2;
   const Solid joint(Solid::node("union", R"({"blend": 2})", {wall(0), wall(1)}));
-  // The empty corner's fillet is a quarter circle around (k, k).
+  // The fillet in the empty corner is a quarter circle around (k, k).
   for (double angle = 185; angle < 268; angle += 7) {
     const double c = std::cos(angle * M_PI / 180), s = std::sin(angle * M_PI / 180);
     EXPECT_NEAR(joint.distance({k + k * c, k + k * s, 0}), 0, 1e-12);
@@ -46,7 +46,7 @@ TEST(Blend, OfWallsAtARightAngleIsACircle) {
     EXPECT_FALSE(joint.inside({k + (k - 1e-6) * c, k + (k - 1e-6) * s, 5}));
     EXPECT_NEAR(joint.distance({k + 0.5 * k * c, k + 0.5 * k * s, 0}), 0.5 * k, 1e-12);  // exact in the fillet
   }
-  EXPECT_NEAR(joint.distance({3, 5, 0}), 3, 1e-12);  // beyond its reach: the nearer wall
+  EXPECT_NEAR(joint.distance({3, 5, 0}), 3, 1e-12);  // the nearer wall, beyond the reach of the fillet
 }
 
 TEST(Blend, OfTheirComplementsRoundsTheEdge) {
@@ -80,7 +80,7 @@ TEST(Blend, OfRadiusZeroIsSharp) {
   }
 }
 
-// By tables as well as written out.
+// Tests solids in tables as well as solids written out.
 TEST(Blend, IsTheFormulaForAnyNumberOfSolids) {
   for (const size_t count : {3, 60}) {
     const Solid joint(balls(count, "union", R"({"blend": 1.25, "materials": "blend"})"));
@@ -107,7 +107,7 @@ TEST(Blend, IsTheFormulaForAnyNumberOfSolids) {
   }
 }
 
-// In a fillet, where no solid is, materials go by the weights; where a solid is, its own stands.
+// Points within a solid have its material. In the fillet, outside all solids, materials are mixed by weights.
 TEST(Blend, MixesMaterialsInTheFillet) {
   const Solid joint(Solid::node("union", R"({"blend": 2})", {wall(0), wall(1)}));
   EXPECT_NEAR(joint.red({0.3, 0.3, 0}), 0.5, 1e-12);
@@ -118,8 +118,8 @@ TEST(Blend, MixesMaterialsInTheFillet) {
   EXPECT_EQ(first.red({-1, -0.5, 0}), 1);
 }
 
-// What two balls' distances of together 6 bound is an ellipsoid: focal points at x = 3 and -3, half axes 4 and the root
-// of 7.
+// The points whose distances to two balls add up to at most 6 form an ellipsoid with foci at x = 3 and -3 and half axes
+// 4 and sqrt(7).
 TEST(Sum, WithoutBlendIsALevelSetThatHasBounds) {
   const auto ball = [](const char* by) {
     return Solid::node("translate", std::string("{\"by\": ") + by + "}", {Solid::node("sphere", R"({"radius": 1})")});
@@ -133,7 +133,7 @@ TEST(Sum, WithoutBlendIsALevelSetThatHasBounds) {
   EXPECT_NEAR(sum.share(ellipsoid, 40), std::numbers::pi / 6, 0.003);
   EXPECT_FALSE(sum.inside({4.001, 0, 0}));
   EXPECT_TRUE(sum.inside({0, 2.645, 0}));
-  // Nowhere are they so low.
+  // The sum of distances is never that low.
   const Solid none(Solid::node("sum", R"({"iso": -3})", {ball("[3, 0, 0]"), ball("[-3, 0, 0]")}));
   EXPECT_FALSE(none.inside({3, 0, 0}));
 }

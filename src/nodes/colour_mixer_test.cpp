@@ -1,4 +1,4 @@
-// Mixtures that show a colour: against the arithmetic of their light.
+// Compares mixtures that show a colour with the arithmetic of light.
 #include "nodes/values/colour_mixer.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(ColourMixer, ShowsWhatIsInTheGamut) {
     const std::vector<double> found = mixer.shares(wanted);
     EXPECT_NEAR(length(shown(inks, found) - wanted), 0, 1e-6);
     EXPECT_NEAR(std::accumulate(found.begin(), found.end(), 0.0), 1, 1e-8);
-    // No other mixture of the colour varies less: that of which it was made does not.
+    // The mixture varies no more than any other with this colour, such as the one from which the colour was made.
     const auto variation = [](const std::vector<double>& shares) {
       double sum = 0;
       for (size_t i = 0; i < inks.size(); ++i) {
@@ -45,7 +45,7 @@ TEST(ColourMixer, ShowsWhatIsInTheGamut) {
 
 TEST(ColourMixer, GivesTheNearestBeyondTheGamut) {
   const ColourMixer mixer({{0, 0, 0}, {1, 1, 1}});
-  // The nearest gray of pure red: the foot on the line from black to white, a third of the way.
+  // The nearest gray to pure red is its foot on the line from black to white, a third of the way.
   const std::vector<double> red = mixer.shares({1, 0, 0});
   EXPECT_NEAR(red[0], 2.0 / 3, 1e-12);
   EXPECT_NEAR(red[1], 1.0 / 3, 1e-12);
@@ -60,11 +60,11 @@ TEST(ColourMixer, TakesColoursThatAreAlike) {
 TEST(ColourMixer, TablesAreRightAtTheirColoursAndNearBetween) {
   const ColourMixer mixer({{0, 0, 0}, {1, 1, 1}});
   const program::SourceField table = make_colour_table(mixer, 2);
-  // Light of sRGB 0.5: ((0.5 + 0.055) / 1.055)^2.4.
+  // sRGB 0.5 is ((0.5 + 0.055) / 1.055)^2.4 in linear light.
   EXPECT_NEAR(table->sample(1, {0.5, 0.5, 0.5}), 0.21404114048, 1e-9);
   EXPECT_NEAR(table->sample(0, {0.5, 0.5, 0.5}), 1 - 0.21404114048, 1e-9);
-  // 200 of 255; IEC 61966-2-1 gives 0.5775804405. Between two of the table's colours, the line is above the curve by
-  // an eighth of its second derivative (1.4 * 2.4 / 1.055^2 * 0.797^0.4 < 2.8) times 1/32 squared.
+  // IEC 61966-2-1 gives 0.5775804405 for 200 of 255. Between two colours of the table, the line is above the curve by
+  // at most an eighth of its second derivative (1.4 * 2.4 / 1.055^2 * 0.797^0.4 < 2.8) times 1/32 squared.
   const double v = 200 / 255.0, light = table->sample(1, {v, v, v});
   EXPECT_GE(light, 0.5775804405 - 1e-9);
   EXPECT_LE(light, 0.5775804405 + 2.8 / 8 / 1024);

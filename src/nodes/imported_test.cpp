@@ -8,7 +8,7 @@ namespace {
 
 using namespace design;
 
-// Has something to say of its source where the job's voxels are small.
+// A source with a remark for jobs with small voxels.
 class DoubtfulBall : public test::PendingBall {
  public:
   std::vector<Remark> remarks(const std::optional<JobScale>& scale) const override {
@@ -55,7 +55,7 @@ TEST(CadNode, TellsOnceWhatIsToBeSaidOfItsSource) {
   ASSERT_EQ(all.list().size(), 1u);
   EXPECT_EQ(all.list()[0].message, "the ball has gaps");
   EXPECT_EQ(all.list()[0].severity, Severity::warning);
-  // A job that lowers the design again has nothing new to tell.
+  // Lowering the design again gives no new diagnostics.
   all.add_new(remarks_for(node, {0.1, 0.1, 0.1}));
   EXPECT_EQ(all.list().size(), 1u);
   EXPECT_TRUE(all.after(1).list().empty());

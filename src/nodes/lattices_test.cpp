@@ -1,4 +1,4 @@
-// Unit cells and tiles against published densities, explicit copies and geometry.
+// Compares unit cells and tiles with published densities, explicit copies and geometry.
 #include <cmath>
 #include <random>
 
@@ -16,7 +16,7 @@ Solid tiled(const std::string& name, double radius) {
   return Solid(Solid::node("tile", "{}", {Solid::node("lattice", cell(name, radius))}));
 }
 
-// The length of struts in a periodic cell of side one; those on a face count half, on an edge a quarter.
+// Returns the length of struts in a periodic cell of side one. Struts on a face count half, those on an edge a quarter.
 double length_per_cell(const UnitCell& unit) {
   double sum = 0;
   for (const auto& [a, b] : unit.struts) {
@@ -38,16 +38,17 @@ TEST(UnitCells, HaveThePublishedLengthOfStruts) {
       {"fccz", 6 * std::sqrt(2) + 1},
       {"f2bcc", 6 * std::sqrt(2) + 4 * std::sqrt(3)},
       {"octahedral", 6 * std::sqrt(2)},
-      {"octet", 12 * std::sqrt(2)},                // Deshpande et al. 2001: density 6 sqrt(2) pi (r/l)^2, l = 1/sqrt(2)
-      {"kelvin", 6 * std::sqrt(2)},                // 24 edges a cell, each sqrt(2)/4 long
-      {"rhombic_dodecahedron", 8 * std::sqrt(3)},  // 32 edges a cell, each sqrt(3)/4 long
-      {"diamond", 4 * std::sqrt(3)},               // 16 bonds a cell, each sqrt(3)/4 long
+      {"octet", 12 * std::sqrt(2)},  // Deshpande et al. 2001: density 6 sqrt(2) pi (r/l)^2 with l = 1/sqrt(2)
+      {"kelvin", 6 * std::sqrt(2)},  // 24 edges per cell with length sqrt(2)/4
+      {"rhombic_dodecahedron", 8 * std::sqrt(3)},  // 32 edges per cell with length sqrt(3)/4
+      {"diamond", 4 * std::sqrt(3)},               // 16 bonds per cell with length sqrt(3)/4
   };
   for (const UnitCell& unit : unit_cells())
     EXPECT_NEAR(length_per_cell(unit), expected.at(std::string(unit.name)), 1e-12) << unit.name;
 }
 
-// Thin struts fill pi r^2 times their length, less what they share at their joints: at most a few balls each.
+// The volume of thin struts is pi r^2 times their length, minus the overlap at joints, which is at most a few balls
+// each.
 TEST(UnitCells, HaveTheDensityOfTheirStruts) {
   constexpr double r = 0.04;
   std::mt19937 random(3);
@@ -65,14 +66,14 @@ TEST(UnitCells, HaveTheDensityOfTheirStruts) {
   }
 }
 
-// Three sets of crossing cylinders share Steinmetz's solid.
+// The overlap of three sets of crossing cylinders is Steinmetz's solid.
 TEST(UnitCells, CubicHasItsExactVolume) {
   constexpr double r = 0.15;
   const double exact = 3 * M_PI * r * r - 8 * std::sqrt(2) * r * r * r;
   EXPECT_NEAR(tiled("cubic", r).share(Box::centered({0.5, 0.5, 0.5}), 80), exact, 2e-3);
 }
 
-// Cells know what their neighbours' struts add, at any thickness, also when they overlap or stand apart.
+// Cells include the struts of neighbours at any thickness, whether copies overlap or are separate.
 TEST(Tile, IsWhatExplicitCopiesAre) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> at(-0.75, 0.75);
@@ -99,7 +100,7 @@ TEST(Tile, IsWhatExplicitCopiesAre) {
   }
 }
 
-// Whose copies overlap.
+// Here copies overlap.
 TEST(Tile, OfSimpleSolidsIsWhatExplicitCopiesAre) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> at(-3, 3);
@@ -126,7 +127,7 @@ TEST(Tile, OfSimpleSolidsIsWhatExplicitCopiesAre) {
   }
 }
 
-// A child off its cell's middle, with materials, along two axes and within limits.
+// The child is off its cell's centre, has materials, and is repeated along two axes within limits.
 TEST(Tile, AsksNeighboursThatReachIn) {
   const auto child = [] {
     return Solid::node("translate", R"({"by": [1.2, 0.7, 0.3]})",
@@ -138,7 +139,7 @@ TEST(Tile, AsksNeighboursThatReachIn) {
   };
   std::mt19937 random(5);
   std::uniform_real_distribution<double> at(-9, 12);
-  // Some have no more copies than a point has neighbours.
+  // Some limits allow no more copies than a point has neighbours.
   for (const Limits& l : {Limits{-2, 3, -4, 4}, {0, 1, 0, 1}, {1, 2, -1, -1}, {0, 0, 2, 4}, {-3, -1, 0, 3}}) {
     std::vector<design::NodePtr> copies;
     for (int i = l.first_x; i <= l.last_x; ++i)
@@ -170,7 +171,7 @@ TEST(Tile, GivesTheCopysIndices) {
   const Solid tile(Solid::node("tile", R"({"size": [1, 1, 1]})", {graded}));
   EXPECT_EQ(tile.red({2.1, -0.9, 7}), 1);
   EXPECT_EQ(tile.red({1.1, -0.9, 7}), 0);
-  // Sizes by cell, which a clamp bounds.
+  // The size depends on the cell's index, limited by clamp.
   const Solid sized(Solid::node("tile", R"({"size": [1, 1, 0]})",
                                 {Solid::node("sphere", R"J({"radius": "clamp(0.1, 0.1*ci, 0.4)"})J")}));
   EXPECT_NEAR(sized.distance({3, 0, 0}), -0.3, 1e-12);
@@ -190,7 +191,7 @@ TEST(Lattice, KnowsThePlaceAlongAStrut) {
   EXPECT_NEAR(strut.red({2, 0.3, 0}), 0.25, 1e-12);
 }
 
-// Many edges, which are rows of a table.
+// With this many edges, the struts are rows of a table.
 TEST(Lattice, IsTheUnionOfItsStruts) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> at(-10, 10);

@@ -22,7 +22,7 @@ TEST(LinearFilter, ReadsSoManyVoxelsBelowAndAbove) {
   EXPECT_EQ(filter.above(), (std::array<int64_t, 3>{4, 1, 0}));
 }
 
-// A kernel that is nearly a product is summed as a whole, and gives nearly the same.
+// A kernel that is nearly a product is summed as a whole, and must give nearly the same result.
 TEST(LinearFilter, OfAProductIsTheSumOfItsProducts) {
   design::Kernel kernel{{2, 3, 2}, {}};
   const double a[] = {1, 2}, b[] = {3, 1, 2}, c[] = {1, 4};
@@ -38,8 +38,8 @@ TEST(LinearFilter, OfAProductIsTheSumOfItsProducts) {
   for (size_t n = 0; n < whole.values.size(); ++n) EXPECT_NEAR(product.values[n], whole.values[n], 1e-8);
 }
 
-// The mean of a normal distribution over a step is the error function. Its sum over voxels differs from the integral by
-// at most 1/24 of the greatest slope of the distribution, 0.242 / sigma^2.
+// A step blurred by a normal distribution is the error function. The sum over voxels differs from the integral by at
+// most 1/24 of the greatest slope of the distribution, 0.242 / sigma^2.
 TEST(LinearFilter, BlursAStepToTheErrorFunction) {
   constexpr double sigma = 3;
   const LinearFilter filter = LinearFilter::gaussian({sigma, 0, 0});

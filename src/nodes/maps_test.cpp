@@ -1,4 +1,4 @@
-// What stands on one surface, put onto another, where the answer is plain to see.
+// Tests maps from one surface to another for which the result is known.
 #include <cmath>
 #include <random>
 
@@ -7,7 +7,7 @@
 namespace ombre::nodes {
 namespace {
 
-// A tilted block that reaches through the first surface.
+// Returns a tilted block that extends through the first surface.
 design::NodePtr block(const std::string& at) {
   return Solid::node("translate", "{\"by\": " + at + "}",
                      {Solid::node("rotate", R"({"angles": [20, 10, 30]})",
@@ -18,7 +18,7 @@ Solid mapped(const design::NodePtr& from, const design::NodePtr& to, const desig
   return Solid(Solid::node("surface_map", R"({"height": 3})", {from, to, child}));
 }
 
-// Points near `at`, of the child and of what becomes of them.
+// Compares the child and its image at points near `at`.
 template <class Move>
 void expect_moved(const Solid& result, const Solid& child, Vec3 at, const Move& back) {
   std::mt19937 random(3);

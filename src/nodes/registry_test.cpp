@@ -1,4 +1,4 @@
-// What must hold for every node of the registry, with random parameters.
+// Tests properties that every node of the registry must have, with random parameters.
 #include <gtest/gtest.h>
 
 #include "base/text/json.h"
@@ -39,7 +39,7 @@ Lowered lower(const NodePtr& node, const MaterialTable& materials, Demand demand
   for (const auto& [number, flag] : composition.checks) outputs.emplace_back("check", flag);
   context.finish_bodies();
   const program::Program whole = program::inline_bodies(builder.finish(outputs));
-  // With all rows of tables.
+  // Includes all rows of tables.
   std::vector<Interval> ranges;
   evaluate_intervals(whole, Box::centered({1e4, 1e4, 1e4}), ranges);
   return {program::expand_parts(whole, ranges, program::Precision::reference), composition.fractions.size(),
@@ -57,7 +57,7 @@ Data round_trip(const NodePtr& node, const MaterialTable& materials) {
   return to_data({materials, {{"part", node}}, std::nullopt});
 }
 
-// The numbers of a value node's outputs, vectors as three, and the fractions of its mixture.
+// Returns the numbers of a value node's outputs, with vectors as three numbers, and the fractions of its mixture.
 program::Program lower_outputs(const NodePtr& node, const MaterialTable& materials) {
   LoweringContext context(materials, {node});
   program::Builder builder;
@@ -78,7 +78,7 @@ program::Program lower_outputs(const NodePtr& node, const MaterialTable& materia
   return program::inline_bodies(builder.finish(outputs));
 }
 
-// The numbers of a value node for which there are rules, each with its derivatives.
+// Returns the numbers of a value node that have symbolic derivatives, each with its derivatives.
 program::Program lower_derivatives(const NodePtr& node, const MaterialTable& materials) {
   LoweringContext context(materials, {node});
   program::Builder builder;
@@ -104,7 +104,7 @@ program::Program lower_derivatives(const NodePtr& node, const MaterialTable& mat
 class EveryNode : public testing::TestWithParam<std::string> {
  protected:
   const NodeType& type() const { return *registry().find(GetParam()); }
-#ifdef OMBRE_SANITIZED  // under which each takes some twenty times as long
+#ifdef OMBRE_SANITIZED  // sanitizers make each round about twenty times as slow
   static constexpr unsigned rounds = 6;
 #else
   static constexpr unsigned rounds = 30;
@@ -182,7 +182,7 @@ TEST_P(EverySolid, IntervalsHoldPoints) {
         for (size_t v = 0; v < values.size(); ++v)
           ASSERT_TRUE(ranges[v].contains(values[v]))
               << program::to_text(lowered.program) << "v" << v << " = " << values[v];
-        // The program for the box has the same bits.
+        // The program for the box gives the same bits.
         const auto whole = at(lowered.program, p), part = at(shorter, p);
         for (size_t o = 0; o < whole.size(); ++o)
           ASSERT_TRUE(whole[o] == part[o] || (std::isnan(whole[o]) && std::isnan(part[o]))) << o;
@@ -200,7 +200,7 @@ TEST_P(EverySolid, InsideAgreesWithDistance) {
     for (int i = 0; i < 200; ++i) {
       const Vec3 p{random.number(-12, 12), random.number(-12, 12), random.number(-12, 12)};
       const auto values = at(lowered.program, p);
-      if (std::abs(values[2]) < 1e-9) continue;  // the sign is lost to rounding
+      if (std::abs(values[2]) < 1e-9) continue;  // rounding may change the sign
       EXPECT_EQ(values[0], values[2] <= 0 ? 1 : 0) << values[2] << print_json(round_trip(node, random.materials));
       EXPECT_EQ(values[1], values[2] < 0 ? 1 : 0);
     }
@@ -229,7 +229,7 @@ TEST_P(EverySolid, FractionsSumToOne) {
   }
 }
 
-// |g(p) - g(q)| <= L |p - q| for what is exact or bounded; an exact g is also no smaller than that.
+// |g(p) - g(q)| <= L |p - q| must hold for exact and bounded g.
 TEST_P(EverySolid, KeepsItsLipschitzBound) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
@@ -242,7 +242,7 @@ TEST_P(EverySolid, KeepsItsLipschitzBound) {
       const Vec3 p{random.number(-15, 15), random.number(-15, 15), random.number(-15, 15)};
       const Vec3 step{random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)};
       const double here = at(lowered.program, p)[2], there = at(lowered.program, p + step)[2];
-      if (here == there) continue;  // endless, where there is nothing at all
+      if (here == there) continue;  // both may be infinite for empty solids
       const double change = std::abs(here - there);
       ASSERT_LE(change, metric.lipschitz * length(step) * (1 + 1e-9) + 1e-9)
           << print_json(round_trip(node, random.materials));
@@ -250,7 +250,7 @@ TEST_P(EverySolid, KeepsItsLipschitzBound) {
   }
 }
 
-// A step of length |g| along the gradient of an exact distance leads to the surface.
+// From any point, a step of length |g| along the gradient of an exact distance leads to the surface.
 TEST_P(EverySolid, ExactDistancesLeadToTheSurface) {
   for (unsigned seed = 0; seed < rounds; ++seed) {
     RandomDesign random(seed);
@@ -265,14 +265,14 @@ TEST_P(EverySolid, ExactDistancesLeadToTheSurface) {
       const Vec3 gradient =
           (0.5 / h) * Vec3{g(p + Vec3{h, 0, 0}) - g(p - Vec3{h, 0, 0}), g(p + Vec3{0, h, 0}) - g(p - Vec3{0, h, 0}),
                            g(p + Vec3{0, 0, h}) - g(p - Vec3{0, 0, h})};
-      if (std::abs(length(gradient) - 1) > 1e-4) continue;  // on an edge of the medial axis
+      if (std::abs(length(gradient) - 1) > 1e-4) continue;  // on the medial axis the gradient is undefined
       EXPECT_NEAR(g(p - g(p) * gradient), 0, 1e-3)
           << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
     }
   }
 }
 
-// Print, read, print.
+// Prints the design, reads it, and prints it again.
 void expect_same_when_read(const NodePtr& node, const MaterialTable& materials) {
   const Design design{materials, {{"part", node}}, std::nullopt};
   const std::string text = print_json(to_data(design));
@@ -343,7 +343,8 @@ TEST_P(EveryValue, IntervalsHoldPoints) {
   }
 }
 
-// Where there is a rule, and where differences to both sides agree: elsewhere the value bends or jumps.
+// Tests derivatives where a rule exists and the differences on both sides agree. Elsewhere the value has a kink or
+// jump.
 TEST_P(EveryValue, DerivativesMatchDifferences) {
   constexpr double step = 1e-5;
   for (unsigned seed = 0; seed < rounds; ++seed) {
@@ -419,7 +420,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryNode, testing::ValuesIn(registry().names
 INSTANTIATE_TEST_SUITE_P(Registry, EverySolid, testing::ValuesIn(registry().solid_names()), by_name);
 INSTANTIATE_TEST_SUITE_P(Registry, EveryValue, testing::ValuesIn(registry().value_names()), by_name);
 
-// Whole random trees, not one node at the top.
+// Tests whole random trees instead of a single node at the top.
 TEST(RandomTrees, HoldTheSameProperties) {
   for (unsigned seed = 1000; seed < 1150; ++seed) {
     RandomDesign random(seed);

@@ -28,7 +28,8 @@ class RandomDesign {
   explicit RandomDesign(unsigned seed) : random_(seed) {}
 
   NodePtr node(const NodeType& type, int depth) {
-    // Random values may be wrong together (two equal end points, something endless to repeat); then others are tried.
+    // Random values may be invalid in combination (equal end points, an unbounded solid to repeat); then new ones are
+    // drawn.
     for (int attempt = 0; attempt < 20; ++attempt) {
       std::vector<NodePtr> inputs;
       if (type.inputs.most > 0) {
@@ -52,7 +53,7 @@ class RandomDesign {
     }
   }
 
-  // A value node that gives an output of the type.
+  // Returns a value node with an output of the type.
   NodePtr value_node(ValueType output, int depth) {
     const auto& types = registry().types();
     for (;;) {
@@ -72,7 +73,7 @@ class RandomDesign {
  private:
   static Data object(const NodePtr& node) { return Data(HostObjectPtr(std::make_shared<NodeObject>(node))); }
 
-  // With the attribute that every text names.
+  // Returns a node with the attribute that all texts refer to.
   NodePtr dense_node() {
     const NodeType& type = *registry().find("attribute");
     const auto named = [&](const char* name, Data data) {
@@ -83,7 +84,7 @@ class RandomDesign {
                      {materials, none, nullptr, {}, "", ""});
   }
 
-  // A number from 0.01 to 1 that a node gives: sizes must not be 0.
+  // Returns a number from 0.01 to 1 that depends on a node's output, since sizes must not be 0.
   Data share() {
     const NodePtr node = value_node(ValueType::number, 0);
     const Data value(
@@ -160,7 +161,7 @@ class RandomDesign {
       return Data(DataList{Data(sign * static_cast<double>(index(3))), Data(sign * static_cast<double>(index(3))),
                            Data(sign * static_cast<double>(index(3)))});
     }
-    if (kind == "3 numbers" && type.name == "tile")  // not many copies of large children
+    if (kind == "3 numbers" && type.name == "tile")  // avoids many copies of large children
       return Data(DataList{Data(number(6, 14)), Data(number(6, 14)), Data(number(6, 14))});
     if (kind == "3 numbers") return vector(domain, false);
     if (kind == "material or mixture" && depth_ > 0 && index(2)) {
@@ -174,7 +175,7 @@ class RandomDesign {
     }
     if (kind == "file") return Data("ball.stl");
     if (type.name == "composition_of") return Data(index(2) ? "red" : "");
-    // A standard name would be of one type.
+    // A standard name would have a fixed type.
     if (kind == "text") return Data(type.name == "attribute" ? "own_density" : "density");
     if (kind == "true or false") return Data(index(2) == 0);
     if (kind == "matrix") {
@@ -203,7 +204,7 @@ class RandomDesign {
     return Data(std::move(list));
   }
 
-  // Corners around a middle, nearer and farther.
+  // Returns corners at varying distances around a centre.
   Data star(bool is_flat, double u, double v, double size) {
     DataList list;
     const size_t count = 3 + index(4);

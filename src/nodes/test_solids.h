@@ -1,4 +1,4 @@
-// Solids made from text in JSON, and evaluated at points, for tests.
+// Solids for tests, made from JSON text and evaluated at points.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ inline const design::MaterialTable& two_materials() {
 
 class Solid {
  public:
-  // Failing to make it fails the test.
+  // Makes a node. The test fails if that is not possible.
   static design::NodePtr node(const std::string& type, const std::string& parameters,
                               std::vector<design::NodePtr> inputs = {}) {
     Diagnostics diagnostics;
@@ -61,10 +61,10 @@ class Solid {
 
   bool inside(Vec3 p) const { return at(p, 0) == 1; }
   double distance(Vec3 p) const { return at(p, 1); }
-  double red(Vec3 p) const { return at(p, 2); }  // the first material's fraction
+  double red(Vec3 p) const { return at(p, 2); }  // fraction of the first material
   double along(Vec3 p) const { return at(p, 3); }
 
-  // The share of the box that is inside, at the middles of n x n x n cells.
+  // Returns the share of the box that is inside, sampled at the centres of n x n x n cells.
   double share(const Box& box, int n) const {
     int count = 0;
     for (int k = 0; k < n; ++k)

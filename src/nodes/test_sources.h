@@ -1,4 +1,4 @@
-// What a test gives to nodes in place of files: sources whose values are plain to see.
+// Sources with simple values, which tests use instead of files.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using design::HeightImage;
 using design::MeshPart;
 using design::Reader;
 
-// A ball that knows its distance exactly, in place of a file.
+// A ball with exact distances.
 class BallSource : public program::FieldSource {
  public:
   std::string name() const override { return "ball"; }
@@ -30,7 +30,7 @@ class BallSource : public program::FieldSource {
   }
 };
 
-// Polygons and paths, edge by edge.
+// Polygons and paths, computed edge by edge.
 class EdgeSource : public program::FieldSource {
  public:
   EdgeSource(Polygons polygons, bool turns) : polygons_(std::move(polygons)), turns_(turns) {}
@@ -57,7 +57,7 @@ class EdgeSource : public program::FieldSource {
     for (const Ring& ring : rings)
       for (size_t n = 0; n < ring.size(); ++n) visit(ring[n], ring[(n + 1) % ring.size()]);
   }
-  // By the angles under which edges are seen.
+  // Computes the winding number from the angles under which edges are seen.
   static long winding(const std::vector<Ring>& rings, Vec3 p) {
     double turned = 0;
     for_edges(rings, [&](Vec2 a, Vec2 b) {
@@ -130,7 +130,7 @@ class PointsSource : public program::FieldSource {
   std::vector<Vec3> points_;
 };
 
-// Hills and valleys.
+// A height image of waves.
 class WaveSource : public program::FieldSource {
  public:
   std::string name() const override { return "waves"; }
@@ -140,7 +140,8 @@ class WaveSource : public program::FieldSource {
   double sample(int, Vec3 p) const override { return 0.5 + 0.25 * (std::sin(p.x / 8) + std::sin(p.y / 4)); }
 };
 
-// In voxels' indices, 9 along each axis: 110 in the middle, less by 10 for each voxel away from it.
+// A grid of 9 voxels along each axis, in index coordinates, with 110 in the middle and 10 less for each voxel away from
+// it.
 class HillSource : public program::FieldSource {
  public:
   std::string name() const override { return "hill"; }
@@ -161,7 +162,7 @@ class HillSource : public program::FieldSource {
   }
 };
 
-// Voxels around (4, 4, 4) of the first colour, between transparent ones.
+// Voxels of the first colour around (4, 4, 4), with transparent ones around them.
 class PixelSource : public HillSource {
  public:
   double sample(int, Vec3 p) const override { return HillSource::sample(1, p) > 80 ? 1 : 0; }
@@ -177,7 +178,7 @@ class PendingBall : public design::PendingSource {
   program::SourceField source_ = std::make_shared<BallSource>();
 };
 
-// Where nothing makes stages it is empty.
+// A stage of a ball, which is empty without a host of stages.
 class BallStage : public design::SweepStage {
  public:
   std::string name() const override { return "ball"; }

@@ -1,4 +1,4 @@
-// What tests of value nodes share: nodes made by name, and their outputs at points.
+// Helpers for tests of value nodes: making nodes by name, and evaluating outputs at points.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ class ValueTest : public testing::Test {
     return Data(std::move(data));
   }
 
-  // The numbers of an output at a point, by its name.
+  // Returns the numbers of a named output at a point.
   std::vector<double> at(const NodePtr& node, const std::string& output, Vec3 p) {
     LoweringContext context(materials_, {node});
     program::Builder builder;

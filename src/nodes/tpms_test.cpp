@@ -1,4 +1,4 @@
-// Minimal surfaces against published areas and against their own normals.
+// Compares minimal surfaces with published areas and with their own normals.
 #include <cmath>
 #include <random>
 
@@ -11,7 +11,7 @@ std::string sheet(const std::string& name, const std::string& thickness) {
   return "{\"surface\": \"" + name + "\", \"cell\": [1, 1, 1], \"thickness\": " + thickness + "}";
 }
 
-// Areas in a cubic cell of side one: Schroeder-Turk, Fogden, Hyde 2006, for the surfaces themselves, which the
+// Areas in a cubic cell of side one by Schroeder-Turk, Fogden, Hyde 2006, for the exact surfaces, which the
 // trigonometric functions approximate.
 TEST(Tpms, SheetsHaveThePublishedArea) {
   const std::map<std::string, double> areas{
@@ -27,7 +27,7 @@ TEST(Tpms, SheetsHaveThePublishedArea) {
   }
 }
 
-// The two sides of these are congruent.
+// The two sides of these surfaces are congruent.
 TEST(Tpms, SolidsFillHalf) {
   for (const std::string name : {"gyroid", "schwarz_p", "schwarz_d"}) {
     const Solid half(Solid::node("tpms", "{\"surface\": \"" + name + "\", \"kind\": \"solid\", \"cell\": [1, 1, 1]}"));
@@ -35,7 +35,7 @@ TEST(Tpms, SolidsFillHalf) {
   }
 }
 
-// From points of the surface along the normal, by bisection on the finer of two programs.
+// Measures the thickness from points of the surface along the normal, by bisection.
 void expect_thickness(const std::string& name, double thickness, double tolerance) {
   const Solid side(Solid::node("tpms", "{\"surface\": \"" + name + "\", \"kind\": \"solid\", \"cell\": [1, 1, 1]}"));
   const Solid wall(Solid::node("tpms", sheet(name, std::to_string(thickness))));
@@ -60,7 +60,7 @@ void expect_thickness(const std::string& name, double thickness, double toleranc
   EXPECT_LT(worst, tolerance * thickness) << name;
 }
 
-// What docs/user/lattices.md promises: thin against the curvature of the surface.
+// docs/user/lattices.md promises this accuracy for walls that are thin compared with the surface's curvature.
 TEST(Tpms, ThicknessIsInMillimetres) {
   for (const std::string name : {"gyroid", "schwarz_p", "schwarz_d"}) {
     expect_thickness(name, 0.05, 0.04);
@@ -69,7 +69,7 @@ TEST(Tpms, ThicknessIsInMillimetres) {
   for (const std::string name : {"neovius", "iwp", "lidinoid", "split_p"}) expect_thickness(name, 0.03, 0.12);
 }
 
-// Numbers given as fields mean what they mean as numbers.
+// Constant fields must give the same result as numbers.
 TEST(Tpms, FieldsThatAreConstantChangeNothing) {
   for (const std::string name : {"gyroid", "lidinoid", "split_p"}) {
     const Solid numbers(Solid::node("tpms", sheet(name, "0.1")));
@@ -79,7 +79,7 @@ TEST(Tpms, FieldsThatAreConstantChangeNothing) {
     std::uniform_real_distribution<double> at(0.1, 1);
     for (int n = 0; n < 100; ++n) {
       const Vec3 p{at(random), at(random), at(random)};
-      if (std::abs(numbers.distance(p)) > 0.1) continue;  // far away the differences are coarse
+      if (std::abs(numbers.distance(p)) > 0.1) continue;  // far away, differences are inaccurate
       EXPECT_NEAR(numbers.distance(p), fields.distance(p), 2e-5);
     }
   }

@@ -1,4 +1,4 @@
-// Ramps, tables, colours, textures, mixtures and attributes against mathematics and SciPy.
+// Compares ramps, tables, colours, textures, mixtures and attributes with mathematics and SciPy.
 #include "nodes/test_values.h"
 #include "program/evaluate.h"
 
@@ -31,7 +31,7 @@ TEST_F(ValueCurves, RampsAndRangesAreStraightOrSmooth) {
   EXPECT_NEAR(number_at(make("rescale", clamped), "value", {20, 0, 0}), 1, 1e-12);
 }
 
-// From tests/fixtures/make_table_values.py, which asks SciPy 1.17.
+// Expected values come from tests/fixtures/make_table_values.py, which uses SciPy 1.17.
 TEST_F(ValueCurves, CubicTablesAreSciPysPchip) {
   const NodePtr table = make("table", {{"rows", rows({{0, 1}, {1, 3}, {2.5, 3}, {3, 2}, {5, 4}, {8, 4.5}})},
                                        {"a", Data("x")},
@@ -51,7 +51,7 @@ TEST_F(ValueCurves, TablesOfThreeInputsAreSciPysGrid) {
     for (int j = 0; j < 2; ++j)
       for (int k = 0; k < 3; ++k)
         data.push_back(list({keys[0][i], keys[1][j], keys[2][k], i * 1.5 - j * j + 2 * k + i * k}));
-  std::shuffle(data.begin(), data.end(), random_);  // rows come in any order
+  std::shuffle(data.begin(), data.end(), random_);  // rows may be in any order
   const NodePtr table =
       make("table", {{"rows", Data(data)}, {"a", Data("x")}, {"more", Data(DataList{Data("y"), Data("z")})}});
   EXPECT_NEAR(number_at(table, "value", {0.5, 0.0, 0.25}), 1.666666666666667, 1e-12);
@@ -94,7 +94,7 @@ TEST_F(ValueCurves, WrongTablesSayWhatIsWrong) {
   EXPECT_NE(cubic.find("cubic tables have one input"), std::string::npos);
 }
 
-// Lindbloom's figures for sRGB red under D65; HSV by its definition.
+// Expected values are Lindbloom's for sRGB red under D65; HSV follows its definition.
 TEST_F(ValueCurves, ColoursChangeTheirSpace) {
   const auto colour = [&](Vec3 numbers, const char* space, const char* to) {
     return vector_at(
@@ -116,7 +116,7 @@ TEST_F(ValueCurves, ColoursChangeTheirSpace) {
               5e-3);
 }
 
-// The test's image has two rows of two pixels, red from the top 0, 80, 160, 255.
+// The test image has two rows of two pixels, with red 0, 80, 160, 255 from the top.
 TEST_F(ValueCurves, TexturesAreLinearBetweenTheMiddlesOfPixels) {
   const NodePtr planar = make("texture", {{"path", Data("image.png")}, {"width", Data(4.0)}, {"wrap", Data("clamp")}});
   EXPECT_NEAR(vector_at(planar, "colour", {-1, 1, 9}).x, 0, 1e-12);

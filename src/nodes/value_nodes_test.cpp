@@ -1,4 +1,4 @@
-// Noise, mixtures and cells against what mathematics says of them.
+// Compares noise, mixtures and cells with their mathematical properties.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ class ValueNodes : public testing::Test {
     return builder.finish(outputs);
   }
 
-  // Fractions by the materials' names.
+  // Returns fractions by names of materials.
   std::map<std::string, double> fractions(const NodePtr& mix, Vec3 at) {
     LoweringContext context(materials_, {mix});
     program::Builder builder;
@@ -81,7 +81,7 @@ class ValueNodes : public testing::Test {
 
 }  // namespace
 
-// At each corner of the lattice all linear functions but its own have weight 0, and its own is 0.
+// At a lattice corner, all linear functions except its own have weight 0, and its own is 0.
 TEST_F(ValueNodes, NoiseIsOneHalfInTheCorners) {
   const auto noise = numbers(make("noise", {{"size", Data(2.0)}}), 0);
   for (int n = -300; n < 300; n += 7) EXPECT_EQ(value(noise, {2.0 * n, 4, -6}), 0.5);
@@ -119,8 +119,8 @@ TEST_F(ValueNodes, TheSlopeOfNoiseMatchesDifferences) {
   }
 }
 
-// Across the borders of its cells noise and its slope go on, also where the lattice repeats; 289 cells on it is the
-// same.
+// Noise and its slope are continuous across cell borders, also where the lattice repeats. It is periodic with 289
+// cells.
 TEST_F(ValueNodes, NoiseHasNoSeams) {
   const NodePtr node = make("noise", {{"size", Data(1.0)}});
   const auto noise = numbers(node, 0), slope = numbers(node, 1);
@@ -147,7 +147,7 @@ TEST_F(ValueNodes, SeedsGiveDifferentNoise) {
   EXPECT_LT(equal, 3);
 }
 
-// What single precision computes of the permutation is what whole numbers give.
+// Single precision computes the permutation exactly.
 TEST_F(ValueNodes, ThePermutationIsExactInSinglePrecision) {
   for (int v = -288; v <= 577; ++v) {
     const float s = static_cast<float>(v), product = (s * 34 + 1) * s;
@@ -170,7 +170,7 @@ TEST_F(ValueNodes, MixOfMaterialsHasTheirShares) {
   EXPECT_EQ(fractions(mix, {0.25, 0, 0}), (Fractions{{"red", 0.75}, {"blue", 0.25}}));
   EXPECT_EQ(fractions(mix, {-3, 0, 0}), (Fractions{{"red", 1}, {"blue", 0}}));
   EXPECT_EQ(fractions(mix, {3, 0, 0}), (Fractions{{"red", 0}, {"blue", 1}}));
-  // Half of it red, half of it that mixture.
+  // This mixture is half red and half the one above.
   const NodePtr more = make("mix", {{"a", Data("red")}, {"b", object(mix)}});
   EXPECT_EQ(fractions(more, {0.25, 0, 0}), (Fractions{{"red", 0.875}, {"blue", 0.125}}));
   const NodePtr third = make("mix", {{"a", object(mix)}, {"b", Data("clear")}, {"t", Data(0.5)}});

@@ -1,4 +1,4 @@
-// Values of places, cells and noise against what mathematics and searches by hand say of them.
+// Compares positions, cells and noise with mathematics and exhaustive searches.
 #include "nodes/test_values.h"
 
 namespace ombre::nodes {
@@ -13,7 +13,7 @@ class ValuePlaces : public ValueTest {};
 TEST_F(ValuePlaces, CoordinatesAreThoseOfTheFrame) {
   const NodePtr frame =
       make("coordinates", {{"origin", list({1, 2, 3})}, {"axis", list({1, 0, 0})}, {"toward", list({0, 2, 0})}});
-  // x of the frame is y, y is z, z is x.
+  // The frame's x is y, its y is z, its z is x.
   expect_near(vector_at(frame, "place", {5, 7, 4}), {5, 1, 4}, 1e-12);
   EXPECT_NEAR(number_at(frame, "rho", {5, 7, 4}), std::sqrt(26), 1e-12);
   EXPECT_NEAR(number_at(frame, "azimuth", {5, 7, 4}), std::atan2(1, 5) * 180 / pi, 1e-10);
@@ -49,7 +49,7 @@ TEST_F(ValuePlaces, DistancesToASolidAreItsOwn) {
   }
 }
 
-// All centres of hexagons around, and their corners and sides.
+// Compares with the nearest centre, corners and sides among all hexagons around the point.
 TEST_F(ValuePlaces, HexagonsAreThoseOfTheNearestMiddle) {
   constexpr double width = 3;
   const NodePtr cells = make("hex_cells", {{"size", Data(width)}});
@@ -97,7 +97,7 @@ TEST_F(ValuePlaces, TrianglesHaveTheLinesOfThreeDirectionsAsBorders) {
   }
 }
 
-// The planes x = y, y = z, z = x and those of the cubes' faces cut space into them.
+// Tetrahedra are bounded by the planes x = y, y = z, z = x and the faces of the cubes.
 TEST_F(ValuePlaces, TetrahedraHaveSixPlanesAsBorders) {
   constexpr double size = 3;
   const NodePtr cells = make("tetrahedron_cells", {{"size", Data(size)}});
@@ -116,7 +116,8 @@ TEST_F(ValuePlaces, TetrahedraHaveSixPlanesAsBorders) {
   }
 }
 
-// As far as the border is away, one is in the same cell; just beyond it in another, in one direction at least.
+// Points up to the border's distance lie in the same cell; just beyond it, at least one direction leads to another
+// cell.
 TEST_F(ValuePlaces, VoronoiCellsEndAtTheirBorders) {
   const NodePtr cells = make("voronoi_cells", {{"size", Data(2.0)}, {"seed", Data(3.0)}});
   for (int n = 0; n < 20; ++n) {
@@ -154,7 +155,7 @@ TEST_F(ValuePlaces, RandomNumbersAreThoseOfTheCell) {
     sum += v;
     squares += (v - 3) * (v - 3);
   }
-  // Of a uniform distribution of width 2 the variance is 1/3.
+  // A uniform distribution of width 2 has the variance 1/3.
   EXPECT_NEAR(sum / count, 3, 4 * std::sqrt(1.0 / 3 / count));
   EXPECT_NEAR(squares / count, 1.0 / 3, 0.03);
 }

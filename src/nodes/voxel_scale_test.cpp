@@ -1,4 +1,4 @@
-// How large a job's voxels are in the space of a node.
+// Tests of the size of a job's voxels in the space of a node.
 #include <gtest/gtest.h>
 
 #include "base/text/json.h"
@@ -57,7 +57,7 @@ TEST_F(VoxelScale, FollowsTransforms) {
   expect_near(voxel(moved(ball), ball), {1, 2, 4});
   expect_near(voxel(moved(scaled(10, 10, 10, moved(ball))), ball), {0.1, 0.2, 0.4});
   expect_near(voxel(scaled(0.5, 0.5, 0.5, scaled(10, 10, 10, ball)), ball), {0.2, 0.4, 0.8});
-  // The finest where a part is stretched in one direction.
+  // Where a part is stretched in one direction, the finest size counts.
   expect_near(voxel(scaled(1, 1, 4, ball), ball), {0.25, 0.5, 1});
 }
 

@@ -60,7 +60,7 @@ void check_names(const std::vector<Option>& options, const DataMembers& members)
   }
 }
 
-// Options that must come with others, or without them.
+// Checks that options which must come with others, or without them, do so.
 void check_together(const Option& option, const DataMembers& given) {
   const std::string name = member_name(option.name());
   for (const std::string& needed : option.needs)

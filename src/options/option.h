@@ -1,6 +1,6 @@
-// Options of jobs as data. A job is a plain struct, and a row for each of its members says how the option is called,
-// what it means and what it takes. Command line, help, completion, Python's keywords and stubs and job.json come from
-// these rows.
+// Options of jobs as data. A job is a plain struct. A row for each of its members gives the option's name, its meaning
+// and the values that it takes. Command line, help, completion, Python's keyword arguments and stubs, and job.json are
+// derived from these rows.
 #pragma once
 
 #include <algorithm>
@@ -19,40 +19,40 @@ namespace ombre::options {
 
 enum class Takes { nothing, one, several };
 
-// Numbers, ends included.
+// The range of numbers that an option takes, ends included.
 struct Limits {
   double least = 0, most = 0;
   bool is_whole = false;
 };
 
 struct Option {
-  std::string names;        // "-o,--output"; what has no dashes goes by its place
-  std::string help;         // a sentence, or its beginning
-  std::string placeholder;  // of its value: "FILE"
-  std::string kind;         // of its value, as in values.h; "word" where there are choices, "flag"
+  std::string names;        // "-o,--output"; a name without dashes is a positional argument
+  std::string help;         // a sentence or its beginning
+  std::string placeholder;  // name of the value in help texts: "FILE"
+  std::string kind;         // name of the value's Kind (option_values.h), or "word" for choices, or "flag"
   Takes takes = Takes::one;
-  std::vector<std::string> choices = {};  // the words that it takes; empty: any
+  std::vector<std::string> choices = {};  // the words that it takes; empty if it takes any text
   std::optional<Limits> limits = {};
   bool is_required = false;
   std::vector<std::string> needs = {}, excludes = {};  // names of other options of the job
 
-  // Sets the member of the job at this address; of flags there are no texts. Throws WrongValue.
+  // Sets the option's member in the job at address `job`. `texts` is empty for flags. Throws WrongValue.
   std::function<void(void* job, const std::vector<std::string>& texts)> set = nullptr;
-  // What the member of the job at this address is. Empty for members that job.json does not hold.
+  // Returns the value of the option's member in the job at address `job`. Null for members that job.json does not hold.
   std::function<Data(const void* job)> value = nullptr;
 
-  // The first long name: "--output".
+  // Returns the first long name: "--output".
   std::string name() const;
 };
 
-// What is wrong with a text that an option's choices or limits do not allow: `"x" is not a number from 0 to 1`. Empty
-// if nothing is.
+// Returns why the choices or limits do not allow a text: `"x" is not a number from 0 to 1`. Returns "" if they allow
+// it.
 std::string problem(const std::vector<std::string>& choices, const std::string& text);
 std::string problem(const Limits& limits, const std::string& text);
-// "0 to 120"
+// Returns for example "0 to 120".
 std::string range_text(const Limits& limits);
 
-// One row, or the rows of a group, of the options of a Job.
+// An option of a Job, or the options of a group.
 template <class Job>
 struct Row {
   std::vector<Option> options;
@@ -83,7 +83,7 @@ class Spec {
   }
   const std::vector<Option>& options() const { return options_; }
 
-  // What job.json holds of the job, in the order of the rows.
+  // Returns the members of job.json that describe the job, in the order of the rows.
   DataMembers describe(const Job& job) const {
     DataMembers members;
     for (const Option& option : options_)
@@ -104,7 +104,7 @@ void assign(std::optional<T>& member, T value) {
   member = std::move(value);
 }
 
-// An option with a value: its member has the kind's type, maybe as an optional.
+// Returns an option with a value. Its member has the kind's type, or is an optional of it.
 template <class Job, class Member, class T>
 Row<Job> option(std::string names, Member Job::*member, const Kind<T>& kind, std::string help,
                 std::string placeholder) {
@@ -112,12 +112,12 @@ Row<Job> option(std::string names, Member Job::*member, const Kind<T>& kind, std
   made.set = [member, read = kind.read, name = made.name()](void* job, const std::vector<std::string>& texts) {
     assign(static_cast<Job*>(job)->*member, read(texts.front(), name));
   };
-  if constexpr (std::is_same_v<Member, uint64_t>)  // as text, since it may have 64 bits
+  if constexpr (std::is_same_v<Member, uint64_t>)  // written as text, since a double cannot hold 64 bits
     made.value = [member](const void* job) { return std::to_string(static_cast<const Job*>(job)->*member); };
   return {{made}};
 }
 
-// One that may be repeated.
+// Returns an option that may be repeated.
 template <class Job, class T>
 Row<Job> list(std::string names, std::vector<T> Job::*member, const Kind<T>& kind, std::string help,
               std::string placeholder) {
@@ -144,8 +144,8 @@ struct ChosenType<std::optional<T>> {
   using type = T;
 };
 
-// One of the words: a member that is a text gets the word; an enumeration, whose values are in the order of the words,
-// its value.
+// Returns an option that takes one of the words. A string member gets the word; an enumeration, whose values are in the
+// order of the words, gets the corresponding value.
 template <class Job, class Member>
 Row<Job> choice(std::string names, Member Job::*member, const std::vector<std::string>& words, std::string help,
                 std::string placeholder) {
@@ -165,7 +165,7 @@ Row<Job> choice(std::string names, Member Job::*member, const std::vector<std::s
   return {{made}};
 }
 
-// The options of a part that several jobs have.
+// Returns the options of a struct that is a member of several jobs.
 template <class Job, class Part>
 Row<Job> group(Part Job::*part, const Spec<Part>& spec) {
   Row<Job> row{spec.options()};

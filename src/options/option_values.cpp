@@ -1,4 +1,4 @@
-// What the texts of options mean: exact lengths, resolutions, sizes of memory, boxes.
+// Parsers of option values: exact lengths, resolutions, sizes of memory, boxes.
 #include "options/option_values.h"
 
 #include <charconv>

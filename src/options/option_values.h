@@ -1,4 +1,4 @@
-// What the texts of options mean: exact lengths, resolutions, sizes of memory, boxes.
+// Parsers of option values: exact lengths, resolutions, sizes of memory, boxes.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace ombre::options {
 
-// A value that an option cannot take. The message names the option and says what to write instead.
+// Thrown for a value that an option does not take. The message names the option and says what to write instead.
 class WrongValue : public std::runtime_error {
  public:
   explicit WrongValue(Phrase message, Code code = Code::option)
@@ -34,35 +34,35 @@ class WrongValue : public std::runtime_error {
 
 using Pitches = std::array<std::optional<Pitch>, 3>;
 
-// Each throws WrongValue, naming `option`, with an example of what to write.
+// The parsers throw WrongValue, which names `option` and gives an example of what to write.
 
-// "0.1" for all axes, or "x,y,z"; millimetres.
+// Reads voxel sizes in mm: "0.1" for all axes, or "x,y,z".
 Pitches parse_voxel(const std::string& text, const std::string& option = "--voxel");
-// "600" for x and y, "600,300" or "600,300,940".
+// Reads resolutions in dpi: "600" for x and y, "600,300", or "600,300,940".
 Pitches parse_dpi(const std::string& text, const std::string& option = "--dpi");
 Pitch parse_layer_height(const std::string& text, const std::string& option = "--layer-height");
-// A length above 0 as exact text; millimetres.
+// Reads a length in mm, which must be above 0.
 double parse_length(const std::string& text, const std::string& option);
-// "2G", "512M", "1.5GiB"; at least a megabyte.
+// Reads a size of memory in bytes: "2G", "512M", "1.5GiB". It must be at least a megabyte.
 size_t parse_memory(const std::string& text, const std::string& option = "--memory");
-// "x0,y0,z0,x1,y1,z1", with a size along each axis; millimetres.
+// Reads a box in mm: "x0,y0,z0,x1,y1,z1". Its size along each axis must be above 0.
 Box parse_box(const std::string& text, const std::string& option = "--box");
-// "x0,y0,x1,y1"; its z is 0 to 0.
+// Reads a rectangle in mm: "x0,y0,x1,y1". Its z range is 0 to 0.
 Box parse_rectangle(const std::string& text, const std::string& option);
-// Three angles, about x, y and z: "90,0,45"; degrees.
+// Reads three angles in degrees, about x, y and z: "90,0,45".
 Vec3 parse_angles(const std::string& text, const std::string& option = "--rotate");
-// Two numbers, the lesser first: "0,1".
+// Reads two numbers, the lesser first: "0,1".
 Interval parse_range(const std::string& text, const std::string& option = "--range");
 int parse_whole(const std::string& text, const std::string& option);
 double parse_real(const std::string& text, const std::string& option);
 uint64_t parse_seed(const std::string& text, const std::string& option = "--seed");
-// Along z; millimetres.
+// Reads a height along z in mm.
 double parse_height(const std::string& text, const std::string& option);
 
-// "1,2.5,-3"; empty where something is no finite number.
+// Reads numbers: "1,2.5,-3". Returns an empty list if one of them is not a finite number.
 std::vector<double> parse_numbers(const std::string& text);
 
-// A kind of value: its name for documents and other languages, and who reads its text.
+// A kind of value: its name in documents and other languages, and the function that reads it.
 template <class T>
 struct Kind {
   const char* name;

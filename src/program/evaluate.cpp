@@ -62,7 +62,7 @@ void evaluate_intervals(const Program& program, const Box& box, std::vector<Inte
       case Op::parts: {
         const Box where{{a.lo, b.lo, c.lo}, {a.hi, b.hi, c.hi}};
         const PartSet& set = *program.part_sets[in.aux];
-        // Slots of one set at one place follow each other.
+        // Consecutive instructions often ask for slots of one set at one place.
         if (last_query.set != &set || last_query.where != where) last_query = {&set, where, set.index.reaches(where)};
         values[i] = last_query.reaches ? set.ranges[static_cast<size_t>(in.value)] : Interval(0);
         break;

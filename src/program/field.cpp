@@ -65,7 +65,7 @@ void Builder::widen_table() {
 }
 
 Field Builder::constant(double value) {
-  if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // one NaN for all
+  if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();  // all NaNs become the same constant
   Instruction in;
   in.value = value;
   return intern({Op::constant, 0, 0, 0, std::bit_cast<uint64_t>(value), nullptr}, in);
@@ -89,7 +89,7 @@ Field Builder::apply(Op op, Field a, Field b, Field c) {
   const auto vb = arity > 1 ? constant_value(b) : va;
   const auto vc = arity > 2 ? constant_value(c) : va;
   if (va && vb && vc) return constant(program::apply(op, *va, *vb, *vc));
-  // Rules that hold for every value, infinities and NaN among them.
+  // Simplifications that hold for all values, including infinities and NaN.
   switch (op) {
     case Op::multiply:
     case Op::divide:
@@ -136,7 +136,7 @@ Field Builder::apply(Op op, Field a, Field b, Field c) {
 }
 
 Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
-  // Rows with one unit coefficient are what translations give.
+  // Rows with a single non-zero coefficient are common; translations produce them.
   const Field parts[] = {a, b, c};
   for (int i = 0; i < 3; ++i) {
     if (row[i] == 0 || row[(i + 1) % 3] != 0 || row[(i + 2) % 3] != 0) continue;
@@ -155,7 +155,7 @@ Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
   for (const double m : row) bits = (bits ^ std::bit_cast<uint64_t>(m == 0 ? 0.0 : m)) * 0x9E3779B97F4A7C15ull;
   const Field field = intern({Op::affine, in.a, in.b, in.c, bits, nullptr}, in);
   if (code_[field.id].aux == maps_.size()) maps_.push_back(row);
-  // Two rows with one hash: keep both apart.
+  // The rows have the same hash but differ, so both are kept.
   if (maps_[code_[field.id].aux] != row) {
     push({}, in);
     maps_.push_back(row);
@@ -295,7 +295,7 @@ Field power(Field base, Field exponent) {
   constexpr int most = 64;
   const auto n = base.builder->constant_value(exponent);
   if (!n || std::trunc(*n) != *n || std::abs(*n) > most || *n == 0) return base.builder->apply(Op::pow, base, exponent);
-  // Repeated squaring: x^6 = (x^2)^2 * x^2.
+  // Uses repeated squaring: x^6 = (x^2)^2 * x^2.
   Field result, factor = base;
   for (int left = std::abs(static_cast<int>(*n)); left > 0; left >>= 1) {
     if (left & 1) result = result ? result * factor : factor;
@@ -330,7 +330,7 @@ Point::Point(Field bx, Field by, Field bz, const Affine& map)
 }
 
 std::optional<Affine> Point::from_inputs() const {
-  if (base_x_.id != 0 || base_y_.id != 1 || base_z_.id != 2) return std::nullopt;  // the first three are the inputs
+  if (base_x_.id != 0 || base_y_.id != 1 || base_z_.id != 2) return std::nullopt;  // 0, 1, 2 are the inputs
   return here_from_base_;
 }
 

@@ -1,4 +1,4 @@
-// Fields: expressions over space under construction. Equal expressions become one.
+// Fields: expressions over space from which programs are built. Equal expressions are shared.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace ombre::program {
 
 class Builder;
 
-// A handle to a value in a builder; cheap to copy, valid as long as its builder.
+// A handle to a value in a builder. It is cheap to copy and valid as long as its builder.
 struct Field {
   Builder* builder = nullptr;
   ValueId id = 0;
@@ -24,13 +24,13 @@ struct Field {
 
 using Outputs = std::vector<std::pair<std::string, Field>>;
 
-// Whoever fills a builder may leave itself here, to be found by what only has a point of the builder's.
+// A base for objects that register with a builder, so that code that only has a point can find them.
 class BuilderUser {
  public:
   virtual ~BuilderUser() = default;
 };
 
-// Builds programs. Shares equal subexpressions and folds constants as they are made.
+// Builds programs. Shares equal subexpressions and folds constants.
 class Builder {
  public:
   Builder();
@@ -42,25 +42,25 @@ class Builder {
   Field apply(Op op, Field a, Field b = {}, Field c = {});
   Field affine(const AffineRow& row, Field a, Field b, Field c);
   Field source(const SourceField& source, int channel, Field a, Field b, Field c, uint32_t tag = 0);
-  // `body` may still grow; its outputs are numbered in the order in which they were added.
+  // Calls an output of `body`, which may still grow. Outputs are numbered in the order in which they were added.
   Field call(const std::shared_ptr<Program>& body, uint32_t output, Field a, Field b, Field c);
 
-  // Slot of many parts.
+  // Returns the combined value of one slot of many parts.
   Field parts(const std::shared_ptr<const PartSet>& set, size_t slot, Field a, Field b, Field c);
 
   std::optional<double> constant_value(Field field) const;
   const Instruction& instruction(Field field) const { return code_[field.id]; }
-  const AffineRow& affine_row(Field field) const { return maps_[code_[field.id].aux]; }  // of an affine map
-  bool is_truth(Field field) const;                                                      // is its value always 0 or 1?
+  const AffineRow& affine_row(Field field) const { return maps_[code_[field.id].aux]; }  // the row of an affine map
+  bool is_truth(Field field) const;  // true if the value is always 0 or 1
   size_t size() const { return code_.size(); }
-  // Forgets everything but its memory and its user, for another program.
+  // Removes all instructions but keeps the memory and the user, for another program.
   void clear();
-  BuilderUser* user() const { return user_; }  // null: there is none
+  BuilderUser* user() const { return user_; }  // null if there is none
   void set_user(BuilderUser* user) { user_ = user; }
 
-  // What the outputs need, in the order of construction; nothing else.
+  // Returns the program of the instructions that the outputs need, in the order of construction.
   Program finish(const Outputs& outputs) const;
-  // The same in place of what `program` was, whose memory it takes.
+  // Overwrites `program` with that program and reuses its memory.
   void finish(const Outputs& outputs, Program& program) const;
 
  private:
@@ -82,11 +82,11 @@ class Builder {
   std::vector<Read> reads_;
   std::vector<Call> calls_;
   std::vector<std::shared_ptr<const PartSet>> part_sets_;
-  std::vector<Key> keys_;       // of the instructions
-  std::vector<ValueId> table_;  // instructions by the hashes of their keys; 0, an input, where there is none
+  std::vector<Key> keys_;       // one for each instruction
+  std::vector<ValueId> table_;  // hash table of instructions by their keys; 0, which is an input, marks empty entries
 };
 
-// Arithmetic on fields; a number stands for a constant.
+// Arithmetic on fields. A number stands for a constant.
 Field operator+(Field a, Field b);
 Field operator-(Field a, Field b);
 Field operator*(Field a, Field b);
@@ -109,9 +109,9 @@ Field sin(Field a);
 Field cos(Field a);
 Field length(Field a, Field b);
 Field length(Field a, Field b, Field c);
-// Integer powers become products.
+// Raises to a power. Integer powers become products.
 Field power(Field base, Field exponent);
-// Truth values, 0 or 1.
+// Truth values are 0 or 1.
 Field operator<(Field a, double b);
 Field operator<=(Field a, double b);
 Field less(Field a, Field b);
@@ -123,7 +123,7 @@ Field logical_or(Field a, Field b);
 Field share(Field part, Field total);
 Field select(Field condition, Field a, Field b);
 Field is_finite(Field a);
-// Folds a list pairwise, as a balanced tree, so that a part of it can be settled alone.
+// Combines a list as a balanced tree, so that `narrow` can drop parts of it.
 Field fold(std::vector<Field> fields, Field (*combine)(Field, Field));
 Field sum(std::vector<Field> fields);
 
@@ -131,21 +131,21 @@ Field sum(std::vector<Field> fields);
 class Point {
  public:
   Field x, y, z;
-  // Indices of the cell that the point was brought back from, where space repeats; else no fields.
+  // Indices of the cell from which the point was mapped, if space repeats; else null fields.
   std::array<Field, 3> cell;
 
-  // The point of a whole program or body.
+  // Returns the point whose coordinates are the inputs of a program or body.
   static Point origin_frame(Builder& builder);
-  // A point of three fields, as a new base.
+  // Returns a point with these coordinates as a new base.
   static Point of(Field x, Field y, Field z) { return {x, y, z, Affine{}}; }
-  // The point that `map` takes this one to.
+  // Returns the image of this point under `map`.
   Point mapped(const Affine& map) const;
-  // A point of three fields that keeps what this one knows besides its place.
+  // Returns a point with other coordinates that keeps the other properties of this one.
   Point moved_to(Field to_x, Field to_y, Field to_z) const;
-  // Where the point is known to lie; a box without end where nothing is known.
+  // A box in which the point is known to lie; unbounded if nothing is known.
   const Box& within() const { return within_; }
   void set_within(const Box& box) { within_ = box; }
-  // The map that takes the builder's inputs to this point, if an affine one does.
+  // Returns the affine map from the builder's inputs to this point, or nothing if there is none.
   std::optional<Affine> from_inputs() const;
   Field constant(double value) const { return x.builder->constant(value); }
   Builder& builder() const { return *x.builder; }

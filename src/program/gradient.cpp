@@ -33,7 +33,7 @@ class Differentiator {
 
  private:
   using Slopes = std::array<Field, 3>;
-  // Operands first, without recursion: formulas may be deep.
+  // Visits operands first, without recursion, since formulas may be deep.
   bool visit(ValueId root) {
     std::vector<ValueId> open{root};
     while (!open.empty()) {

@@ -1,4 +1,4 @@
-// Partial derivatives of fields, by rule.
+// Symbolic partial derivatives of fields.
 #pragma once
 
 #include <array>
@@ -8,9 +8,10 @@
 
 namespace ombre::program {
 
-// By the point's x, y and z, of a field that was made at it, in the field's unit per mm. Nothing where there is no
-// rule: for sources, bodies and parts, for powers whose exponents vary, and for what depends on space by another way
-// than through the point's coordinates. Where a value bends or jumps the derivative is that of one side.
+// Returns the derivatives of a field by the x, y and z of the point at which it was made, in the field's unit per mm.
+// Returns nothing if there is no rule: for sources, bodies and parts, for powers with varying exponents, and for fields
+// that depend on space in another way than through the point's coordinates. At a kink or jump the derivative is that of
+// one side.
 std::optional<std::array<Field, 3>> gradient(Field of, const Point& at);
 
 }  // namespace ombre::program

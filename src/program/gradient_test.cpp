@@ -1,4 +1,4 @@
-// Derivatives by rule, against differences in double precision and against calculus.
+// Compares symbolic derivatives with finite differences and with derivatives computed by hand.
 #include "program/gradient.h"
 #include "program/evaluate.h"
 
@@ -13,14 +13,14 @@ namespace {
 
 using Formula = std::function<Field(const Point&)>;
 
-// A point that is an affine image of the program's inputs.
+// Returns a point that is an affine image of the program's inputs.
 Point turned(Builder& builder) {
   Affine map = Affine::scaling({0.5, 2, 1.5});
   map.offset = {0.25, -1, 2};
   return Point::origin_frame(builder).mapped(map);
 }
 
-// The formula at the inputs as they are, and its gradient by rule.
+// A formula at the inputs, and its gradient.
 struct Both {
   Program value, slopes;
 };
@@ -102,7 +102,7 @@ TEST(Gradient, FollowsDifferences) {
         Vec3 by;
         by[axis] = step;
         const double up = at(made->value, 0, p + by), down = at(made->value, 0, p - by), here = at(made->value, 0, p);
-        // Not over a bend or a jump.
+        // Skips kinks and jumps.
         if (std::abs((up - here) - (here - down)) > 1e-7) continue;
         const double slope = (up - down) / (2 * step);
         EXPECT_NEAR(at(made->slopes, static_cast<size_t>(axis), p), slope, 1e-5 * (1 + std::abs(slope)))
@@ -112,7 +112,7 @@ TEST(Gradient, FollowsDifferences) {
   }
 }
 
-// The slopes are by the point's own coordinates, wherever it comes from.
+// Derivatives are by the point's own coordinates, however it was made.
 TEST(Gradient, IsByThePointsCoordinates) {
   Builder builder;
   const Point p = turned(builder);
@@ -125,7 +125,7 @@ TEST(Gradient, IsByThePointsCoordinates) {
   EXPECT_DOUBLE_EQ(at(program, 2, {4, 3, 2}), 2 * q.z);
 }
 
-// The distance from an axis has none on it; values there stay finite.
+// The distance from an axis has no derivative on the axis; the result there must stay finite.
 TEST(Gradient, IsZeroWhereRootsAndAnglesHaveNone) {
   const auto root = make([](const Point& p) { return length(p.x, p.y); });
   const auto angle = make([](const Point& p) { return p.builder().apply(Op::atan2, p.y, p.x); });
@@ -136,7 +136,7 @@ TEST(Gradient, IsZeroWhereRootsAndAnglesHaveNone) {
 TEST(Gradient, HasNoRuleForSomeThings) {
   EXPECT_FALSE(make([](const Point& p) { return p.builder().apply(Op::pow, square(p.x), p.y); }));
   EXPECT_FALSE(make([](const Point& p) { return p.builder().apply(Op::mod, p.x, p.y); }));
-  // Space by another way than through the point.
+  // This field depends on space in another way than through the point.
   Builder builder;
   const Point p = turned(builder);
   EXPECT_FALSE(gradient(p.x * builder.input(0), p));

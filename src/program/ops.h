@@ -1,6 +1,6 @@
-// What each op means, written once for every kind of value (double, interval, ...).
+// The meaning of each op, written once for every type of value (double, interval, ...).
 //
-// The meaning on doubles is the reference; all other evaluators are judged against it.
+// The results on doubles are the reference for all other evaluators.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "base/math/math.h"
 
-// One row an op: name, operand count. The meaning is math::name.
+// A row for each op: its name and number of operands. math::name is its meaning.
 // clang-format off
 #define OMBRE_OPS(row)                                                                     \
   row(add, 2) row(subtract, 2) row(multiply, 2) row(divide, 2) row(negate, 1)              \
@@ -25,18 +25,18 @@
 namespace ombre::program {
 
 enum class Op : uint8_t {
-  input,     // value: which input of the program (0, 1, 2: x, y, z)
-  constant,  // value
+  input,     // value: the number of the program's input (0, 1, 2: x, y, z)
+  constant,  // value: the constant
   affine,    // ((m[0]*a + m[1]*b) + m[2]*c) + m[3], with m = program.maps[aux]
-  source,    // channel of a field source at (a, b, c); program.reads[aux]
-  call,      // output of a body at (a, b, c); program.calls[aux]
-  parts,     // slot `value` of many parts at (a, b, c); program.part_sets[aux]
+  source,    // channel of a field source at (a, b, c), given by program.reads[aux]
+  call,      // output of a body at (a, b, c), given by program.calls[aux]
+  parts,     // slot `value` of many parts at (a, b, c), given by program.part_sets[aux]
 #define OMBRE_ROW(name, arity) name,
   OMBRE_OPS(OMBRE_ROW)
 #undef OMBRE_ROW
 };
 
-// All that have a meaning on numbers.
+// All ops that compute with numbers.
 inline constexpr Op numeric_ops[] = {
 #define OMBRE_ROW(name, arity) Op::name,
     OMBRE_OPS(OMBRE_ROW)
@@ -61,7 +61,7 @@ inline constexpr auto op_table = std::to_array<OpInfo>({{"input", 0},
 
 inline const OpInfo& info(Op op) { return op_table[static_cast<size_t>(op)]; }
 
-// Is the result always 1 or 0?
+// True if the result is always 1 or 0.
 constexpr bool gives_truth(Op op) {
   switch (op) {
     case Op::less:
@@ -90,7 +90,7 @@ inline Interval apply_affine(const AffineRow& m, Interval a, Interval b, Interva
   return add(add(add(term(m[0], a), term(m[1], b)), term(m[2], c)), m[3]);
 }
 
-// The arithmetic ops. `T` is double, Interval, or whatever has the functions of math.
+// Computes an arithmetic op. `T` is double, Interval, or any type with the functions of math.h.
 template <class T>
 T apply(Op op, const T& a, const T& b, const T& c) {
   switch (op) {
@@ -106,7 +106,7 @@ T apply(Op op, const T& a, const T& b, const T& c) {
 #undef OMBRE_CALL_2
 #undef OMBRE_CALL_3
     default:
-      return a;  // inputs, constants, sources and calls are not arithmetic
+      return a;  // inputs, constants, sources and calls are no arithmetic ops
   }
 }
 

@@ -10,12 +10,12 @@ namespace {
 
 constexpr size_t most_in_leaf = 8;
 
-// Of a tree that halves until few are left.
+// Returns the number of leaves of a tree that halves its entries until a leaf holds few of them.
 size_t leaves_of(size_t entries) {
   return entries <= most_in_leaf ? 1 : leaves_of(entries / 2) + leaves_of(entries - entries / 2);
 }
 
-// Everything of a program but the values of its constants.
+// Writes everything of a program except the values of its constants, as a key.
 void write_structure(const Program& program, const std::vector<int>& slots, bool may_be_unknown, std::string& key) {
   key.assign(1, may_be_unknown ? '?' : ' ');
   const auto append = [&](uint32_t value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
@@ -30,7 +30,7 @@ void write_structure(const Program& program, const std::vector<int>& slots, bool
   for (const int slot : slots) append(slot < 0 ? PartTable::none : program.outputs[static_cast<size_t>(slot)]);
 }
 
-// In an excerpt, what operands below this stand for are inputs.
+// In an excerpt, operands below this number are inputs.
 constexpr ValueId input_places = 3;
 
 size_t parameters_of(const Program& program, const Instruction& in) {
@@ -58,7 +58,7 @@ void PartTable::add_row(uint32_t body) {
 
 void PartTable::append(const PartTable& later, const std::vector<size_t>& places) {
   ASSERT(later.precision_ == precision_);
-  std::vector<uint32_t> bodies;  // of its bodies, here
+  std::vector<uint32_t> bodies;  // numbers of its bodies in this table
   for (const Body& body : later.bodies_) {
     std::vector<int> slots;
     for (size_t slot = 0; slot < body.slots.size(); ++slot) {
@@ -160,7 +160,7 @@ PartTable::Excerpt PartTable::excerpt(uint32_t number, const std::vector<bool>& 
     if (needed[n]) each_operand(code[n], [&](ValueId id) { needed[id] = true; });
 
   Excerpt made;
-  std::vector<ValueId> place(code.size());  // inputs stay where they are, before the lines
+  std::vector<ValueId> place(code.size());  // inputs keep their places before the lines
   size_t parameter = 0;
   for (ValueId n = 0; n < code.size(); ++n) {
     if (n < body.input_count) place[n] = static_cast<ValueId>(code[n].value);
@@ -220,7 +220,7 @@ Box Cells::in(const Box& whole) const {
   return box;
 }
 
-// To nearest: boxes of parts are grown by more than that (grown_for_rounding).
+// Rounds to nearest; boxes of parts are grown by more than this rounding (grown_for_rounding).
 PartIndex::Bounds::Bounds(const Box& box) {
   for (int axis = 0; axis < 3; ++axis) {
     lo[axis] = static_cast<float>(box.lo[axis]);
@@ -263,7 +263,7 @@ void PartIndex::build() {
   build(0, static_cast<uint32_t>(parts_.size()));
 }
 
-// Halves at the median of the middles along the longest side.
+// Splits at the median of the boxes' centres along the longest side.
 uint32_t PartIndex::build(uint32_t begin, uint32_t end) {
   const auto number = static_cast<uint32_t>(tree_.size());
   Bounds bounds = parts_[begin].bounds;
@@ -305,7 +305,7 @@ double PartIndex::filling() const {
 
 template <class Visit>
 void PartIndex::visit(const Box& region, Visit visit) const {
-  std::array<uint32_t, 64> open;  // deeper than any tree of 32-bit numbers
+  std::array<uint32_t, 64> open;  // larger than the depth of any tree with 32-bit numbers
   size_t depth = 0;
   if (!tree_.empty()) open[depth++] = 0;
   while (depth > 0) {
@@ -365,7 +365,7 @@ size_t PartIndex::count(const Box& region, size_t most) const {
   size_t count = 0;
   uint32_t last = 0;
   visit(region, [&](uint32_t part, const Box&) {
-    // Pieces of a part follow each other.
+    // Pieces of a part are consecutive.
     if (count == 0 || part != last) ++count;
     last = part;
     return count < most;

@@ -1,9 +1,9 @@
-// Many parts of a few kinds as one op: tables of parameters and an index in space.
+// A union of thousands of similar parts as a single op: tables of parameters and an index in space.
 //
-// A union of thousands of solids is not written out op by op. Each solid is a row: the number of a
-// body, which is a program without its constants, and the constants. An op `parts` stands for a value
-// that combines all rows; before evaluation in a region it is replaced by the code of those that reach
-// the region (passes/expand_parts.cpp), so that space decides what a tile costs, not the number of parts.
+// Each part is a row: the number of a body, which is a program without its constants, and the constants. The op `parts`
+// stands for a value that combines all rows. Before evaluation in a region it is replaced by the code of the parts that
+// reach the region (passes/expand_parts.cpp). The cost of a tile therefore depends on the parts near it, not on the
+// number of parts.
 #pragma once
 
 #include <algorithm>
@@ -21,69 +21,69 @@
 
 namespace ombre::program {
 
-// How the parts' values of one slot combine.
+// How the values of a slot of all parts are combined.
 enum class SlotKind : uint8_t {
-  any,    // is it 1 in some part?
-  sum,    // in the order of the parts
-  first,  // of the first part that holds the point
-  last,   // of the last part that holds the point
+  any,    // 1 if it is 1 in some part
+  sum,    // added in the order of the parts
+  first,  // value of the first part that holds the point
+  last,   // value of the last part that holds the point
 };
 
-// Rows of one form of the programs.
+// The parts of a set, as programs of one precision.
 class PartTable {
  public:
   // A program without the values of its constants.
   struct Body {
-    Program code;            // its constants and maps are of no meaning
-    std::vector<int> slots;  // as in `add`
+    Program code;            // the values of its constants and maps are unused
+    std::vector<int> slots;  // number of the output for each slot, as in `add`
     bool may_be_unknown = false;
-    size_t input_count = 0;  // the first instructions
+    size_t input_count = 0;  // number of inputs, which are its first instructions
   };
 
   explicit PartTable(Precision precision) : precision_(precision) {}
   void expect(size_t rows) { rows_.reserve(rows); }
-  // `slots[s]` is the program's output for slot s, or -1. The program has neither calls nor sources.
-  // `may_be_unknown`: can any of its values be NaN where the part is?
+  // Adds a part. `slots[s]` is the number of the program's output for slot s, or -1. The program may not hold calls or
+  // sources. `may_be_unknown` says whether a value may be NaN within the part.
   void add(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
-  // The rows of another table of the same precision, whose slot s is slot places[s] here.
+  // Appends the rows of another table of the same precision. Slot s of that table is slot places[s] of this one.
   void append(const PartTable& later, const std::vector<size_t>& places);
-  // What of a body some slots need.
+  // The instructions of a body that some slots need.
   struct Excerpt {
     struct Line {
-      Instruction in;        // its operands count from the excerpt's first line, if they are no inputs
-      size_t parameter = 0;  // number of its first one
+      Instruction in;        // operands that are no inputs are numbered from the excerpt's first line
+      size_t parameter = 0;  // number of its first parameter
     };
     std::vector<Line> lines;
-    std::vector<ValueId> slots;  // the line of each slot; none if it is not wanted, or not there
+    std::vector<ValueId> slots;  // the line of each slot; none if the slot is not wanted or does not exist
   };
   static constexpr ValueId none = ~ValueId{0};
-  Excerpt excerpt(uint32_t body, const std::vector<bool>& wanted) const;  // by slot
-  Excerpt reach(uint32_t body) const;                                     // slot 0, and it may be none
-  // Appends the excerpt of a part's body to `to`; its inputs are the three given values. `slots` gets the value of
-  // each slot, or none; it may be shorter than the set's slots.
+  Excerpt excerpt(uint32_t body, const std::vector<bool>& wanted) const;  // indexed by slot
+  Excerpt reach(uint32_t body) const;                                     // slot 0 only; the line may be none
+  // Appends the excerpt of a part's body to `to`, with the three given values as its inputs. Sets `slots` to the value
+  // of each slot, or none. `slots` may be shorter than the set's list of slots.
   void append(uint32_t part, const Excerpt& excerpt, Program& to, const std::array<ValueId, 3>& inputs,
               std::vector<ValueId>& slots) const;
   size_t size() const { return rows_.size(); }
   size_t body_count() const { return bodies_.size(); }
   const Body& body(uint32_t number) const { return bodies_[number]; }
   uint32_t body_of(uint32_t part) const { return rows_[part].body; }
-  // Constants and rows of maps, in the order of the body's code.
+  // Returns a parameter of a part. Parameters are constants and rows of maps, in the order of the body's code.
   double parameter(uint32_t part, size_t number) const;
-  // Of parts of one body, in a row.
+  // Writes a parameter of each of several parts, which share one body, to `row`.
   void parameters(std::span<const uint32_t> parts, size_t number, float* row) const;
-  // Of all parts of a body, if they have it in common.
+  // Returns a parameter of all parts of a body if they have the same value, else nothing.
   std::optional<double> common_parameter(uint32_t body, size_t number) const;
 
  private:
   struct Row {
-    uint32_t body = 0, number = 0;  // among the rows of its body
+    uint32_t body = 0, number = 0;  // position among the rows of its body
   };
-  // The parameters of a body's rows, as far as they differ: many are equal in all of them. A deque grows without a
-  // copy of what it holds.
+  // The parameters of a body's rows. Parameters that are equal in all rows are stored once. The deque grows without
+  // copying its content.
   template <class T>
   class Parameters {
    public:
-    uint32_t add(const std::vector<double>& row);  // its number
+    uint32_t add(const std::vector<double>& row);  // returns the row's number
     size_t per_row() const { return places_.size(); }
     bool is_common(size_t number) const { return places_[number] == common; }
     double at(uint32_t row, size_t number) const {
@@ -95,61 +95,62 @@ class PartTable {
     static constexpr uint32_t common = ~uint32_t{0};
     void let_vary(size_t number);
 
-    std::vector<T> common_;         // by number, of the first row
-    std::vector<uint32_t> places_;  // by number: among those that vary, or `common`
-    std::vector<size_t> varying_;   // numbers
-    std::deque<T> values_;          // row by row, of those that vary
+    std::vector<T> common_;         // parameters of the first row
+    std::vector<uint32_t> places_;  // position of each parameter among those that vary, or `common`
+    std::vector<size_t> varying_;   // numbers of the parameters that vary
+    std::deque<T> values_;          // row by row: the parameters that vary
     uint32_t rows_ = 0;
   };
-  using ParametersOfBatch = Parameters<float>;  // as batches round them
+  using ParametersOfBatch = Parameters<float>;  // rounded to float as in batches
   using ParametersOfReference = Parameters<double>;
 
   uint32_t body_number(const Program& program, const std::vector<int>& slots, bool may_be_unknown);
-  void add_row(uint32_t body);  // of the parameters in row_
+  void add_row(uint32_t body);  // adds the parameters in row_
 
   Precision precision_;
   std::vector<Body> bodies_;
-  // By body.
+  // One entry for each body.
   std::deque<std::variant<ParametersOfReference, ParametersOfBatch>> parameters_;
   std::unordered_map<std::string, uint32_t> known_;
   std::vector<Row> rows_;
-  std::string key_;          // of the row being added
-  std::vector<double> row_;  // its parameters
+  std::string key_;          // key of the row that is being added
+  std::vector<double> row_;  // parameters of the row that is being added
 };
 
-// A box in 256ths of another one, ends included.
+// A box within another box, in units of 1/256 of each side, ends included.
 struct Cells {
   static constexpr int per_axis = 256;
   std::array<uint8_t, 3> first{0, 0, 0}, last{per_axis - 1, per_axis - 1, per_axis - 1};
 
-  // The least ones around a box that meets `whole`.
+  // Returns the smallest cells around a box that intersects `whole`.
   static Cells around(const Box& box, const Box& whole);
   Box in(const Box& whole) const;
 };
 
-// A tree over the boxes of parts. A part's box may be cut into pieces, which together hold the part.
+// A tree over the boxes of parts. The box of a part may be divided into pieces, which together contain the part.
 class PartIndex {
  public:
   struct Entry {
     Box box;
     uint32_t part = 0;
   };
-  // The box as the index keeps it.
+  // Returns the box with the precision of the index.
   static Box rounded(const Box& box);
   void expect(size_t parts, size_t pieces);
-  void add(const Box& box, const std::vector<Cells>& pieces);  // the next part
-  void append(const PartIndex& later);                         // its parts, before either is built
-  void build();                                                // when all are added
-  // Once built: the volume of all pieces, as a share of that of the box around them. Above 1 where many lie in others.
+  void add(const Box& box, const std::vector<Cells>& pieces);  // adds the next part
+  void append(const PartIndex& later);  // appends the parts of another index; neither may be built yet
+  void build();                         // called when all parts are added
+  // Returns the total volume of all pieces divided by the volume of the box around them. It exceeds 1 if many pieces
+  // overlap. The index must be built.
   double filling() const;
-  // The parts whose pieces meet the region, in ascending order.
+  // Finds the parts whose pieces intersect the region, in ascending order.
   void find(const Box& region, std::vector<uint32_t>& parts) const;
-  // Their pieces, by part.
+  // Finds the pieces that intersect the region, sorted by part.
   void find(const Box& region, std::vector<Entry>& entries) const;
-  // How many parts have pieces that meet the region, or `most` if it is more.
+  // Returns the number of parts with pieces that intersect the region, at most `most`.
   size_t count(const Box& region, size_t most) const;
   bool reaches(const Box& region) const { return count(region, 1) > 0; }
-  // The pieces that meet the region, in any order, unless they are more than `most`: false.
+  // Finds the pieces that intersect the region, in any order. Returns false if there are more than `most`.
   bool find_few(const Box& region, size_t most, std::vector<Entry>& entries) const;
 
  private:
@@ -161,42 +162,42 @@ class PartIndex {
   };
   struct TreeNode {
     Bounds bounds;
-    uint32_t begin = 0, end = 0;  // of its parts
-    uint32_t right = 0;           // the left one follows; 0: a leaf
+    uint32_t begin = 0, end = 0;  // range of its parts
+    uint32_t right = 0;           // number of the right child (the left one follows this node); 0 for a leaf
   };
   struct Part {
     Bounds bounds;
     uint32_t number = 0;
   };
   uint32_t build(uint32_t begin, uint32_t end);
-  // `visit` gets the boxes and numbers of parts whose boxes meet the region, until it says false.
+  // Calls `visit` with the number and box of each part whose box intersects the region, until it returns false.
   template <class Visit>
   void visit(const Box& region, Visit visit) const;
-  // The same for the pieces of a part; false where `visit` said so.
+  // Calls `visit` for the pieces of a part. Returns false if `visit` did.
   template <class Visit>
   bool visit_pieces(const Part& part, const Box& region, Visit visit) const;
 
   std::vector<TreeNode> tree_;
-  std::vector<Part> parts_;             // once built, by leaf
-  std::vector<Cells> pieces_;           // by number of the part
-  std::vector<uint32_t> piece_begins_;  // by number of the part, and an end
+  std::vector<Part> parts_;             // sorted by leaf once built
+  std::vector<Cells> pieces_;           // sorted by part
+  std::vector<uint32_t> piece_begins_;  // first piece of each part, and the end
 };
 
 struct PartSet {
   PartTable reference{Precision::reference}, batch{Precision::batch};
   PartIndex index;
-  std::vector<SlotKind> slots;   // slot 0: does a part reach the point? Else its other slots are 0
-  size_t held_slot = 0;          // does it hold the point?
-  std::vector<Interval> ranges;  // of each slot, wherever parts reach
+  std::vector<SlotKind> slots;   // slot 0 is 1 if a part reaches the point; if not, all other slots are 0
+  size_t held_slot = 0;          // the slot that is 1 if the part holds the point
+  std::vector<Interval> ranges;  // range of each slot where parts reach
 
-  // Are parts combined from the last to the first?
+  // True if parts are combined from the last to the first.
   bool is_backwards() const { return std::find(slots.begin(), slots.end(), SlotKind::first) != slots.end(); }
   const PartTable& table(Precision precision) const { return precision == Precision::batch ? batch : reference; }
 };
 
 double volume(const Box& box);
 
-// The box of a part, grown by what rounding in single precision can move its surface.
+// Returns the box of a part, grown by the distance that single precision may move its surface.
 Box grown_for_rounding(const Box& box);
 
 }  // namespace ombre::program

@@ -1,4 +1,4 @@
-// The index of many parts, against asking each of them.
+// Compares the index of many parts with a query of each part.
 #include "program/parts.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Cells, OfOneBoxShareTheirFaces) {
   }
 }
 
-// x*a + b
+// Returns the program of x * a + b.
 Program line_program(double a, double b) {
   Program program;
   program.code = {{Op::input}, {Op::constant}, {Op::multiply}, {Op::constant}, {Op::add}};
@@ -72,7 +72,7 @@ Program line_program(double a, double b) {
   return program;
 }
 
-// Factors begin to differ late, sums at last, and only by the sign.
+// Factors vary only from a later row on; sums vary only in the last row, and only by sign.
 TEST(PartTable, GivesBackTheParametersOfEachRow) {
   for (const Precision precision : {Precision::reference, Precision::batch}) {
     PartTable table(precision);
@@ -93,7 +93,7 @@ TEST(PartTable, GivesBackTheParametersOfEachRow) {
   }
 }
 
-// The later table calls slot 2 what the first one calls slot 3.
+// Slot 2 of the later table is slot 3 of the first.
 TEST(PartTable, AppendsRowsWhoseSlotsHaveOtherNumbers) {
   PartTable first(Precision::reference), later(Precision::reference);
   first.add(line_program(1, 2), {0, -1, -1, 0}, false);
@@ -134,7 +134,7 @@ TEST(PartIndex, FindsThePartsWhosePiecesMeetARegion) {
     EXPECT_EQ(found, expected);
     EXPECT_EQ(index.reaches(region), !expected.empty());
     EXPECT_EQ(index.count(region, 3), std::min<size_t>(expected.size(), 3));
-    // Each piece once, unless there are too many.
+    // Each piece is found once, unless there are too many.
     size_t pieces = 0;
     for (const auto& part : parts) pieces += meet(part[0], region) + meet(part[1], region);
     EXPECT_EQ(index.find_few(region, pieces, few), true);

@@ -1,4 +1,4 @@
-// Programs: the linear form of fields. Each instruction's operands come before it.
+// Programs, the linear form of fields. The operands of each instruction come before it.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct Instruction {
   Op op = Op::constant;
   ValueId a = 0, b = 0, c = 0;
   uint32_t aux = 0;  // index into maps, reads, calls or part sets
-  double value = 0;  // of constants; the number of an input or of a slot
+  double value = 0;  // the constant, or the number of an input or of a slot
 };
 
 template <class AnyInstruction, class F>
@@ -31,7 +31,7 @@ void each_operand(AnyInstruction& in, F f) {
 struct Read {
   SourceField source;
   int channel = 0;
-  uint32_t tag = 0;  // for evaluators; passes keep it
+  uint32_t tag = 0;  // set and used by evaluators; passes keep it
 };
 
 struct Program;
@@ -48,18 +48,18 @@ struct Program {
   std::vector<AffineRow> maps;
   std::vector<Read> reads;
   std::vector<Call> calls;
-  std::vector<std::shared_ptr<const PartSet>> part_sets;  // parts.h
+  std::vector<std::shared_ptr<const PartSet>> part_sets;  // see parts.h
   std::vector<ValueId> outputs;
-  std::vector<std::string> output_names;  // as many as outputs; for printing
+  std::vector<std::string> output_names;  // one for each output; for printing
 
   bool has_calls() const { return !calls.empty(); }
   bool has_parts() const { return !part_sets.empty(); }
 };
 
-// Says what a source can be over operands' ranges; by default what the source itself says.
+// Returns the range of a source over the ranges of its operands. By default the source itself computes it.
 using SourceRanges = std::function<Interval(const Read&, const Box&)>;
 
-// Which evaluator's rounded values intervals enclose: the reference's, or those of float batches.
+// The evaluator whose rounded values an interval encloses: the double-precision reference or float batches.
 enum class Precision : uint8_t { reference, batch };
 
 }  // namespace ombre::program

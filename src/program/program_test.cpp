@@ -1,4 +1,4 @@
-// Builders, passes, intervals.
+// Tests of builders, passes and intervals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -164,8 +164,8 @@ TEST(ComposeAffine, TurnedFramesKnowTheirRanges) {
   Builder b;
   const Field x = b.input(0), y = b.input(1);
   const double half = std::sqrt(0.5);
-  const Field right = half * (x + y), up = half * (y - x);                 // turned by 45 degrees,
-  const Program program = b.finish({{"v", square(half * (right - up))}});  // and back
+  const Field right = half * (x + y), up = half * (y - x);                 // turned by 45 degrees
+  const Program program = b.finish({{"v", square(half * (right - up))}});  // turned back
   const Program composed = compose_affine(program);
   const Box box{{-1, -2, -3}, {1, 2, 3}};
   std::vector<Interval> values;

@@ -54,7 +54,7 @@ std::string describe(const Program& program, const Instruction& in, std::map<con
   return text + operands(in, op.arity);
 }
 
-// How often a value is computed that depends on these axes.
+// Says how often a value that depends on these axes is computed.
 std::string_view place(uint8_t mask) {
   constexpr std::string_view places[] = {
       "once", "each x", "each y", "each x and y", "each layer", "each x of each layer", "each row", "each voxel"};
@@ -79,13 +79,13 @@ std::string to_text(const Program& program) {
   std::string text = "program\n";
   std::map<const Program*, size_t> bodies;
   print(program, text, bodies);
-  // Printing a body may find further bodies.
+  // Printing a body may add further bodies.
   for (size_t done = 0; done < bodies.size(); ++done) {
     const Program* body = nullptr;
     for (const auto& [candidate, number] : bodies)
       if (number == done) body = candidate;
     text += "body" + std::to_string(done) + "\n";
-    ASSERT(body);  // numbers count up from 0
+    ASSERT(body);  // numbers are assigned from 0 without gaps
     print(*body, text, bodies);
   }
   return text;

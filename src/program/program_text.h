@@ -1,4 +1,4 @@
-// Programs as text, for people.
+// Programs as text for people.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace ombre::program {
 
-// One line an instruction with how often it is computed, then the outputs; bodies after the program
-// that calls them.
+// Prints one line for each instruction, with how often it is computed, and the outputs. Bodies follow the program that
+// calls them.
 std::string to_text(const Program& program);
 
 }  // namespace ombre::program

@@ -1,11 +1,11 @@
-// The commonest ops on intervals, without calls: tiles evaluate them millions of times.
+// Inlined interval versions of the most frequent ops, since tiles evaluate them millions of times.
 #pragma once
 
 #include "program/ops.h"
 
 namespace ombre::program {
 
-// `round` is how the evaluator rounds results. NaN where the general functions have to decide.
+// Returns NaN if the general functions have to compute the result. `round` rounds as the evaluator does.
 template <class Round>
 Interval quick_interval(Op op, Interval a, Interval b, Round round) {
   const Interval undecided(std::numeric_limits<double>::quiet_NaN());

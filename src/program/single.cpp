@@ -7,7 +7,7 @@
 namespace ombre::program {
 namespace {
 
-// The batches' elementary functions are within one unit in the last place.
+// Widens by two floats on each side: elementary functions of batches are accurate to one unit in the last place.
 Interval widened(Interval v) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   const auto down = [](float end) { return std::nextafter(std::nextafter(end, -inf), -inf); };
@@ -26,7 +26,8 @@ double fused_single(double a, double b, double c) {
   return static_cast<double>(std::fma(static_cast<float>(a), static_cast<float>(b), static_cast<float>(c)));
 }
 
-// Rounded once, which keeps the order: the extremes are at those of the products, which are exact in doubles.
+// A fused multiply-add is rounded once, which preserves order. Its extremes are at the extreme products, which are
+// exact in doubles.
 Interval fused(Interval a, Interval b, Interval c) {
   if (math::multiply(a, b).is_everything()) return Interval::everything();
   double products[] = {a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi};
@@ -52,13 +53,13 @@ Interval logical(Op op, Interval a, Interval b) {
   return op == Op::logical_and ? math::logical_and(a, b) : math::logical_or(a, b);
 }
 
-// The remainder of rounded operands may lie on the other side of a period only if they do: it is exact.
+// The remainder is exact: rounded operands give a remainder in another period only if the interval already contains it.
 Interval elementary(Op op, Interval a, Interval b, Interval c) {
   const Interval value = apply(op, a, b, c);
   if (value.is_everything()) return value;
   const bool not_negative = value.lo >= 0;
   Interval wide = widened(value);
-  // Near the end of the floats, functions of floats give up early.
+  // Functions of floats overflow a little below the largest float.
   constexpr double inf = std::numeric_limits<double>::infinity(), near_the_end = 0x1p126;
   if (wide.hi > near_the_end) wide.hi = inf;
   if (wide.lo < -near_the_end) wide.lo = -inf;

@@ -1,24 +1,24 @@
-// Intervals that enclose what float batches compute.
+// Intervals that enclose the results of float batches.
 //
-// In a batch, NaN means "ask the reference": it arises where a float runs out of range or the value is
-// not a number, and it stays wherever it matters, in comparisons and truth values too. So a lane that
-// ends as NaN is redone in double precision, and which lanes these are does not depend on how a program
-// was shortened. Here, everything() says that a value may be NaN.
+// In a batch, NaN means that the double-precision reference must decide. It arises where a float overflows or the value
+// is not a number, and it propagates wherever it matters, also through comparisons and truth values. A lane that ends
+// as NaN is recomputed in double precision. The set of these lanes does not depend on how a program was shortened.
+// Here, everything() says that a value may be NaN.
 #pragma once
 
 #include "program/ops.h"
 
 namespace ombre::program {
 
-// Sine and cosine of greater arguments are NaN in batches.
+// Batches give NaN for the sine and cosine of greater arguments.
 constexpr double batch_trigonometric_limit = 30000;
-// Bounds the error of the batches' sine and cosine up to there.
+// Bounds the error of the batches' sine and cosine for arguments up to that limit.
 constexpr double batch_trigonometric_error = 0x1p-22;
 
-// Rounded to the nearest floats, which keeps the order.
+// Rounds the ends to the nearest floats, which preserves order.
 Interval to_single(Interval v);
 
-// Operands with ends that are floats. Sums, products, quotients, roots and fused multiply-adds are
+// Computes an interval for operands whose ends are floats. Sums, products, quotients, roots and fused multiply-adds are
 // correctly rounded and enclosed tightly; elementary functions are widened by their error.
 Interval apply_single(Op op, Interval a, Interval b, Interval c);
 

@@ -1,4 +1,4 @@
-// Tiles in float batches.
+// Evaluates tiles with float batches.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -16,7 +16,7 @@
 namespace ombre::voxel {
 namespace {
 
-// What sources and parts say along the rows at work.
+// Gives values of sources and parts along the rows that are being evaluated.
 class RowsAtWork : public eval::SourceRows {
  public:
   explicit RowsAtWork(const PartRows& parts) : parts_(parts) {}
@@ -38,14 +38,14 @@ class RowsAtWork : public eval::SourceRows {
   }
 
   const StripSources* sources = nullptr;
-  std::vector<RowPlace> places;  // where they begin
-  int64_t layer = 0;             // from which layers are counted
+  std::vector<RowPlace> places;  // first voxels of the rows
+  int64_t layer = 0;             // number of the layer that evaluation counts as layer 0
 
  private:
   const PartRows& parts_;
 };
 
-// What is left where no part reaches.
+// Replaces parts by 0, the value where no part reaches.
 program::Program without_parts(program::Program program) {
   for (program::Instruction& in : program.code)
     if (in.op == program::Op::parts) in = program::Instruction{};
@@ -86,7 +86,7 @@ class BatchLeaf : public LeafEvaluator {
   }
 
  private:
-  // Voxels along a row, and where the values of the first one lie in evaluated rows.
+  // Consecutive voxels of a row, and the position of the first one in the evaluated rows.
   struct Stretch {
     RowPlace at;
     int64_t k = 0;
@@ -94,9 +94,9 @@ class BatchLeaf : public LeafEvaluator {
   };
 
   static constexpr size_t block = eval::batch_lanes;
-  // Tiles up to this width are evaluated a layer at a time.
+  // Tiles up to this width are evaluated one layer at a time.
   static constexpr int64_t narrow = 64;
-  static constexpr size_t most_blocks = 64;  // that are evaluated at once
+  static constexpr size_t most_blocks = 64;  // greatest number of blocks that are evaluated at once
 
   bool is_empty_without_parts(const program::Program& program) const {
     std::vector<Interval> values;
@@ -105,7 +105,7 @@ class BatchLeaf : public LeafEvaluator {
     return values[program.outputs[0]] == Interval(0);
   }
 
-  // Only blocks that some part touched.
+  // Evaluates only blocks of voxels that some part touches.
   void evaluate_touched(const program::Program& program, const std::vector<Interval>& ranges) {
     batch_.compile(program, ranges, most_blocks * block, 1, rows_);
     for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) {
@@ -144,7 +144,7 @@ class BatchLeaf : public LeafEvaluator {
     for (int64_t k = tile_.lo[2]; k < tile_.hi[2]; ++k) evaluate_layer(k, width);
   }
 
-  // The rows at work, each of a width that is a multiple of a block.
+  // Evaluates a layer of the current rows, each of which is `width` wide, a multiple of a block.
   void evaluate_layer(int64_t k, size_t width) {
     const std::vector<RowPlace>& places = rows_.places;
     batch_.begin_layer(static_cast<size_t>(k - rows_.layer));
@@ -182,7 +182,7 @@ class BatchLeaf : public LeafEvaluator {
     for (const size_t n : used_) outputs_[n] = batch_.output(n);
   }
 
-  // What of the outputs matters in the tile.
+  // Finds the outputs that matter in the tile.
   void find_used(const program::Program& program, const std::vector<Interval>& ranges) {
     used_.assign(1, 0);
     unknown_outputs_.clear();
@@ -199,8 +199,8 @@ class BatchLeaf : public LeafEvaluator {
       if (ranges[program.outputs[n]].is_everything()) unknown_outputs_.push_back(n);
   }
 
-  // Only the materials that draws can fall to here: those between the last threshold 0 and the first 1, and
-  // only the last of those between equal thresholds.
+  // Finds the materials that draws can select in this tile. These lie between the last threshold that is 0 and the
+  // first that is 1. Of materials with equal thresholds only the last counts.
   void find_choices(const program::Program& program) {
     const Selector& selector = job_.selector;
     choices_.clear();
@@ -227,14 +227,14 @@ class BatchLeaf : public LeafEvaluator {
   }
 
   size_t tile_width() const { return static_cast<size_t>(tile_.size(0)); }
-  // An output along the stretch at work.
+  // Returns an output along the current stretch.
   eval::Values output(size_t n) const { return outputs_[n].from(stretch_.lane); }
 
   void take() {
     const auto& [at, k, width, lane] = stretch_;
     thresholds_.clear();
     for (const size_t n : choices_) thresholds_.push_back(output(n));
-    // Made in place: a copy of what was just written in pieces would wait for it.
+    // Constructed in place: copying a struct just after its members were written would stall.
     const ChoiceRow row{output(0), thresholds_, materials_, draws(), at.i, width};
     kernels_.choose(row, voxels_->at(at.i, at.j, k));
     for (size_t t = 0; t < voxels_->kept_thresholds(); ++t) keep_threshold(t);
@@ -277,7 +277,7 @@ class BatchLeaf : public LeafEvaluator {
     return false;
   }
 
-  // Voxels that ended as NaN.
+  // Evaluates voxels whose values are NaN again, with the reference.
   void redo_unknown(const eval::Values& inside) {
     const auto& [at, k, width, lane] = stretch_;
     for (size_t n = 0; n < width;) {
@@ -312,12 +312,13 @@ class BatchLeaf : public LeafEvaluator {
   TileBox tile_;
   TilePoints points_;
   std::vector<eval::PointRow> point_rows_;
-  std::vector<eval::Values> outputs_;  // of the rows at work
+  std::vector<eval::Values> outputs_;  // outputs along the current rows
   Stretch stretch_;
   StripVoxels* voxels_ = nullptr;
-  std::vector<size_t> used_, choices_, unknown_outputs_;  // outputs: those that matter, thresholds, may be NaN
-  std::vector<size_t> checks_;                            // that may fail
-  std::vector<MaterialId> materials_;                     // one more than choices_
+  // Numbers of outputs: all that matter, thresholds, and those that may be NaN.
+  std::vector<size_t> used_, choices_, unknown_outputs_;
+  std::vector<size_t> checks_;         // checks that may fail
+  std::vector<MaterialId> materials_;  // one more than choices_
   bool has_reference_ = false;
   program::Program reference_program_;
   std::vector<eval::Values> thresholds_;

@@ -8,7 +8,7 @@ namespace {
 
 static_assert(blue_noise_width == blue_noise_height);
 
-// With x and y changed over.
+// Returns the mask with x and y exchanged.
 std::vector<uint32_t> turned(const uint32_t* mask) {
   std::vector<uint32_t> turned(blue_noise_voxels);
   for (size_t n = 0; n < blue_noise_voxels; ++n) {

@@ -16,10 +16,10 @@ double draw(int64_t i, int64_t j, int64_t k, uint64_t seed = 0, const uint32_t* 
   return blue_noise_row(mask, seed, j, k)[i] * 0x1p-24;
 }
 
-// Square voxels, and those that are longer along y.
+// The masks for square voxels, and for voxels that are longer along y.
 constexpr const uint32_t* masks[] = {blue_noise_draws, blue_noise_long_draws};
 
-// Voxels whose draw lies in [from, to), in layer k.
+// Returns the voxels in layer k whose draw lies in [from, to).
 SquarePattern layer(int64_t k, double from, double to, uint64_t seed = 0, const uint32_t* mask = blue_noise_draws) {
   return {width, [=](int64_t i, int64_t j) {
             const double value = draw(i, j, k, seed, mask);
@@ -61,7 +61,7 @@ TEST(BlueNoise, EachRankIsThereOnce) {
   }
 }
 
-// To the voxel: a layer of 4096 cannot do better.
+// Fractions are exact to one voxel; a layer of 4096 voxels cannot do better.
 TEST(BlueNoise, LayersKeepFractions) {
   for (const uint32_t* mask : masks)
     for (const double fraction : {1e-5, 0.01, 0.03, 0.1, 1.0 / 3, 0.5, 0.77, 0.999})
@@ -76,7 +76,7 @@ TEST(BlueNoise, VoxelsHaveTheMaskOfTheirShape) {
   EXPECT_EQ(blue_noise_mask(dpi600, dpi300), blue_noise_long_draws);
   EXPECT_EQ(blue_noise_mask(tenth, most), blue_noise_draws);
   EXPECT_EQ(blue_noise_mask(tenth, more), blue_noise_long_draws);
-  // Voxels that are long along x have the same mask, turned.
+  // Voxels that are longer along x use the same mask with x and y exchanged.
   const uint32_t* turned = blue_noise_mask(dpi300, dpi600);
   for (size_t n = 0; n < blue_noise_voxels; n += 7) {
     const size_t x = n % 64, y = n / 64 % 64, z = n / 4096;
@@ -84,8 +84,7 @@ TEST(BlueNoise, VoxelsHaveTheMaskOfTheirShape) {
   }
 }
 
-// Waves of the same length in millimetres have the same power along x and y; those of the mask for square voxels would
-// not.
+// Waves of the same length in millimetres have the same power along x and y, unlike with the mask for square voxels.
 TEST(BlueNoise, NoiseOfLongVoxelsIsBlueInMillimetres) {
   for (const double fraction : {0.1, 0.25, 0.5}) {
     const auto x_for_y = [&](const uint32_t* mask) {
@@ -112,8 +111,8 @@ TEST(BlueNoise, TilesRepeatAlsoBelowZero) {
 }
 
 TEST(BlueNoise, SeedsShiftTheMask) {
-  // A share of 1/4 of the voxels is in two patterns at once with odds 1/16, if they have nothing to do
-  // with each other; the standard deviation of the share is below that of independent voxels, 0.004.
+  // If two patterns of 1/4 of the voxels are independent, they have a share of 1/16 in common. The standard deviation
+  // of this share is below 0.004, that of independent voxels.
   for (const uint64_t seed : {uint64_t{1}, uint64_t{2}, uint64_t{1} << 32}) {
     const SquarePattern one = layer(0, 0, 0.25), other = layer(0, 0, 0.25, seed);
     double both = 0;
@@ -132,7 +131,7 @@ TEST(BlueNoise, LayersAreBlue) {
 }
 
 TEST(BlueNoise, EveryMaterialOfAMixtureIsBlue) {
-  // The one in the middle of three has the draws between.
+  // The middle one of three materials gets the draws between the other two.
   EXPECT_LT(Spectrum(layers(0.25, 0.5), 0.25).low(), 0.1);
 }
 
@@ -145,8 +144,8 @@ TEST(BlueNoise, PatchesKeepFractions) {
 }
 
 TEST(BlueNoise, VoxelsAboveEachOtherDiffer) {
-  // Correlation of a material with itself one layer up. It cannot be below -f / (1 - f), where it never
-  // stands on itself; white noise has 0.
+  // Computes the correlation of a material with itself one layer up. Its lower bound is -f / (1 - f), where it never
+  // lies above itself; for white noise it is 0.
   for (const double fraction : {0.1, 0.25, 0.5}) {
     double sum = 0;
     for (int64_t k = 0; k < depth; ++k) {

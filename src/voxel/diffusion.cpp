@@ -1,4 +1,4 @@
-// Error diffusion within one layer, of any number of materials.
+// Error diffusion within one layer, for any number of materials.
 #include "voxel/diffusion.h"
 
 #include <algorithm>
@@ -10,22 +10,23 @@ namespace {
 
 constexpr int64_t whole = 65536;  // one voxel
 
-// Sixteenths of an error that go ahead along the row, and, of those below, behind, straight down and ahead.
+// Weights of error diffusion in sixteenths: ahead along the row, and in the next row behind, straight below and ahead.
 constexpr int64_t ahead = 7, sixteenths = 16;
 constexpr int64_t below_behind = 3, straight_below = 5, below_ahead = 1;
 
-// Of what waits, a voxel takes this share, and not so much that one would see where it does.
+// A voxel takes this share of the waiting errors, but at most a quarter of a voxel, so that the correction stays
+// invisible.
 constexpr int64_t waiting_share = 4, most_waiting = whole / 4;
 
-// The noise that moves a choice, from end to end, in voxels. It may be white: what it adds to one voxel the
-// next ones do without, so it ends up in high frequencies, as all errors do. With less, layers of 50 % are
-// one checkerboard; with more, 10 % get uneven.
+// Range of the noise that is added to each choice, in voxels. It may be white: what it adds to one voxel is subtracted
+// from the next ones, so it ends up in high frequencies, as all errors do. With less noise, layers of 50 % become a
+// single checkerboard; with more, 10 % gets uneven.
 constexpr double noise_span = 0.375;
 
-// A choice by fraction and error alone waits until half a voxel is missing, so that rare materials come
-// late: 2 % not before the 15th row. Choosing by the error and only part of the fraction mends that, and
-// leaves the errors' mean at zero (R. Eschbach, K. Knox, "Error-diffusion algorithm with edge
-// enhancement", J. Opt. Soc. Am. A 8, 1991, seen the other way round). Here seven sixteenths count.
+// Sixteenths of the fraction that count in a choice. If the whole fraction counted, rare materials would start late,
+// since half a voxel must be missing first: 2 % would not appear before the 15th row. Counting the error and only part
+// of the fraction avoids that and keeps the mean error at zero. This inverts the method of R. Eschbach, K. Knox,
+// "Error-diffusion algorithm with edge enhancement", J. Opt. Soc. Am. A 8, 1991.
 constexpr int64_t fraction_counts = 7;
 
 }  // namespace
@@ -51,7 +52,7 @@ void LayerDiffuser::row(int64_t j, std::span<const uint8_t> inside, std::span<co
   ASSERT(fractions.size() == materials_);
   read(inside, fractions, chosen);
   receive();
-  // Each material has draws of its own, as if its rows were those of another layer, far away.
+  // Each material has its own draws, as if its rows belonged to a distant layer.
   for (size_t m = 0; m < materials_; ++m) noise_[m] = row_hash(seed_, j, k_ + (static_cast<int64_t>(m) << 24));
   direction_ = j % 2 == 0 ? 1 : -1;
   const int64_t first = direction_ > 0 ? 0 : width_ - 1;
@@ -65,7 +66,7 @@ std::vector<int64_t> LayerDiffuser::carried() const {
   return sums;
 }
 
-// Rounds the row's fractions, settles the voxels of one material and flags the others.
+// Rounds the row's fractions, chooses the voxels of a single material, and flags the others as mixed.
 void LayerDiffuser::read(std::span<const uint8_t> inside, std::span<const float* const> fractions,
                          std::span<uint8_t> chosen) {
   for (int64_t i = 0; i < width_; ++i) {
@@ -80,7 +81,7 @@ void LayerDiffuser::read(std::span<const uint8_t> inside, std::span<const float*
   }
 }
 
-// The index of the greatest fraction. It takes what rounding leaves over, so that they sum to one.
+// Returns the index of the greatest fraction. That fraction absorbs rounding errors, so that all sum to one.
 size_t LayerDiffuser::read_voxel(int64_t i, std::span<const float* const> fractions) {
   Fixed* rounded = at(fractions_, i);
   Fixed rest = whole;
@@ -95,7 +96,7 @@ size_t LayerDiffuser::read_voxel(int64_t i, std::span<const float* const> fracti
   return greatest;
 }
 
-// Hands the errors of the row before to the mixed voxels of this one.
+// Passes the errors of the previous row to the mixed voxels of this one.
 void LayerDiffuser::receive() {
   std::fill(errors_.begin(), errors_.end(), 0);
   for (int64_t i = 0; i < width_; ++i) hand_down(i);
@@ -108,7 +109,7 @@ void LayerDiffuser::hand_down(int64_t i) {
   struct Neighbour {
     int64_t voxel, weight;
   };
-  // The last to receive takes what rounding leaves over: the heaviest.
+  // The last receiver, which has the greatest weight, absorbs rounding errors.
   const Neighbour neighbours[] = {{i + direction_, below_ahead}, {i - direction_, below_behind}, {i, straight_below}};
   int64_t weights = 0;
   const Neighbour* last = nullptr;
@@ -137,7 +138,7 @@ void LayerDiffuser::take_waiting(Fixed* error) {
   }
 }
 
-// Of the materials that the voxel has, the first on ties.
+// Returns the material of the voxel that is most wanting; the first one wins a tie.
 size_t LayerDiffuser::most_wanting(int64_t i, const Fixed* errors) const {
   const Fixed* fractions = fractions_.data() + static_cast<size_t>(i) * materials_;
   size_t best = materials_;
@@ -153,7 +154,7 @@ size_t LayerDiffuser::most_wanting(int64_t i, const Fixed* errors) const {
   return best;
 }
 
-// Whether one of the voxels below is inside.
+// True if one of the three voxels below is inside.
 bool LayerDiffuser::goes_down(int64_t i, std::span<const uint8_t> inside_next) const {
   if (inside_next.empty()) return false;
   const auto from = static_cast<size_t>(std::max<int64_t>(i - 1, 0));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int64_t whole = 65536;
 
-// What a layer is made of: fractions in 1/65536, none outside.
+// Fractions at a voxel in 1/65536; empty outside.
 using Composition = std::function<std::vector<int64_t>(int64_t i, int64_t j)>;
 
 struct Layer {
@@ -21,7 +21,7 @@ struct Layer {
   size_t materials = 0;
   std::vector<int> chosen;           // -1 outside
   std::vector<int64_t> missing;      // fractions minus voxels, in 1/65536
-  std::vector<int64_t> carried;      // what the diffuser says of that
+  std::vector<int64_t> carried;      // the same as the diffuser reports it
   std::vector<int64_t> least_share;  // least fraction of each material where it was chosen
 
   int at(int64_t i, int64_t j) const { return chosen[static_cast<size_t>(j * width + i)]; }
@@ -57,13 +57,13 @@ Layer diffuse(int64_t width, int64_t height, size_t materials, const Composition
   return layer;
 }
 
-// Two materials, the first with this fraction everywhere.
+// Returns two materials, the first with this fraction everywhere.
 Composition even(double fraction) {
   const int64_t first = std::llround(fraction * whole);
   return [=](int64_t, int64_t) { return std::vector<int64_t>{first, whole - first}; };
 }
 
-// Five materials in a ring, graded around it and pure in places.
+// Returns five materials in a ring, graded around it and pure in places.
 std::vector<int64_t> ring(int64_t i, int64_t j) {
   const double x = static_cast<double>(i) - 60, y = static_cast<double>(j) - 60;
   if (std::hypot(x, y) > 55 || std::hypot(x, y) < 20) return {};
@@ -91,7 +91,7 @@ TEST(Diffusion, NothingIsLostButWhatIsCarried) {
   for (const double fraction : {1.0 / whole, 0.02, 0.1, 1.0 / 3, 0.5, 0.9}) {
     const Layer layer = diffuse(300, 200, 2, even(fraction));
     EXPECT_EQ(layer.missing, layer.carried) << fraction;
-    // At most a voxel for each voxel of the last row: errors are means of errors, and none grows above one.
+    // The error is at most one voxel for each voxel of the last row: errors are means of errors, and none exceeds one.
     EXPECT_LE(std::abs(layer.carried[0]), 300 * whole) << fraction;
   }
   const Layer five = diffuse(121, 121, 5, ring);
@@ -110,12 +110,13 @@ TEST(Diffusion, OnlyMaterialsOfAVoxelAreChosen) {
 }
 
 TEST(Diffusion, SingleVoxelsKeepTheFractionTogether) {
-  // Struts of one voxel, none beside another: what one lacks, the next ones get.
+  // The struts are single voxels without neighbours. The error of one goes to the next ones.
   const Layer layer = diffuse(200, 200, 2, [](int64_t i, int64_t j) {
     return i % 2 == 0 && j % 2 == 0 ? std::vector<int64_t>{whole / 4, 3 * whole / 4} : std::vector<int64_t>{};
   });
   EXPECT_EQ(layer.missing, layer.carried);
-  EXPECT_LE(std::abs(layer.missing[0]), 2 * whole);  // of 10,000 voxels; a draw for each would have a deviation of 43
+  // The error is at most 2 of 10,000 voxels; independent draws would have a standard deviation of 43.
+  EXPECT_LE(std::abs(layer.missing[0]), 2 * whole);
 }
 
 TEST(Diffusion, ThinWallsKeepTheFraction) {
@@ -142,7 +143,7 @@ TEST(Diffusion, LayersAreBlue) {
 }
 
 TEST(Diffusion, MixturesBeginAtTheEdge) {
-  // The first 16 rows have the fraction within four standard deviations of independent draws.
+  // The first 16 rows keep the fraction within four standard deviations of independent draws.
   for (const double fraction : {0.02, 0.1, 1.0 / 3, 0.98}) {
     const Layer layer = diffuse(256, 16, 2, even(fraction));
     const double voxels = 256 * 16;

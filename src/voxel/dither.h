@@ -1,4 +1,4 @@
-// The methods of dithering, by value and by name.
+// Methods of dithering and their names.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,13 @@
 
 namespace ombre::voxel {
 
-// How a composition becomes one material. All are pure functions of (seed, i, j, k, composition).
+// The method that chooses one material of a composition. The result is a pure function of (seed, i, j, k, composition),
+// except for error diffusion.
 enum class Dither {
   stochastic,  // white noise
-  blue_noise,  // a mask whose neighbours differ (blue_noise.h)
-  diffusion,   // of errors within a layer (diffusion.h); a pure function of the whole layer
-  threshold,   // the greatest fraction takes the voxel
+  blue_noise,  // a mask whose neighbouring values differ (blue_noise.h)
+  diffusion,   // error diffusion within a layer (diffusion.h); a pure function of the whole layer
+  threshold,   // the greatest fraction wins
 };
 
 const std::vector<std::string>& dither_names();

@@ -1,4 +1,4 @@
-// Who computes the values of voxels.
+// The evaluators of voxels and their options.
 #pragma once
 
 #include <cstdint>
@@ -7,22 +7,23 @@
 
 namespace ombre::voxel {
 
-// Who computes values. Batches are floats, the reference is in double precision; voxels within rounding
+// The way in which values are computed. Batches use floats, the reference uses double precision. Voxels within rounding
 // of a boundary may differ.
 enum class Evaluator { batch, reference };
-// In the order of the values.
+// Returns the names, in the order of the enumeration.
 const std::vector<std::string>& evaluator_names();
 
 struct EvaluatorOptions {
   Evaluator evaluator = Evaluator::batch;
-  // These decide no voxel, only speed:
-  std::string instruction_set;   // one of instruction_sets(); empty: the best
-  bool prune = true;             // ask intervals about tiles
-  bool write_parts_out = false;  // many parts op by op, as the reference has them
-  int64_t leaf_width = 0;        // of tiles that are not cut further; 0: what suits
+  // These options affect only speed, no voxel.
+  std::string instruction_set;   // one of instruction_sets(); empty for the best one
+  bool prune = true;             // evaluates intervals over tiles
+  bool write_parts_out = false;  // replaces many parts by their code, as the reference does
+  int64_t leaf_width = 0;        // width of tiles that are not divided further; 0 chooses one
 };
 
-// The names of what batches can run on here, best first; none without hardware multiply-add.
+// Returns the names of the instruction sets that batches can use here, the best first. Empty without hardware
+// multiply-add.
 std::vector<std::string> instruction_sets();
 
 }  // namespace ombre::voxel

@@ -25,13 +25,13 @@ struct FieldEvaluator::Parts {
 namespace {
 
 constexpr int64_t field_strip_rows = 64;
-// Tiles that are evaluated without further questions.
+// Size of tiles that are evaluated without being divided further.
 constexpr int64_t leaf_width = 32, leaf_height = 8;
 
-// Zeros lose their sign, which depends on whether a tile was settled or computed.
+// Removes the sign of zero, which depends on whether a tile was evaluated by intervals or by voxels.
 float plain(float value) { return value + 0.0f; }
 
-// What sources say along the rows of a tile.
+// Gives values of sources along the rows of a tile.
 class TileRows : public eval::SourceRows {
  public:
   TileRows(const StripSources& sources, const TileBox& tile) : sources_(sources), tile_(tile) {}
@@ -49,7 +49,7 @@ class TileRows : public eval::SourceRows {
   const TileBox& tile_;
 };
 
-// One thread's traversal of the tiles of a strip.
+// Traverses the tiles of a strip on one thread.
 class FieldTraversal {
  public:
   FieldTraversal(const FieldEvaluator::Parts& parts, std::vector<FieldTile>& tiles) : parts_(parts), tiles_(tiles) {
@@ -95,7 +95,7 @@ class FieldTraversal {
     return true;
   }
 
-  // In halves along the longer side, counted in leaves; leaves begin at multiples of their size.
+  // Halves a tile along its longer side, measured in leaf tiles. Leaf tiles begin at multiples of their size.
   void cut(const program::Program& program, const TileBox& tile) {
     const size_t axis = tile.size(0) * leaf_height > tile.size(1) * leaf_width ? 0 : 1;
     const int64_t unit = axis == 0 ? leaf_width : leaf_height;
@@ -126,7 +126,7 @@ class FieldTraversal {
     if (has_unknown) redo_unknown(made);
   }
 
-  // Says whether some value is NaN.
+  // Copies a layer of values. Returns true if one of them is NaN.
   bool take_layer(int64_t k, size_t width, FieldTile& made) {
     const TileBox& tile = made.box;
     bool has_unknown = false;
@@ -183,7 +183,7 @@ class FieldTraversal {
 
   const FieldEvaluator::Parts& parts_;
   std::vector<FieldTile>& tiles_;
-  std::optional<StripSources> sources_;  // of the strip at work
+  std::optional<StripSources> sources_;  // sources along the current strip
   std::optional<eval::BatchEvaluator> batch_;
   eval::RowEvaluator rows_{static_cast<size_t>(leaf_width)};
   TilePoints points_;

@@ -10,8 +10,8 @@
 
 namespace ombre::voxel {
 
-// What the outputs are in a box of voxels: where it is uniform one number for each, else one for each
-// output and voxel, output after output, x fastest, then y, then z.
+// The outputs in a box of voxels. If the box is uniform, there is one number for each output; else there is one for
+// each output and voxel, output after output, with x varying fastest, then y, then z.
 struct FieldTile {
   TileBox box;
   bool is_uniform = false;
@@ -22,15 +22,16 @@ struct FieldTile {
   }
 };
 
-// Thread-safe. What floats cannot hold is computed in double precision; what is no number there is NaN.
+// Thread-safe. Values beyond the range of floats are computed in double precision. Values that are undefined there,
+// too, are NaN.
 class FieldEvaluator {
  public:
-  // `program` without calls.
+  // `program` may not hold calls.
   FieldEvaluator(program::Program program, const Lattice& lattice, Evaluator evaluator);
   ~FieldEvaluator();
 
-  // Tiles that fill the region together; no value depends on the region. Throws Cancelled soon after it is
-  // asked to stop.
+  // Returns tiles that fill the region. Values do not depend on the region. Throws Cancelled soon after a stop is
+  // requested.
   std::vector<FieldTile> tiles(const TileBox& region, const StopFlag* stop = nullptr) const;
 
   struct Parts;

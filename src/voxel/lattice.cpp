@@ -20,7 +20,7 @@ Lattice part_of(const Lattice& lattice, const TileBox& box) {
 }
 
 int64_t voxels_along(double size_mm, Pitch pitch) {
-  constexpr double slack = 1e-6;  // a size that is a whole number of voxels but for rounding
+  constexpr double slack = 1e-6;  // tolerates rounding of sizes that are whole numbers of voxels
   const double exact = size_mm * static_cast<double>(pitch.denominator) / static_cast<double>(pitch.numerator);
   return std::max<int64_t>(1, static_cast<int64_t>(std::ceil(exact - slack)));
 }

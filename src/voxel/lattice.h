@@ -1,4 +1,4 @@
-// The voxel lattice of a job: exact pitches, counts, and where it lies in the design's space.
+// The voxel lattice of a job: exact pitches, counts, and its position in the design's space.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace ombre::voxel {
 
-// Voxel (i, j, k) has its centre at origin + (index + 0.5) * pitch. Indices always count in the
-// job's full box, whatever part of it is asked for.
+// A lattice whose voxel (i, j, k) has its centre at origin + (index + 0.5) * pitch. Indices always refer to the job's
+// full box, even if only a part of it is evaluated.
 struct Lattice {
-  Vec3 origin;  // the corner of least x, y, z; mm
+  Vec3 origin;  // corner of least x, y, z in mm
   std::array<Pitch, 3> pitch;
-  std::array<int64_t, 3> count{};  // voxels on each axis
+  std::array<int64_t, 3> count{};  // number of voxels along each axis
 
   Vec3 center(int64_t i, int64_t j, int64_t k) const { return {center(0, i), center(1, j), center(2, k)}; }
   double center(size_t axis, int64_t n) const {
@@ -28,13 +28,13 @@ struct Lattice {
   Box box() const;
 };
 
-// A box of size s at pitch v has ceil(s / v - 1e-6) voxels, at least one.
+// Returns the number of voxels of a box with size s at pitch v: ceil(s / v - 1e-6), at least one.
 int64_t voxels_along(double size_mm, Pitch pitch);
 
-// Voxels [lo, hi) on each axis.
+// The voxels [lo, hi) on each axis.
 using TileBox = IndexBox;
 
-// The box as a lattice of its own.
+// Returns the box as a separate lattice.
 Lattice part_of(const Lattice& lattice, const TileBox& box);
 
 }  // namespace ombre::voxel

@@ -17,9 +17,10 @@ using program::ValueId;
 
 namespace {
 
-// What is evaluated at once: enough to make starting an op cheap, few enough for the first-level cache.
+// Size of the boxes that are evaluated at once: large enough to make starting an op cheap, small enough for the
+// first-level cache.
 constexpr int64_t most_points = 512, most_layers = 16;
-// Smaller boxes are evaluated without asking intervals whether the part is there.
+// Smaller boxes are evaluated without first checking by intervals whether the part is there.
 constexpr int64_t least_voxels_of_query = 2048;
 constexpr size_t most_bodies = 64;
 
@@ -98,7 +99,7 @@ void PartRows::begin(const program::Program& program, const TileBox& tile, const
   const Box region = centers(job_.lattice, tile);
   for (Set* set : read_) {
     set->parts->index.find(region, found_);
-    // What is set last stands.
+    // Later parts overwrite earlier ones.
     if (set->parts->is_backwards()) std::reverse(found_.begin(), found_.end());
     for (const auto& entry : found_) {
       const TileBox box = voxels_in(entry.box);
@@ -107,7 +108,7 @@ void PartRows::begin(const program::Program& program, const TileBox& tile, const
   }
 }
 
-// Each slot of the sets that the program reads gets a plane of values.
+// Assigns a plane of values to each slot that the program reads.
 void PartRows::place_sets(const program::Program& program) {
   read_.clear();
   by_number_.clear();
@@ -131,7 +132,7 @@ void PartRows::touch_all() {
   for (size_t row = 0; row < touched_.size(); ++row) touch(row, all);
 }
 
-// The tile's voxels with centres in [lo, hi): boxes of one part that share a face share no voxel.
+// Returns the tile's voxels with centres in [lo, hi), so that adjacent boxes of a part share no voxels.
 TileBox PartRows::voxels_in(const Box& box) const {
   TileBox voxels = tile_;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -158,7 +159,7 @@ void PartRows::add_part(Set& set, uint32_t part, const TileBox& box) {
   descend(set, *kept.body, box, true);
 }
 
-// Halves boxes until they are small, and drops those where the part is not.
+// Halves boxes until they are small, and drops those in which intervals show that the part is absent.
 void PartRows::descend(const Set& set, PartBody& body, const TileBox& box, bool ask) {
   if (ask && box.voxels() >= least_voxels_of_query) {
     evaluate_intervals(body.program(), centers(job_.lattice, box), ranges_, nullptr, program::Precision::batch);
@@ -221,7 +222,7 @@ void PartRows::merge_row(const Set& set, const PartBody& body, size_t lane, RowP
   }
 }
 
-// Blocks hold nothing until they are touched.
+// Sets blocks to zero when they are first touched.
 void PartRows::touch(size_t row, uint64_t blocks) {
   uint64_t fresh = blocks & ~touched_[row];
   touched_[row] |= blocks;

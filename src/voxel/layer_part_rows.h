@@ -1,4 +1,4 @@
-// Many parts over the voxels of a tile, each evaluated only where its boxes reach.
+// Evaluates many parts over the voxels of a tile, each only where its boxes reach.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace ombre::voxel {
 
-// Parts of one kind: their program, compiled once, into which each part's constants are put.
+// The compiled program of one kind of parts. Each part's constants are inserted before evaluation.
 class PartBody {
  public:
   PartBody(const program::PartSet& set, uint32_t body, const std::vector<size_t>& slots,
@@ -22,7 +22,7 @@ class PartBody {
   eval::BatchEvaluator& batch() { return batch_; }
   eval::Values reached() const { return batch_.output(0); }
   eval::Values held() const { return batch_.output(1); }
-  // Of slots[n], if parts of this kind have it.
+  // True if parts of this kind have slots[n].
   bool has(size_t n) const { return output_[n] != none; }
   eval::Values output(size_t n) const { return batch_.output(output_[n]); }
 
@@ -35,21 +35,21 @@ class PartBody {
   eval::BatchEvaluator batch_;
 };
 
-// Rows of the slots that a program reads of its part sets. Voxels go in blocks of batch_lanes along x; most
-// of them no part touches.
+// Rows of values of the slots that a program reads. Voxels are grouped into blocks of batch_lanes along x, most of
+// which no part touches.
 class PartRows {
  public:
   PartRows(const VoxelJob& job, const eval::KernelSet& kernels);
 
-  // Parts that are evaluated anywhere but at (x, y, z) itself are not for this.
+  // True if the program evaluates parts only at (x, y, z) itself.
   static bool suits(const program::Program& program);
 
   void begin(const program::Program& program, const TileBox& tile, const TilePoints& points);
-  // Blocks that no part touched hold 0 only after touch_all.
+  // Sets blocks that no part touched to 0. They are undefined before.
   void touch_all();
-  // Bit b: some part touched voxels [16 b, 16 (b + 1)) of the tile's row.
+  // Returns a bit mask; bit b is set if a part touched voxels [16 b, 16 (b + 1)) of the tile's row.
   uint64_t touched(int64_t j, int64_t k) const { return touched_[row_number(j, k)]; }
-  // From voxel i on; the tile's width is padded.
+  // Returns the values from voxel i on. The tile's width is padded.
   const float* row(uint32_t set, size_t slot, RowPlace at, int64_t k) const {
     const Set& read = *by_number_[set];
     return values_.data() + offset(read.first_plane + read.numbers[slot], at.i, at.j, k);
@@ -60,11 +60,11 @@ class PartRows {
     uint32_t number = 0;
     std::unique_ptr<PartBody> body;
   };
-  // A part set and what the job's program reads of it.
+  // A part set, and the slots that the job's program reads.
   struct Set {
     const program::PartSet* parts = nullptr;
     std::vector<size_t> slots;
-    std::vector<size_t> numbers;  // of the slots among `slots`
+    std::vector<size_t> numbers;  // position of each slot in `slots`
     std::vector<KeptBody> bodies;
     size_t first_plane = 0;
   };
@@ -88,7 +88,7 @@ class PartRows {
   const eval::KernelSet& batch_kernels_;
   RowKernels kernels_;
   std::vector<Set> sets_;
-  std::vector<Set*> by_number_, read_;  // of the program at work; each once
+  std::vector<Set*> by_number_, read_;  // the sets of the current program, by number and each once
   TileBox tile_;
   const TilePoints* points_ = nullptr;
   size_t stride_ = 0, plane_count_ = 0;

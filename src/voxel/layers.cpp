@@ -15,7 +15,7 @@ namespace {
 
 constexpr int64_t strip_rows = 64;
 
-// Floats carry 24 bits; a hundredth of a voxel should still be seen at the far end.
+// True if floats, which have 24 bits, resolve a hundredth of a voxel at the far end of the lattice.
 bool floats_resolve(const Lattice& lattice) {
   const Box box = lattice.box();
   for (int axis = 0; axis < 3; ++axis) {
@@ -65,14 +65,14 @@ struct LayerEvaluator::Parts {
     return traversal;
   }
 
-  // What is left of the program in a slab.
+  // Returns the program specialised to a slab.
   program::Remainder remainder(const TileBox& slab) const {
     const program::Program& whole = is_batch() ? job.selector.batch : job.selector.reference;
     return program::narrow(whole, centers(job.lattice, slab), precision());
   }
 };
 
-// The part of whole layers that lies in a box.
+// Cuts out the part of whole layers that lies in a box.
 std::vector<LayerResult> cut(std::vector<LayerResult> layers, const TileBox& box) {
   for (LayerResult& layer : layers) {
     RunLayer part(static_cast<uint32_t>(box.size(0)), static_cast<uint32_t>(box.size(1)));
@@ -87,7 +87,7 @@ std::vector<LayerResult> cut(std::vector<LayerResult> layers, const TileBox& box
   return layers;
 }
 
-// Takes the rows of strips to the layers' runs, where errors are diffused by way of that.
+// Appends rows of strips to the layers' runs. With error diffusion the rows pass a diffuser first.
 class RowSink {
  public:
   // `begin` is the number of the first layer.
@@ -141,7 +141,7 @@ LayerEvaluator::LayerEvaluator(const MaterialProgram& program, const Lattice& la
     : parts_(std::make_unique<Parts>(Parts{{make_selector(program, dither), lattice, dither, seed}, options, {}, {}})) {
   Selector& selector = parts_->job.selector;
   parts_->materials = selector.materials;
-  // What is inside is marked with 1 until its errors are diffused.
+  // For error diffusion, the traversal marks the inside with 1, and the materials are chosen later.
   if (dither == Dither::diffusion) selector.materials.assign(selector.materials.size(), MaterialId{1});
   parts_->samplers = place_sources(selector.reference, design_from_index(lattice));
   if (parts_->is_batch()) make_batch(selector);

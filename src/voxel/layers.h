@@ -1,4 +1,4 @@
-// Evaluates a program on a voxel lattice, slab by slab, to runs of materials.
+// Evaluates a program on a voxel lattice, slab by slab, and returns runs of materials.
 #pragma once
 
 #include <memory>
@@ -13,18 +13,18 @@
 
 namespace ombre::voxel {
 
-// Thread-safe; the result for a layer does not depend on how layers are grouped.
+// Thread-safe. The result for a layer does not depend on how layers are grouped.
 class LayerEvaluator {
  public:
   LayerEvaluator(const MaterialProgram& program, const Lattice& lattice, Dither dither, uint64_t seed,
                  const EvaluatorOptions& options = {});
   ~LayerEvaluator();
 
-  // Layers [begin, end) of the lattice, lowest first. Works best on 4 to 16 at a time. Throws Cancelled soon
-  // after it is asked to stop.
+  // Evaluates layers [begin, end) of the lattice, the lowest first. 4 to 16 layers at a time are most efficient. Throws
+  // Cancelled soon after a stop is requested.
   std::vector<LayerResult> layers(int64_t begin, int64_t end, const StopFlag* stop = nullptr) const;
-  // The same voxels as far as they lie in a box of the lattice, whose size decides the work (but for error diffusion,
-  // which goes through whole layers). Counts and checks are those of the box; checks then of whole layers.
+  // Evaluates the voxels of the same layers in a box of the lattice. Error diffusion evaluates whole layers, and its
+  // checks cover them; otherwise the work, the counts and the checks are limited to the box.
   std::vector<LayerResult> region(const TileBox& box, const StopFlag* stop = nullptr) const;
 
   struct Parts;
@@ -33,10 +33,11 @@ class LayerEvaluator {
   std::unique_ptr<Parts> parts_;
 };
 
-// The most that working on a slab takes beside its results.
+// Returns the greatest amount of memory for a slab, without its results.
 size_t working_bytes(const Lattice& lattice, int64_t slab_layers, Dither dither, size_t material_count);
 
-// Batches, unless this machine has no hardware multiply-add or floats cannot tell the lattice's voxels apart.
+// Returns the batch evaluator, unless this machine has no hardware multiply-add or floats cannot resolve the lattice's
+// voxels.
 Evaluator best_evaluator(const Lattice& lattice);
 
 }  // namespace ombre::voxel

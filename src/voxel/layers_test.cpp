@@ -1,4 +1,4 @@
-// Whatever way voxels are evaluated, they are the same.
+// All evaluators and options must give the same voxels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,8 @@ Lattice lattice_of(int64_t width, int64_t height, int64_t layers) {
           {width, height, layers}};
 }
 
-// A solid of four materials and a check from ops drawn at random, cut by a ball so that tiles of every kind occur.
+// Returns a solid of four materials with a check, made of random ops and cut by a ball, so that all kinds of tiles
+// occur.
 MaterialProgram random_solid(std::mt19937& random) {
   Builder b;
   std::vector<Field> fields{b.input(0), b.input(1), b.input(2), b.constant(0.5), b.constant(-2), b.constant(3)};
@@ -106,7 +107,7 @@ TEST(Layers, AreTheSameWhateverWayTheyAreEvaluated) {
   }
 }
 
-// Random programs jump and blow up; still nearly all voxels agree.
+// Random programs have jumps and overflow, but nearly all voxels must agree.
 TEST(Layers, BatchesFollowTheReference) {
   if (instruction_sets().empty()) GTEST_SKIP() << "no hardware multiply-add";
   std::mt19937 random(2);
@@ -143,7 +144,7 @@ TEST(Layers, StopBetweenStrips) {
   EXPECT_THROW(evaluator.layers(0, 6, &stop), Cancelled);
 }
 
-// Any box of the lattice has the voxels of the whole layers, however it lies among their tiles.
+// Any box of the lattice has the same voxels as the whole layers, whatever its position among their tiles.
 TEST(Layers, RegionsAreCutFromTheWhole) {
   std::mt19937 random(11);
   Lattice lattice;

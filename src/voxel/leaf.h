@@ -1,4 +1,4 @@
-// What evaluates the voxels of tiles that intervals cannot settle: the reference, or float batches.
+// Evaluators of the voxels of tiles where intervals do not suffice: the reference, or float batches.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace ombre::voxel {
 
-// Everything that the voxels of a job depend on.
+// All data on which the voxels of a job depend.
 struct VoxelJob {
   Selector selector;
   Lattice lattice;
@@ -20,19 +20,20 @@ struct VoxelJob {
   const uint32_t* noise = blue_noise_mask(lattice.pitch[0], lattice.pitch[1]);
 };
 
-// One thread's evaluator. `program` is what is left of the selector's in a tile, `ranges` its values there.
+// Evaluates tiles on one thread. `program` is the selector's program specialised to the tile, and `ranges` are the
+// values' ranges there.
 class LeafEvaluator {
  public:
   virtual ~LeafEvaluator() = default;
-  // Does it evaluate the program's many parts by itself? If not, they are written out before.
+  // True if it evaluates the program's many parts itself; if false, they must be replaced by their code first.
   virtual bool takes_parts(const program::Program&) const { return false; }
   virtual void evaluate(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile,
                         const StripSources& sources, StripVoxels& voxels) = 0;
 };
 
-// Double precision, one op at a time.
+// Returns an evaluator in double precision that computes one op at a time.
 std::unique_ptr<LeafEvaluator> reference_leaf(const VoxelJob& job);
-// Floats. Voxels whose values floats cannot hold are evaluated by the reference.
+// Returns an evaluator with floats. Voxels whose values exceed floats are evaluated by the reference.
 std::unique_ptr<LeafEvaluator> batch_leaf(const VoxelJob& job, const eval::KernelSet& kernels);
 
 }  // namespace ombre::voxel

@@ -11,7 +11,7 @@
 namespace ombre::voxel {
 namespace {
 
-// The members of one object; what was never asked for is reported as unknown.
+// The members of one object. Members that are never read are reported as unknown.
 class Members {
  public:
   Members(const Data& object, Diagnostics& diagnostics, std::string what)
@@ -47,7 +47,7 @@ class Members {
   std::vector<std::string> known_keys_;
 };
 
-// Reads values of a profile; what is wrong is reported and leaves the default.
+// Reads values of a profile. Wrong values are reported and replaced by the default.
 class ProfileReader {
  public:
   explicit ProfileReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -94,7 +94,7 @@ class ProfileReader {
       diagnostics_.error(data->where, "a printer's name is made of lower-case letters, digits and '-'");
   }
 
-  // The index of the choice made, 0 (the default) when there is none.
+  // Returns the index of the word in `choices`, or 0 (the default) if there is none.
   size_t choice(const Data* data, const std::vector<std::string>& choices) {
     if (!data) return 0;
     const std::string* text = data->string();
@@ -141,7 +141,7 @@ class ProfileReader {
       if (!dpi) return;
       if (const double* number = dpi->number()) read = Pitch::from_dpi(format_number(*number));
     }
-    // Coarser or finer than any machine is a slip of the unit.
+    // No machine has such a pitch, so the unit must be wrong.
     if (read && read->mm() >= 1e-5 && read->mm() <= 100)
       pitch = *read;
     else
@@ -261,7 +261,7 @@ std::optional<NamePattern> NamePattern::parse(std::string_view text) {
 
 bool NamePattern::is_sound() const {
   const std::string rest = of_material("").before_ + of_material("").after_;
-  // Characters that every file system takes; no folders, nothing hidden.
+  // Allows only characters that every file system accepts; no folders or hidden files.
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
@@ -269,7 +269,7 @@ bool NamePattern::is_sound() const {
   if (!std::all_of(rest.begin(), rest.end(), allowed) || rest.size() > 100) return false;
   if (before_.starts_with('.') || !after_.ends_with(".png")) return false;
 
-  // What stands between number and material is more than digits, so that a name is of one layer only.
+  // The text between number and material must contain more than digits, so that each name belongs to one layer only.
   const size_t in_before = before_.find(material_place), in_after = after_.find(material_place);
   const auto separates = [](std::string_view between) {
     return between.find_first_not_of("0123456789") != std::string_view::npos;

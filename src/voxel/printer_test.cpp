@@ -27,7 +27,7 @@ Printer shipped(const std::string& name) {
   return printer.value_or(Printer());
 }
 
-// A whole profile with one member replaced or added.
+// Returns the messages for a complete profile with one member replaced or added.
 std::string messages(const std::string& member) {
   const std::string text =
       R"({"title": "t", "source": "s", "image": "rgba", )" +
@@ -147,7 +147,7 @@ TEST(NamePattern, MaterialsHaveFilesOfTheirOwn) {
     EXPECT_TRUE(pattern->has_material());
     EXPECT_EQ(pattern->text(), text);
     EXPECT_EQ(pattern->with_material(), *pattern);
-    // Of the name of one material and layer, only these can be read.
+    // The pattern of one material matches only the names of that material.
     for (const char* material : {"red", "5", "05_5"}) {
       const NamePattern own = pattern->of_material(material);
       EXPECT_FALSE(own.has_material());

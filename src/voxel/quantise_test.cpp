@@ -11,7 +11,7 @@ namespace {
 
 double hashed(uint64_t seed, int64_t i, int64_t j, int64_t k) { return hashed_draw(row_hash(seed, j, k), i) * 0x1p-24; }
 
-// Correlation of draws at voxels that differ by the given step, over a 100^3 block.
+// Returns the correlation of draws at voxels that differ by the given step, over a block of 100^3 voxels.
 double correlation(std::array<int64_t, 3> step, uint64_t seed, uint64_t other_seed) {
   constexpr int64_t n = 100;
   double sum = 0;
@@ -22,12 +22,12 @@ double correlation(std::array<int64_t, 3> step, uint64_t seed, uint64_t other_se
   return sum / (n * n * n) * 12;  // the variance of a uniform draw is 1/12
 }
 
-constexpr double four_sigma = 4e-3;  // for 10^6 pairs
+constexpr double four_sigma = 4e-3;  // four standard deviations for 10^6 pairs
 
 }  // namespace
 
 TEST(Quantise, DrawsAreUniform) {
-  // Chi-squared over 256 bins of 10^6 draws: mean 255, standard deviation sqrt(2 * 255) = 22.6.
+  // Chi-squared over 256 bins of 10^6 draws has mean 255 and standard deviation sqrt(2 * 255) = 22.6.
   for (const uint64_t seed : {uint64_t{0}, uint64_t{1}, uint64_t{0xDEADBEEF12345678}}) {
     std::array<int, 256> bins{};
     for (int64_t k = 0; k < 100; ++k)

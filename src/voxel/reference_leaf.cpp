@@ -1,4 +1,4 @@
-// Tiles in double precision: what all else is judged against.
+// Evaluates tiles in double precision, which is the reference for other evaluators.
 #include "eval/rows.h"
 #include "program/passes/passes.h"
 #include "voxel/draws.h"

@@ -23,7 +23,7 @@ using DI = hn::RebindToSigned<D>;
 using V = hn::Vec<D>;
 using VU = hn::Vec<DU>;
 
-// quantise.h has the meaning.
+// Vectorised version of scramble() in quantise.h.
 HWY_INLINE VU scramble(VU h) {
   const DU d;
   h = hn::Xor(h, hn::ShiftRight<16>(h));
@@ -48,7 +48,7 @@ struct HashDraws {
 
 struct TableDraws {
   static constexpr size_t period = 64;
-  // Turned so that it begins with the row's first voxel.
+  // Rotates the table so that it begins with the row's first voxel.
   explicit TableDraws(const ChoiceRow& row) {
     const size_t first = (static_cast<uint32_t>(row.i_begin) + row.draws.offset) % period;
     std::memcpy(table, row.draws.table + first, (period - first) * sizeof *table);
@@ -62,7 +62,7 @@ HWY_INLINE V values_at(const eval::Values& values, size_t n) {
   return values.is_number ? hn::Set(D(), *values.row) : hn::Load(D(), values.row + n);
 }
 
-// The materials of one vector of voxels, a number a lane.
+// Returns the materials of one vector of voxels, one number per lane.
 template <class Source>
 HWY_INLINE VU chosen(const ChoiceRow& row, Source& draws, size_t n) {
   VU id = hn::Set(DU(), row.materials[0]);
@@ -74,7 +74,7 @@ HWY_INLINE VU chosen(const ChoiceRow& row, Source& draws, size_t n) {
     }
   }
   if (row.inside.is_number) return id;
-  // A comparison with NaN is false.
+  // A comparison with NaN is false, so NaN counts as outside.
   const auto inside = hn::Gt(hn::Abs(hn::Load(D(), row.inside.row + n)), hn::Zero(D()));
   return hn::IfThenElseZero(hn::RebindMask(DU(), inside), id);
 }
@@ -166,7 +166,7 @@ void merge(float* slot, size_t count, Merge merged) {
   }
 }
 
-// Truth values; NaN where neither is 1 and one is NaN.
+// Combines truth values by `or`. The result is NaN if neither is 1 and one is NaN.
 void merge_any(const eval::Values& values, float* slot, size_t count) {
   const V one = hn::Set(D(), 1.0F);
   merge(slot, count, [&](V old, size_t n) {

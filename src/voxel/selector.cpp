@@ -8,7 +8,7 @@ namespace {
 
 using program::Field;
 
-// Fractions that are not positive are never picked, and neither are those that are not numbers.
+// Returns cumulative sums of fractions as thresholds. Fractions that are not positive, or NaN, are never picked.
 std::vector<Field> shares(const std::vector<Field>& fractions) {
   std::vector<Field> sums;
   for (const Field fraction : fractions) {
@@ -20,10 +20,11 @@ std::vector<Field> shares(const std::vector<Field>& fractions) {
   return thresholds;
 }
 
-// The greatest fraction, the first on ties, gets all draws: 1 from there on, 0 before.
+// Returns thresholds that give all draws to the greatest fraction; the first one wins a tie. They are 0 before it and 1
+// from it on.
 std::vector<Field> winners(const std::vector<Field>& fractions) {
   const size_t count = fractions.size();
-  std::vector<Field> after(count);  // the greatest of those behind
+  std::vector<Field> after(count);  // greatest of the following fractions
   for (size_t m = count; m-- > 1;) after[m - 1] = m + 1 < count ? max(fractions[m], after[m]) : fractions[m];
   std::vector<Field> thresholds;
   Field best = fractions[0];

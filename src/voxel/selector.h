@@ -1,5 +1,4 @@
-// What decides a voxel's material, as a program: is it inside, and which share of the draws goes to
-// which material.
+// The program that determines a voxel's material: whether it is inside, and the share of the draws for each material.
 #pragma once
 
 #include "voxel/dither.h"
@@ -7,23 +6,23 @@
 
 namespace ombre::voxel {
 
-// Outputs of the programs: 0 is the truth value "inside"; then a threshold for each material but the
-// last: the material is the first whose threshold lies above a draw u in [0, 1), else the last (2023
-// paper, Algorithm 1). Thresholds grow from material to material and end at 1. Then the checks.
+// Programs with these outputs: 0 is the truth value "inside". Then follows a threshold for each material except the
+// last. The material is the first whose threshold exceeds a draw u in [0, 1), else the last (2023 paper, Algorithm 1).
+// Thresholds do not decrease, and do not exceed 1. The last outputs are the checks.
 struct Selector {
   program::Program reference;
-  program::Program batch;  // for floats: without affine maps, with fused multiply-adds; see make_batch
+  program::Program batch;  // program for floats, with fused multiply-adds instead of affine maps; see make_batch
   std::vector<MaterialId> materials;
   size_t threshold_count = 0, check_count = 0;
-  // For error diffusion, which needs all fractions: only what is outside counts as settled.
+  // Set for error diffusion, which needs all fractions: only regions outside can be settled by ranges.
   bool settles_outside_only = false;
 
-  // The material that all voxels of a region get in which outputs are within these ranges; 0 where
-  // nothing is inside, nothing where that is not settled.
+  // Returns the material of all voxels of a region in which the outputs have these ranges: 0 if nothing is inside,
+  // nothing if the ranges do not determine the material or a check may fail.
   std::optional<MaterialId> settled(const program::Program& program, const std::vector<Interval>& ranges) const;
 };
 
-// Without `batch`, which is made from `reference` once its reads have their tags.
+// Returns a selector without `batch`, which make_batch makes from `reference` after its reads have their tags.
 Selector make_selector(const MaterialProgram& materials, Dither dither);
 void make_batch(Selector& selector);
 

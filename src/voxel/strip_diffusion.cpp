@@ -20,7 +20,7 @@ void LayerDiffusion::finish(const TakeRow& take) {
   has_row_ = false;
 }
 
-// Fractions are what thresholds grow by.
+// Fractions are the differences of consecutive thresholds.
 void LayerDiffusion::keep(const MaterialId* inside, const std::vector<const float*>& thresholds) {
   has_row_ = true;
   inside_.assign(inside, inside + width_);

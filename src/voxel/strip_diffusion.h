@@ -9,13 +9,13 @@
 
 namespace ombre::voxel {
 
-// One layer. Rows come in order; each is done once the next is known.
+// Diffuses one layer. Rows come in order; each is finished when the next one is known.
 class LayerDiffusion {
  public:
   LayerDiffusion(int64_t width, std::vector<MaterialId> materials, uint64_t seed, int64_t k);
 
   using TakeRow = std::function<void(const MaterialId* voxels)>;
-  // A row's voxels: 1 where inside; `thresholds` as in selector.h, one row after the other.
+  // Adds a row. `inside` is 1 for voxels inside, and `thresholds` are rows of values as in selector.h.
   void add(const MaterialId* inside, const std::vector<const float*>& thresholds, const TakeRow& take);
   void finish(const TakeRow& take);
 
@@ -29,7 +29,7 @@ class LayerDiffusion {
   int64_t j_ = 0;
   bool has_row_ = false;
   std::vector<uint8_t> inside_, chosen_;
-  std::vector<std::vector<float>> fractions_;  // by material
+  std::vector<std::vector<float>> fractions_;  // indexed by material
 };
 
 }  // namespace ombre::voxel

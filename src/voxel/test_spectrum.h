@@ -1,4 +1,4 @@
-// Spectra of patterns of voxels: how much of their noise one would see.
+// Spectra of voxel patterns, which measure how visible their noise is.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace ombre::voxel {
 // A square of n x n voxels, 1 where a material is and 0 elsewhere.
 struct SquarePattern {
   int64_t n = 64;
-  std::vector<double> values;  // x fastest
+  std::vector<double> values;  // x varies fastest
 
   SquarePattern(int64_t size, const std::function<bool(int64_t i, int64_t j)>& is_set) : n(size) {
     for (int64_t j = 0; j < n; ++j)
@@ -21,11 +21,10 @@ struct SquarePattern {
   }
 };
 
-// Power by distance from the middle of the frequency plane, as a multiple of what white noise of that
-// fraction has.
+// Power by distance from the centre of the frequency plane, relative to that of white noise with the same fraction.
 class Spectrum {
  public:
-  // The mean over all patterns, by a plain discrete Fourier transform along x, then y.
+  // Computes the mean power of all patterns by a plain discrete Fourier transform along x, then y.
   Spectrum(const std::vector<SquarePattern>& patterns, double fraction) : n_(patterns.front().n) {
     power_.resize(static_cast<size_t>(n_ * n_));
     const double white =
@@ -39,7 +38,7 @@ class Spectrum {
     }
   }
 
-  // The mean over frequencies in (from, to] cycles a voxel, without the mean of the pattern itself.
+  // Returns the mean power over frequencies in (from, to], in cycles per voxel, without the constant term.
   double mean(double from, double to) const {
     double sum = 0, count = 0;
     for (int64_t y = 0; y < n_; ++y)
@@ -52,8 +51,8 @@ class Spectrum {
     return sum / count;
   }
 
-  // The same of waves that run along an axis, x or y, by a good 26 degrees, where voxels are `y_per_x` times as long
-  // along y as along x; in cycles for the side of a square as large as a voxel.
+  // Returns the mean power of waves whose direction is within about 26 degrees of an axis, x or y. Voxels are `y_per_x`
+  // times as long along y as along x. Frequencies are in cycles per side of a square with the area of a voxel.
   double mean_along(int axis, double from, double to, double y_per_x) const {
     double sum = 0, count = 0;
     for (int64_t y = 0; y < n_; ++y)
@@ -69,11 +68,11 @@ class Spectrum {
     return sum / count;
   }
 
-  // What one would see as unevenness: periods of more than 8 voxels.
+  // Returns the power of visible unevenness, with periods of more than 8 voxels.
   double low() const { return mean(0, 0.125); }
 
  private:
-  // Of all lines with values `step` apart; lines begin `between` apart.
+  // Transforms all lines. Lines begin `between` values apart, and the values of a line are `step` apart.
   void transform(std::vector<std::complex<double>>& values, int64_t between, int64_t step) const {
     std::vector<std::complex<double>> turns, line(static_cast<size_t>(n_));
     for (int64_t t = 0; t < n_; ++t)
@@ -94,8 +93,8 @@ class Spectrum {
   std::vector<double> power_;
 };
 
-// The variance of a material's share in all patches of m x m voxels (around the edges too), as a multiple
-// of what white noise has.
+// Returns the variance of a material's share in all patches of m x m voxels, including those that wrap around the
+// edges, relative to that of white noise.
 inline double patch_variance(const SquarePattern& pattern, int64_t m, double fraction) {
   const int64_t n = pattern.n;
   double sum = 0;

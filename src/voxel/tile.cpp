@@ -19,7 +19,7 @@ StripSources::StripSources(const std::vector<std::unique_ptr<program::RowSampler
   }
 }
 
-// The first span that ends behind voxel i, if it holds it or begins behind it.
+// Returns the first span that ends after voxel i: the one that contains i, or the next one.
 static std::vector<program::Span>::const_iterator span_at(const std::vector<program::Span>& spans, int64_t i) {
   return std::upper_bound(spans.begin(), spans.end(), i, [](int64_t at, const program::Span& s) { return at < s.end; });
 }
@@ -47,7 +47,7 @@ Interval StripSources::span_range(uint32_t tag, const TileBox& tile) const {
   for (int64_t k = tile.lo[2]; k < tile.hi[2]; ++k) {
     for (int64_t j = tile.lo[1]; j < tile.hi[1]; ++j) {
       const auto& spans = row(tag, j, k);
-      // The first span that ends behind the tile's beginning decides.
+      // Only the first span that ends after the tile's beginning matters.
       const auto span = span_at(spans, tile.lo[0]);
       const bool covers = span != spans.end() && span->begin <= tile.lo[0] && span->end >= tile.hi[0];
       const bool misses = span == spans.end() || span->begin >= tile.hi[0];

@@ -1,4 +1,4 @@
-// Boxes of voxels, and what is known of one strip of them.
+// Boxes of voxels, and the data of one strip of them.
 #pragma once
 
 #include <algorithm>
@@ -11,28 +11,31 @@
 
 namespace ombre::voxel {
 
-// The greatest multiple of `unit` that is at most `index`, which may be negative.
+// Returns the greatest multiple of `unit` that is at most `index`, which may be negative.
 inline int64_t multiple_below(int64_t index, int64_t unit) {
   const int64_t rest = index % unit;
   return index - (rest < 0 ? rest + unit : rest);
 }
 
-// The box around a tile's voxel centres.
+// Returns the box around a tile's voxel centres.
 Box centers(const Lattice& lattice, const TileBox& tile);
 
-// What the sources that know their rows say in a strip of rows of a few layers.
+// Values of sources along the rows of a strip, for those sources that give values for whole rows. A strip consists of
+// some rows of a few layers.
 class StripSources {
  public:
-  // `samplers` by tag, null for sources that are evaluated point by point; they outlive this.
+  // `samplers` are indexed by tag, null for sources that are evaluated at each point. They must outlive this object.
   StripSources(const std::vector<std::unique_ptr<program::RowSampler>>& samplers, const TileBox& strip);
 
   bool has(uint32_t tag) const { return tag < samplers_.size() && samplers_[tag]; }
   float value(uint32_t tag, int64_t i, int64_t j, int64_t k) const;
-  // The range of spans is 1 or 0 where the whole tile is inside or outside, else both.
+  // Returns the range of a source in a tile. For spans it is 1 if the whole tile is inside, 0 if it is outside, else
+  // [0, 1].
   Interval range(uint32_t tag, const TileBox& tile) const;
-  // The same as evaluate_intervals asks for it; valid as long as this and the tile.
+  // Returns the ranges in the form that evaluate_intervals takes. The result is valid as long as this object and the
+  // tile.
   program::SourceRanges ranges(const TileBox& tile) const;
-  // values[n] is that of voxel i_begin + n of the row; of spans, 1 inside and 0 outside.
+  // Writes to values[n] the value of voxel i_begin + n of the row. For spans it is 1 inside and 0 outside.
   template <class T>
   void fill(uint32_t tag, int64_t i_begin, int64_t j, int64_t k, std::span<T> values) const {
     if (samplers_[tag]->has_values()) return copy_values(*samplers_[tag], i_begin, j, k, values);
@@ -61,13 +64,13 @@ class StripSources {
   std::vector<std::vector<std::vector<std::vector<program::Span>>>> spans_;  // [tag][layer][row]; empty for values
 };
 
-// The materials of a strip's voxels, x fastest, then y, then z. Nothing is written until a voxel is.
-// For error diffusion, which chooses later, also their thresholds.
+// The materials of a strip's voxels, with x varying fastest, then y, then z. Memory is written only once a voxel is
+// set. For error diffusion, which chooses materials later, also their thresholds.
 class StripVoxels {
  public:
-  // Forgets what was there; `checks[layer][check]` outlives this.
+  // Clears all voxels. `checks[layer][check]` must outlive this object.
   void begin(const TileBox& strip, std::vector<std::vector<CheckHits>>& checks, size_t kept_thresholds = 0);
-  bool touched() const { return touched_; }  // else all of it is void
+  bool touched() const { return touched_; }  // false if all voxels are void
   const std::vector<MaterialId>& ids() const { return ids_; }
 
   MaterialId* at(int64_t i, int64_t j, int64_t k) {

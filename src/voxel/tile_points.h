@@ -8,7 +8,7 @@
 
 namespace ombre::voxel {
 
-// Where a row of evaluated points begins.
+// The voxel at which a row of points begins.
 struct RowPlace {
   int64_t i = 0, j = 0;
 };
@@ -17,7 +17,7 @@ class TilePoints {
  public:
   void place(const Lattice& lattice, const TileBox& tile);
   eval::BoxPoints all() const { return {{xs_.data(), width_}, ys_, zs_}; }
-  // A row of any width within the tile.
+  // Returns a row within the tile, of any width.
   eval::PointRow row(RowPlace at) const {
     return {xs_.data() + (at.i - lo_[0]), ys_[static_cast<size_t>(at.j - lo_[1])]};
   }
@@ -28,7 +28,7 @@ class TilePoints {
  private:
   std::array<int64_t, 3> lo_{};
   size_t width_ = 0;
-  std::vector<float> xs_, ys_, zs_;  // xs_ with padding behind
+  std::vector<float> xs_, ys_, zs_;  // xs_ is padded at the end
 };
 
 }  // namespace ombre::voxel

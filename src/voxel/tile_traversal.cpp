@@ -10,12 +10,12 @@
 namespace ombre::voxel {
 namespace {
 
-// Costs relative to one op on one voxel in a batch: of starting an op on a row, of an op on intervals and
-// copying it to a shorter program, of drawing, and of choosing among one more material.
+// Costs relative to one op on one voxel in a batch: starting an op on a row, evaluating an op on intervals and copying
+// it to a shorter program, drawing, and choosing among one more material.
 constexpr double row_cost = 60, question_cost = 500, draw_cost = 12, choice_cost = 3;
-// A level at which questions do not pay is tried again now and then.
+// Intervals are evaluated once in this many tiles of a size where they did not pay.
 constexpr uint32_t patience = 32;
-constexpr double memory = 0.9;  // of the average gain
+constexpr double memory = 0.9;  // weight of earlier tiles in the average gain
 
 size_t level_of(const TileBox& tile) {
   return static_cast<size_t>(std::bit_width(static_cast<uint64_t>(tile.voxels())));
@@ -36,7 +36,7 @@ bool TileTraversal::is_small(const program::Program& program, const TileBox& til
          tile.size(1) <= (is_long ? options_.small_leaf_height : options_.leaf_height);
 }
 
-// What is computed for each voxel. The rest is computed for rows and columns, and costs little.
+// Returns the number of ops per voxel. Ops per row or column are not counted, since they cost little.
 size_t TileTraversal::voxel_ops(const program::Program& program) {
   const std::vector<uint8_t> masks = program::axis_masks(program);
   auto ops = static_cast<double>(std::count(masks.begin(), masks.end(), uint8_t{7}));
@@ -44,7 +44,7 @@ size_t TileTraversal::voxel_ops(const program::Program& program) {
   return static_cast<size_t>(ops);
 }
 
-// Will asking about the tile spare more than it costs?
+// True if evaluating intervals over the tile is likely to save more than it costs.
 bool TileTraversal::pays(const program::Program& program, const TileBox& tile) {
   if (!options_.prune) return false;
   if (must_cut(tile)) return true;
@@ -92,7 +92,7 @@ void TileTraversal::ask(const program::Program& program, const TileBox& tile) {
   cut(shorter, kept, tile);
 }
 
-// In halves along the longer side, counted in leaves.
+// Halves the tile along its longer side, measured in leaf tiles.
 void TileTraversal::cut(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& tile) {
   const bool is_long = is_long_program(program);
   const int64_t width = is_long ? options_.small_leaf_width : options_.leaf_width;

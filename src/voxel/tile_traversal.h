@@ -1,4 +1,5 @@
-// Traverses the tiles of a strip: intervals settle what they can, a leaf evaluator does the rest.
+// Traverses the tiles of a strip. Tiles whose voxels intervals determine are filled at once; a leaf evaluator computes
+// the others.
 #pragma once
 
 #include <array>
@@ -7,32 +8,32 @@
 
 namespace ombre::voxel {
 
-// How tiles are cut and whether intervals are evaluated. This changes no voxel, only the speed.
+// Options for dividing tiles and for evaluating intervals. They affect only speed, no voxel.
 struct TraversalOptions {
   bool prune = true;
-  // Tiles that are evaluated without further questions; long programs pay for smaller ones, in which
-  // more of them falls away.
+  // Size of leaf tiles, which are evaluated without being divided further. Long programs use smaller ones, in which
+  // they become shorter.
   int64_t leaf_width = 64, leaf_height = 8;
   int64_t small_leaf_width = 16, small_leaf_height = 4;
-  size_t long_program = 60;      // instructions for each voxel
-  size_t many_parts = 4;         // while so many reach a tile, it is cut before they are written out
-  bool write_parts_out = false;  // also those that the leaf could evaluate by itself
-  // Wider tiles are always cut.
+  size_t long_program = 60;      // number of ops per voxel that makes a program long
+  size_t many_parts = 4;         // a tile that this many parts reach is divided before they are replaced by their code
+  bool write_parts_out = false;  // also replaces parts that the leaf could evaluate itself
+  // Wider tiles are always divided.
   int64_t widest = 256, highest = 16;
 };
 
-// One thread's traversal. It counts where interval evaluation pays, and does less of it where it does not.
+// Traverses tiles on one thread. It measures where evaluating intervals pays, and evaluates fewer where it does not.
 class TileTraversal {
  public:
   TileTraversal(const VoxelJob& job, program::Precision precision, const TraversalOptions& options, LeafEvaluator& leaf)
       : job_(job), precision_(precision), options_(options), leaf_(leaf) {}
 
-  // `program` is the selector's, or what is left of it where the strip lies.
+  // `program` is the selector's, or its specialisation to a region that contains the strip.
   void run(const program::Program& program, const std::vector<Interval>& ranges, const TileBox& strip,
            const StripSources& sources, StripVoxels& voxels);
 
  private:
-  // How much work questions about tiles of about 2^level voxels have spared of late: 0 ... 1.
+  // Recent share (0 to 1) of the work that evaluating intervals saved, for tiles of about 2^level voxels.
   struct Gain {
     double share = 1;
     uint32_t skipped = 0;

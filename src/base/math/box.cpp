@@ -9,7 +9,7 @@ Box image(const Affine& map, const Box& box) {
     double lo = map.offset[row], hi = lo;
     for (int column = 0; column < 3; ++column) {
       const double factor = map.rows[row][column];
-      if (factor == 0) continue;  // 0 times infinity adds nothing here
+      if (factor == 0) continue;  // avoids 0 * infinity, which is NaN
       const double a = factor * box.lo[column], b = factor * box.hi[column];
       lo += std::min(a, b);
       hi += std::max(a, b);

@@ -1,4 +1,4 @@
-// Axis-aligned boxes, closed, possibly empty or unbounded.
+// Closed axis-aligned boxes, which may be empty or unbounded.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +45,8 @@ inline Box hull(const Box& a, const Box& b) {
           {std::max(a.hi.x, b.hi.x), std::max(a.hi.y, b.hi.y), std::max(a.hi.z, b.hi.z)}};
 }
 
-// The smallest box around the image of `box`; unbounded sides stay unbounded where they matter.
+// Returns the smallest box around the image of `box`. A side stays unbounded only if an unbounded axis of `box` maps to
+// it.
 Box image(const Affine& map, const Box& box);
 
 }  // namespace ombre

@@ -17,7 +17,7 @@ TEST(Box, EmptyAndUnbounded) {
   EXPECT_FALSE(Box::empty().is_bounded());
   EXPECT_FALSE(Box::everything().is_empty());
   EXPECT_FALSE(Box::everything().is_bounded());
-  EXPECT_TRUE((Box{{0, 0, 0}, {0, 0, 0}}.is_bounded()));  // one point
+  EXPECT_TRUE((Box{{0, 0, 0}, {0, 0, 0}}.is_bounded()));  // a single point
   EXPECT_TRUE((Box{{0, 0, std::nan("")}, {1, 1, 1}}.is_empty()));
   EXPECT_EQ(Box::empty().size(), Vec3{});
   EXPECT_TRUE(Box::everything().contains({1e300, -1e300, 0}));
@@ -49,8 +49,8 @@ TEST(Box, IntersectionAndHull) {
   EXPECT_EQ(hull(unit, Box::empty()), unit);
   EXPECT_EQ(hull(Box::empty(), unit), unit);
   EXPECT_EQ(hull(unit, Box::everything()), Box::everything());
-  EXPECT_EQ(hull(unit.expanded(-2), other), other);                                     // inside out is empty
-  EXPECT_EQ(intersect(unit, {{1, -1, -1}, {2, 1, 1}}), (Box{{1, -1, -1}, {1, 1, 1}}));  // a face
+  EXPECT_EQ(hull(unit.expanded(-2), other), other);  // a box turned inside out is empty
+  EXPECT_EQ(intersect(unit, {{1, -1, -1}, {2, 1, 1}}), (Box{{1, -1, -1}, {1, 1, 1}}));  // a shared face
 }
 
 TEST(Box, ImageOfAMap) {
@@ -59,15 +59,15 @@ TEST(Box, ImageOfAMap) {
   EXPECT_EQ(image(Affine::scaling({-2, 1, 0}), unit), (Box{{-2, -1, 0}, {2, 1, 0}}));
   // A quarter turn about z swaps the sides exactly.
   EXPECT_EQ(image(Affine::rotation({0, 0, 1}, 90), Box{{0, 0, 0}, {1, 2, 3}}), (Box{{-2, 0, 0}, {0, 1, 3}}));
-  // A square turned by 45 degrees reaches sqrt(2).
+  // A square turned by 45 degrees extends to sqrt(2).
   EXPECT_NEAR(image(Affine::rotation({0, 0, 1}, 45), unit).hi.x, std::sqrt(2), 1e-15);
   EXPECT_TRUE(image(Affine::rotation({1, 1, 0}, 33), Box::empty()).is_empty());
   EXPECT_EQ(image(Affine::rotation({1, 1, 0}, 33), Box::everything()), Box::everything());
-  // A slab turned about its normal stays a slab; tilted, it is unbounded.
+  // A slab turned about its normal stays a slab. A tilted slab is unbounded on all axes that mix.
   const Box slab{{-Box::inf, -Box::inf, 0}, {Box::inf, Box::inf, 1}};
   EXPECT_EQ(image(Affine::rotation({0, 0, 1}, 30), slab), slab);
   EXPECT_EQ(image(Affine::rotation({1, 0, 0}, 30), slab).lo.z, -Box::inf);
-  // Half a space, mirrored.
+  // A half-space, mirrored.
   EXPECT_EQ(image(Affine::scaling({-1, 1, 1}), {{0, -Box::inf, -Box::inf}, {Box::inf, Box::inf, Box::inf}}),
             (Box{{-Box::inf, -Box::inf, -Box::inf}, {0, Box::inf, Box::inf}}));
 }
@@ -88,7 +88,7 @@ TEST(Box, ImageHoldsTheImagesOfPoints) {
       EXPECT_TRUE(mapped.contains(p));
       corners = hull(corners, {p, p});
     }
-    // And no larger than the corners ask.
+    // The image is no larger than the mapped corners require.
     EXPECT_NEAR(length(corners.size() - mapped.size()), 0, 1e-12);
   }
 }

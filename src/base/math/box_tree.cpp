@@ -5,9 +5,9 @@
 namespace ombre {
 namespace {
 
-constexpr int bits = 21;  // of a place along each axis
+constexpr int bits = 21;  // bits of a coordinate along each axis
 
-// Two zeros before each bit.
+// Inserts two zero bits before each bit, to interleave three coordinates.
 uint64_t spread(uint64_t n) {
   n = (n | n << 32) & 0x001F00000000FFFFU;
   n = (n | n << 16) & 0x001F0000FF0000FFU;
@@ -16,7 +16,7 @@ uint64_t spread(uint64_t n) {
   return (n | n << 2) & 0x1249249249249249U;
 }
 
-// Of the boxes' middles, along Morton's curve.
+// Positions of box centres along a Morton (Z-order) curve.
 class Curve {
  public:
   explicit Curve(const Box& whole) : whole_(whole) {

@@ -1,4 +1,4 @@
-// Boxes in a tree, to find those that meet another.
+// A tree of boxes that finds those that intersect a given box.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline bool meet(const Box& a, const Box& b) {
          b.lo.z <= a.hi.z;
 }
 
-// 0 within.
+// Returns the squared distance from the point to the box, 0 inside the box.
 inline double squared_distance(Vec3 point, const Box& box) {
   Vec3 off;
   for (int axis = 0; axis < 3; ++axis)
@@ -29,14 +29,14 @@ inline Box box_of(const std::array<Vec3, 3>& corners) {
   return hull(hull({corners[0], corners[0]}, {corners[1], corners[1]}), {corners[2], corners[2]});
 }
 
-// Boxes in the order of a space-filling curve. Four that follow each other make a group, four groups one of the next
-// level, and so on.
+// A tree of boxes sorted along a space-filling curve. Four consecutive boxes form a group, and four groups form one
+// group of the next level.
 class BoxTree {
  public:
   BoxTree() = default;
   explicit BoxTree(const std::vector<Box>& boxes);
 
-  // Calls visit(number) for the boxes that meet this one.
+  // Calls visit(number) for each box that intersects `box`.
   template <class Visit>
   void each_that_meets(const Box& box, const Visit& visit) const {
     if (!order_.empty()) ask(levels_.size() - 1, 0, box, 0, [&](size_t n) { visit(order_[n]); });
@@ -44,8 +44,8 @@ class BoxTree {
 
   bool meets_any(const Box& box) const { return !order_.empty() && is_met(levels_.size() - 1, 0, box); }
 
-  // The least distance(number), or any that is `enough` or less; infinite where all are more than `reach`. No distance
-  // may be less than the one to its box.
+  // Returns the least distance(number), or any distance that is at most `enough`; infinity if all exceed `reach`. The
+  // distance to an element must be at least the distance to its box.
   template <class Distance>
   double nearest(Vec3 point, double reach, double enough, const Distance& distance) const {
     Search search{point, reach, enough};
@@ -54,7 +54,8 @@ class BoxTree {
   }
 
   size_t groups() const { return levels_.size() > 1 ? levels_[1].size() : 0; }
-  // Calls visit(a, b) for a box of the group and one that meets it, each pair from one group only.
+  // Calls visit(a, b) for each box a of the group and each box b that intersects it. Each pair is visited from one
+  // group only.
   template <class Visit>
   void each_pair_that_meets(size_t group, const Visit& visit) const {
     const size_t first = group * width, last = std::min(first + width, order_.size());
@@ -67,7 +68,7 @@ class BoxTree {
  private:
   static constexpr size_t width = 4;
 
-  // Of the boxes below a node those from `first` on.
+  // Visits the boxes below a node that intersect `box` and whose position in the order is `first` or later.
   template <class Visit>
   void ask(size_t level, size_t node, const Box& box, size_t first, const Visit& visit) const {
     if (!meet(levels_[level][node], box)) return;
@@ -90,7 +91,7 @@ class BoxTree {
     double most, enough, found = HUGE_VAL;
   };
 
-  // Near boxes first.
+  // Visits near boxes first, so that far ones can be skipped.
   template <class Distance>
   void look(size_t level, size_t node, Search& search, const Distance& distance) const {
     if (level == 0) {
@@ -112,8 +113,8 @@ class BoxTree {
     }
   }
 
-  std::vector<std::vector<Box>> levels_;  // the boxes themselves first
-  std::vector<uint32_t> order_;           // of the boxes: their numbers
+  std::vector<std::vector<Box>> levels_;  // level 0 holds the boxes themselves
+  std::vector<uint32_t> order_;           // numbers of the boxes in sorted order
 };
 
 }  // namespace ombre

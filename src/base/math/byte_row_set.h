@@ -1,4 +1,4 @@
-// What each instruction set has for rows of bytes; byte_rows.h has the meaning.
+// Functions on rows of bytes that each instruction set implements; byte_rows.h documents them.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ using FourBytes = std::array<uint8_t, 4>;
 
 struct ByteRowSet {
   size_t (*count_equal)(const uint8_t* bytes, size_t count, uint8_t value);
-  size_t (*count_repeats)(const uint8_t* bytes, size_t count);  // bytes[count] may be read
+  size_t (*count_repeats)(const uint8_t* bytes, size_t count);  // reads bytes[count] too
   bool (*are_among)(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count);
   size_t (*equal_at_begin)(const uint8_t* bytes, size_t count);
   size_t (*find_sixteen_equal)(const uint8_t* bytes, size_t count);

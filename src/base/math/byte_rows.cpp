@@ -19,16 +19,17 @@ HWY_BEFORE_NAMESPACE();
 namespace ombre::HWY_NAMESPACE {
 namespace {
 
-// Vectors take what they can, in front; each function does the rest one by one, or all of it where there are none.
+// The `..._in_front` functions process whole vectors from the front and advance `i`. Their callers process the
+// remaining bytes one at a time, or all bytes if there are no vectors.
 #if HWY_TARGET != HWY_SCALAR
 namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<uint8_t>;
 using V = hn::Vec<D>;
 
-// For how many places `is_counted` is true; it takes the lanes from a place on.
+// Counts the positions where `is_counted` is true. `is_counted(at)` returns the mask of the lanes that start at `at`.
 template <class IsCounted>
 size_t count_in_front(size_t count, size_t& i, const IsCounted& is_counted) {
-  constexpr size_t most_blocks = 255;  // before a lane overflows
+  constexpr size_t most_blocks = 255;  // a lane would overflow after more blocks
   const D d;
   const hn::Repartition<uint64_t, D> d64;
   const size_t lanes = hn::Lanes(d);
@@ -54,13 +55,13 @@ size_t count_repeats_in_front(const uint8_t* bytes, size_t count, size_t& i) {
                         [&](size_t at) { return hn::Eq(hn::LoadU(d, bytes + at), hn::LoadU(d, bytes + at + 1)); });
 }
 
-// Values that differ in their low four bits, by these, and their numbers.
+// A lookup table for values that all differ in their low four bits: each value and its number, indexed by these bits.
 struct ByLowBits {
   HWY_ALIGN std::array<uint8_t, 16> values{}, numbers{};
   bool is_made = true;
 
   ByLowBits(const uint8_t* given, size_t count) {
-    // What no byte with these low bits is.
+    // Fills unused entries with a value whose low bits differ from the index, so that no byte matches them.
     for (size_t low = 0; low < values.size(); ++low) values[low] = static_cast<uint8_t>(~low);
     for (size_t n = 0; n < count && is_made; ++n) {
       const size_t low = given[n] % values.size();
@@ -73,7 +74,7 @@ struct ByLowBits {
 
 V low_bits(V bytes) { return hn::And(bytes, hn::Set(D(), 15)); }
 
-// False if all in front are among them.
+// Returns true if a byte in the whole vectors is not among `values`; false if all of them are.
 bool others_in_front(const uint8_t* bytes, size_t count, const uint8_t* values, size_t value_count, size_t& i) {
   const D d;
   const size_t lanes = hn::Lanes(d);
@@ -88,14 +89,15 @@ bool others_in_front(const uint8_t* bytes, size_t count, const uint8_t* values, 
   }
   for (; i + lanes <= count; i += lanes) {
     const V at = hn::LoadU(d, bytes + i);
-    auto known = hn::Ne(at, at);  // none
+    auto known = hn::Ne(at, at);  // an empty mask
     for (size_t n = 0; n < value_count; ++n) known = hn::Or(known, hn::Eq(at, hn::Set(d, values[n])));
     if (!hn::AllTrue(d, known)) return true;
   }
   return false;
 }
 
-// False if all in front are `value`.
+// Returns true and sets `i` to the first byte that is not `value`; returns false if the whole vectors hold only
+// `value`.
 bool equal_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i) {
   const D d;
   const V wanted = hn::Set(d, value);
@@ -109,7 +111,7 @@ bool equal_in_front(const uint8_t* bytes, size_t count, uint8_t value, size_t& i
   return false;
 }
 
-// 16 bytes that equal the next ones each, from `i` on; false if there are none in front.
+// Moves `i` to 16 bytes that each equal the byte after them. Returns false if the whole vectors have none.
 bool find_sixteen_in_front(const uint8_t* bytes, size_t count, size_t& i) {
   const D d;
   const size_t lanes = hn::Lanes(d);
@@ -131,7 +133,8 @@ void pack_front(const uint8_t* bytes, const DoubleBits& bits, uint8_t* packed, s
   const hn::Repartition<uint32_t, D> d32;
   const hn::Rebind<uint8_t, decltype(d32)> d_packed;
   const size_t lanes = hn::Lanes(d32);
-  // Gathers the low bits of four bytes in the highest one: no two products share a bit.
+  // Multiplication by this factor gathers the low two bits of four bytes in the highest byte. No two products share a
+  // bit.
   constexpr uint32_t factor = 0x40100401;
   const V from0 = hn::Set(d, bits.from[0]), from1 = hn::Set(d, bits.from[1]), from2 = hn::Set(d, bits.from[2]);
   const V to0 = hn::Set(d, bits.to[0]), to1 = hn::Set(d, bits.to[1]), to2 = hn::Set(d, bits.to[2]);

@@ -1,4 +1,4 @@
-// Rows of bytes against the plain loops, with every instruction set that this processor has.
+// Compares the functions on rows of bytes with plain loops, for every instruction set of this processor.
 #include "base/math/byte_rows.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-// Stretches of a few values, most of them short.
+// Returns stretches of a few values, most of them short.
 Bytes random_bytes(size_t count, std::mt19937& random) {
   Bytes bytes;
   while (bytes.size() < count) {
@@ -64,7 +64,7 @@ TEST(ByteRows, FindsWhereSixteenAreEqual) {
     if (found + 16 <= bytes.size()) {
       ASSERT_TRUE(is_equal(bytes, found, 16));
     }
-    // What is before may be sixteen, but not 32.
+    // An earlier stretch may have 16 equal bytes, but not 32.
     for (size_t begin = 0; begin + 32 <= std::min(bytes.size(), found + 16); ++begin)
       ASSERT_FALSE(is_equal(bytes, begin, 32) && begin + 32 <= found) << begin << " " << found;
   });

@@ -1,4 +1,4 @@
-// Cubic curves as chains of straight lines.
+// Conversion of cubic curves to chains of straight lines.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace ombre {
 
-// A Bézier curve: its ends, and the points between that pull it.
+// A cubic Bézier curve with end points a and d and control points b and c.
 template <class Vec>
 struct Cubic {
   Vec a, b, c, d;
@@ -20,8 +20,8 @@ struct Cubic {
   }
 };
 
-// Appends points of the curve behind its first, so close that no chord lies farther from it than `tolerance`: that is
-// an eighth of the square of a step, times the greatest second derivative.
+// Appends points of the curve after its start. No chord lies farther from the curve than `tolerance`: its distance is
+// at most the squared step times the greatest second derivative, divided by 8.
 template <class Vec>
 void append_chords(const Cubic<Vec>& curve, double tolerance, std::vector<Vec>& points) {
   constexpr double most_steps = 1000;

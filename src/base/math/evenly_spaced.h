@@ -1,4 +1,4 @@
-// A few of a long list.
+// A selection of a few elements of a long list.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace ombre {
 
-// Up to `most` elements, evenly spaced, each in the middle of its share.
+// Returns up to `most` elements at even spacing, each from the middle of its share of the list.
 template <class T>
 std::vector<T> evenly_spaced(const std::vector<T>& all, size_t most) {
   const size_t count = std::min(all.size(), most);

@@ -1,4 +1,4 @@
-// Boxes of indices: voxels of a lattice.
+// Boxes of voxel indices.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace ombre {
 
-// Indices [lo, hi) on each axis; they may be negative.
+// A box of indices in [lo, hi) on each axis. Indices may be negative.
 struct IndexBox {
   std::array<int64_t, 3> lo{}, hi{};
 

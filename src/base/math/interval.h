@@ -1,4 +1,4 @@
-// Closed intervals that enclose every rounded result: lower ends are rounded down, upper ends up.
+// Closed intervals that enclose every rounded result: the lower end is rounded down, the upper end up.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Interval {
   Interval(double value) : lo(value), hi(value) {}  // NOLINT: a number is an interval
   Interval(double low, double high) : lo(low), hi(high) {}
 
-  // What can be said of a value of which nothing is known. It may also be NaN.
+  // The interval of a value about which nothing is known. The value may also be NaN.
   static Interval everything() {
     constexpr double inf = std::numeric_limits<double>::infinity();
     return {-inf, inf};
@@ -31,7 +31,7 @@ inline bool lacks_zero(Interval v) { return v.lo > 0 || v.hi < 0; }
 inline Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 inline double round_down(double v) { return std::nextafter(v, -std::numeric_limits<double>::infinity()); }
 inline double round_up(double v) { return std::nextafter(v, std::numeric_limits<double>::infinity()); }
-// Widens by a unit in the last place on both sides; an end that is not a number becomes an infinity.
+// Widens the interval by one unit in the last place on both sides. If an end is NaN, returns everything().
 inline Interval outward(double lo, double hi) {
   if (std::isnan(lo) || std::isnan(hi)) return Interval::everything();
   return {round_down(lo), round_up(hi)};

@@ -1,9 +1,8 @@
 // Interval versions of the elementary functions.
 //
-// Sums, products, quotients and roots are correctly rounded, and rounding never changes an order: their
-// values at the ends enclose all others as they are.
-// A function with an error of one unit in the last place, evaluated at the ends of an interval on
-// which it is monotonic, is enclosed by those values widened by two units.
+// Sums, products, quotients and roots are correctly rounded, and rounding preserves order: results at the ends of the
+// intervals enclose all others without widening. A function with an error of one unit in the last place that is
+// monotonic on an interval is enclosed by its values at the ends, widened by two units.
 #include <iterator>
 #include <numbers>
 
@@ -19,7 +18,7 @@ Interval widen(double lo, double hi) {
   return outward(once.lo, once.hi);
 }
 
-// Infinite ends can meet in a NaN.
+// Returns everything() if an end is NaN, as it is when infinities cancel.
 Interval ordered(double lo, double hi) {
   return std::isnan(lo) || std::isnan(hi) ? Interval::everything() : Interval(lo, hi);
 }
@@ -31,14 +30,14 @@ Interval increasing(Interval v, F f) {
   return v.is_everything() ? v : widen(f(v.lo), f(v.hi));
 }
 
-// Does some phase + 2 pi n lie in v? Errs towards yes.
+// True if v may contain phase + 2 pi n for an integer n; the tolerance errs towards true.
 bool meets(Interval v, double phase) {
   const double slack = 1e-9 * (1 + std::max(std::abs(v.lo), std::abs(v.hi)));
   const double n = std::ceil((v.lo - slack - phase) / (2 * pi));
   return phase + 2 * pi * n <= v.hi + slack;
 }
 
-// A truth value known only in part.
+// Returns 1 if surely true, 0 if never true, else [0, 1].
 Interval truth_of(bool surely, bool never) { return surely ? Interval(1) : never ? Interval(0) : Interval(0, 1); }
 
 }  // namespace
@@ -50,13 +49,13 @@ Interval negate(Interval v) { return {-v.hi, -v.lo}; }
 Interval multiply(Interval a, Interval b) {
   const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
   if (std::isnan(p) || std::isnan(q) || std::isnan(r) || std::isnan(s)) return Interval::everything();
-  // An unbounded factor can meet a zero inside the other one.
+  // An unbounded factor times a zero inside the other factor is NaN.
   if (!a.is_bounded() && !lacks_zero(b)) return Interval::everything();
   if (!b.is_bounded() && !lacks_zero(a)) return Interval::everything();
   return {std::min({p, q, r, s}), std::max({p, q, r, s})};
 }
 
-// Rounded once, which keeps the order: the extremes are at corners.
+// A fused multiply-add is rounded once, which preserves order, so the extremes are at corners.
 Interval fma(Interval a, Interval b, Interval c) {
   if (multiply(a, b).is_everything()) return Interval::everything();
   const double corners[] = {std::fma(a.lo, b.lo, c.lo), std::fma(a.lo, b.hi, c.lo), std::fma(a.hi, b.lo, c.lo),
@@ -129,7 +128,7 @@ Interval atan2(Interval y, Interval x) {
   if (!y.is_bounded() || !x.is_bounded()) return Interval::everything();
   const bool crosses_cut = x.lo <= 0 && y.lo <= 0 && y.hi >= 0;
   if (crosses_cut) return {-round_up(pi), round_up(pi)};
-  // Away from the cut and the origin the extremes are at corners.
+  // Away from the branch cut and the origin the extremes are at corners.
   const double a = atan2(y.lo, x.lo), b = atan2(y.lo, x.hi), c = atan2(y.hi, x.lo), d = atan2(y.hi, x.hi);
   return widen(std::min({a, b, c, d}), std::max({a, b, c, d}));
 }
@@ -166,7 +165,7 @@ Interval log2(Interval v) {
 Interval pow(Interval base, Interval exponent) {
   if (base.lo < 0 || !base.is_bounded() || !exponent.is_bounded()) return Interval::everything();
   if (base.lo == 0 && exponent.lo <= 0) return Interval::everything();
-  // Monotonic in each operand for a non-negative base: the extremes are at corners.
+  // For a non-negative base the function is monotonic in each operand, so the extremes are at corners.
   const double a = pow(base.lo, exponent.lo), b = pow(base.lo, exponent.hi);
   const double c = pow(base.hi, exponent.lo), d = pow(base.hi, exponent.hi);
   const Interval r = widen(std::min({a, b, c, d}), std::max({a, b, c, d}));
@@ -182,7 +181,7 @@ Interval abs(Interval v) {
 
 Interval sqrt(Interval v) {
   if (v.lo < 0) return Interval::everything();
-  return {std::sqrt(v.lo), std::sqrt(v.hi)};  // correctly rounded, hence monotonic
+  return {std::sqrt(v.lo), std::sqrt(v.hi)};  // correct rounding keeps the root monotonic
 }
 
 Interval floor(Interval v) { return {std::floor(v.lo), std::floor(v.hi)}; }
@@ -192,7 +191,7 @@ Interval round(Interval v) { return {std::round(v.lo), std::round(v.hi)}; }
 
 Interval mod(Interval a, Interval b) {
   if (!a.is_bounded() || !b.is_bounded() || !lacks_zero(b)) return Interval::everything();
-  // One divisor and one period: the remainder grows with the dividend.
+  // The remainder grows with the dividend if there is a single divisor and the quotient does not change.
   if (b.is_point() && std::trunc(a.lo / b.lo) == std::trunc(a.hi / b.lo) && (a.lo >= 0 || a.hi <= 0)) {
     const double lo = std::fmod(a.lo, b.lo), hi = std::fmod(a.hi, b.lo);
     if (lo <= hi) return {lo, hi};
@@ -210,7 +209,7 @@ Interval square(Interval v) {
 Interval min(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 Interval max(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
-// A value that may be NaN is "everything", for which neither case is ever certain.
+// A value that may be NaN has the interval everything(), so comparisons with it are never certain.
 Interval less(Interval a, Interval b) {
   return truth_of(a.hi < b.lo, !a.is_everything() && !b.is_everything() && a.lo >= b.hi);
 }

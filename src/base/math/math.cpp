@@ -18,7 +18,7 @@ double exp(double v) { return Sleef_cinz_expd1_u10purec(v); }
 double log(double v) { return Sleef_cinz_logd1_u10purec(v); }
 double log10(double v) { return Sleef_cinz_log10d1_u10purec(v); }
 double log2(double v) { return Sleef_cinz_log2d1_u10purec(v); }
-// Whole powers of whole numbers are exact while doubles hold them: 10^2 is 100.
+// Computes integer powers of integers by repeated multiplication, which is exact up to 2^53: 10^2 is 100.
 double pow(double base, double exponent) {
   constexpr double largest_exact = 0x1p53;
   if (base == std::trunc(base) && exponent == std::trunc(exponent) && std::abs(exponent) <= 53) {

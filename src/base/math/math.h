@@ -1,6 +1,6 @@
-// Elementary functions with the same bits on every machine, and their interval versions.
+// Elementary functions with bit-identical results on every machine, and their interval versions.
 //
-// libm picks its code by processor, so its last bit differs between machines; these go to SLEEF's
+// libm selects its code by processor, so its last bit differs between machines. These functions call SLEEF's
 // deterministic ("cinz") scalar family, whose error is at most one unit in the last place.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace ombre::math {
 
-inline constexpr double degree = std::numbers::pi / 180;  // in radians
+inline constexpr double degree = std::numbers::pi / 180;  // one degree in radians
 
 double sin(double v);
 double cos(double v);
@@ -29,17 +29,17 @@ double log2(double v);
 double pow(double base, double exponent);
 
 inline double abs(double v) { return std::fabs(v); }
-inline double sqrt(double v) { return std::sqrt(v); }  // correctly rounded everywhere
+inline double sqrt(double v) { return std::sqrt(v); }  // IEEE 754 requires correct rounding
 inline double floor(double v) { return std::floor(v); }
 inline double ceil(double v) { return std::ceil(v); }
 inline double trunc(double v) { return std::trunc(v); }
-inline double round(double v) { return std::round(v); }  // halves away from zero
+inline double round(double v) { return std::round(v); }  // halves are rounded away from zero
 inline double mod(double a, double b) { return std::fmod(a, b); }
 inline double square(double v) { return v * v; }
-// A value that is not a number loses against one that is.
+// If one operand is NaN, min and max return the other one.
 inline double min(double a, double b) { return std::isnan(a) || b < a ? b : a; }
 inline double max(double a, double b) { return std::isnan(a) || b > a ? b : a; }
-// Truth values are 1 and 0; comparisons with a NaN are false.
+// Truth values are 1 and 0. Comparisons with NaN are false.
 inline double less(double a, double b) { return a < b ? 1 : 0; }
 inline double less_equal(double a, double b) { return a <= b ? 1 : 0; }
 inline double equal(double a, double b) { return a == b ? 1 : 0; }
@@ -47,14 +47,14 @@ inline double truth(double v) { return v != 0 ? 1 : 0; }
 inline double logical_not(double v) { return v != 0 ? 0 : 1; }
 inline double logical_and(double a, double b) { return a != 0 && b != 0 ? 1 : 0; }
 inline double logical_or(double a, double b) { return a != 0 || b != 0 ? 1 : 0; }
-inline double fma(double a, double b, double c) { return std::fma(a, b, c); }  // rounded once
-// What part is of a total that holds it; 0 of a total of 0, so that nothing divided by nothing is a number.
+inline double fma(double a, double b, double c) { return std::fma(a, b, c); }  // a single rounding
+// Returns part / total, at most 1. Returns 0 if the total is 0, so that 0 / 0 does not give NaN.
 inline double share(double part, double total) { return !(total > 0) ? 0 : part / total > 1 ? 1 : part / total; }
 inline double select(double condition, double a, double b) { return condition != 0 ? a : b; }
 inline double is_finite(double v) { return std::isfinite(v) ? 1 : 0; }
 
-// Intervals. Each result contains every rounded value the double version can give on the operands;
-// where that may be NaN the result is everything().
+// Interval versions. Each result contains every rounded value that the double version can return for operands in the
+// intervals. If that value may be NaN, the result is everything().
 Interval add(Interval a, Interval b);
 Interval subtract(Interval a, Interval b);
 Interval multiply(Interval a, Interval b);

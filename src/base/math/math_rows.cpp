@@ -18,7 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace ombre::math::HWY_NAMESPACE {
 namespace {
 
-// SLEEF declares its functions for the instruction sets that the compiler may use everywhere, which are not these.
+// The vector functions are declared here, since SLEEF's header declares only those for instruction sets that the
+// compiler may use in the whole file.
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_AVX2

@@ -1,4 +1,4 @@
-// Elementary functions of rows of numbers: the bits of math.h, some at a time.
+// Elementary functions of rows of numbers, vectorised; results are bit-identical to those of math.h.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace ombre::math {
 
-// out[n] = f(in[n]); both may be the same.
+// Computes out[n] = f(in[n]). `in` and `out` may be the same.
 using RowFunction = void (*)(const double* in, double* out, size_t count);
 
 #define OMBRE_ELEMENTARY_FUNCTIONS(F) \
@@ -18,7 +18,7 @@ struct RowFunctions {
 #undef OMBRE_ROW_FUNCTION
 };
 
-// For each instruction set that this processor has, the best first; all give the same.
+// Returns the functions for each instruction set of this processor, the fastest first. All give the same results.
 const std::vector<RowFunctions>& row_functions();
 
 }  // namespace ombre::math

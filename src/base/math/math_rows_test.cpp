@@ -1,4 +1,4 @@
-// The bits of math.h, with every instruction set that this processor has.
+// Compares rows of numbers with math.h bit by bit, for every instruction set of this processor.
 #include "base/math/math_rows.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::vector<double> numbers() {
                           std::numeric_limits<double>::max()};
   std::mt19937_64 random(5);
   for (int n = 0; n < 100000; ++n) {
-    all.push_back(std::bit_cast<double>(random()));  // of any size, some not numbers
+    all.push_back(std::bit_cast<double>(random()));  // any magnitude, including infinities and NaN
     all.push_back(std::uniform_real_distribution(-20.0, 20.0)(random));
     all.push_back(std::uniform_real_distribution(-1.0, 1.0)(random));
     all.push_back(std::uniform_real_distribution(-1e6, 1e6)(random));

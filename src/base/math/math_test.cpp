@@ -1,4 +1,4 @@
-// Elementary functions against long double libm, which has eleven more bits.
+// Compares elementary functions with long double libm, which has eleven more bits.
 #include "base/math/math.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Function {
   double lo, hi;
 };
 
-// The error in units of the last place of the true value.
+// Returns the error in units in the last place of the true value.
 double error_ulp(double value, long double truth) {
   const auto nearest = static_cast<double>(truth);
   if (std::isinf(nearest) || nearest == 0) return value == nearest ? 0 : 1e9;
@@ -146,7 +146,7 @@ TEST(Math, ComparisonsAndLogic) {
   EXPECT_EQ(math::less(nan, nan), 0);
   EXPECT_EQ(math::less_equal(nan, nan), 0);
   EXPECT_EQ(math::equal(nan, nan), 0);
-  EXPECT_EQ(math::truth(nan), 1);  // nan is not zero
+  EXPECT_EQ(math::truth(nan), 1);  // NaN is not zero, so it counts as true
   EXPECT_EQ(math::logical_and(2, -1), 1);
   EXPECT_EQ(math::logical_or(0, 0), 0);
   EXPECT_EQ(math::logical_not(0.5), 0);

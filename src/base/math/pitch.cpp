@@ -9,18 +9,19 @@
 namespace ombre {
 namespace {
 
-constexpr int64_t largest = int64_t{1} << 52;  // both terms stay exact as doubles
+constexpr int64_t largest = int64_t{1} << 52;  // terms up to here, and their sums, are exact as doubles
 constexpr auto largest_term = static_cast<double>(largest);
 
 struct Ratio {
   int64_t numerator, denominator;
 };
 
-// Fewer digits were written by a person, who meant them; more may be what is left of a ratio such as 25.4/300.
+// A decimal of at most this many digits is taken as typed by a person and exact. A longer one may be the rounded value
+// of a ratio such as 25.4/300.
 constexpr int most_digits_of_persons = 7;
 
-// The fractions that approximate a number best, ever nearer to it, until one will do. Nothing when their terms become
-// too large.
+// Computes the best rational approximations of a number, each closer than the one before, and returns the first that
+// `will_do` accepts. Returns nothing if the terms become too large first.
 template <class WillDo>
 std::optional<Ratio> nearest_fraction(double value, const WillDo& will_do) {
   Ratio before{0, 1}, here{1, 0};
@@ -42,16 +43,16 @@ std::optional<Ratio> nearest_fraction(double value, const WillDo& will_do) {
 
 double value_of(Ratio ratio) { return static_cast<double>(ratio.numerator) / static_cast<double>(ratio.denominator); }
 
-// Its digits as written: "0.027" -> 27/1000.
+// A decimal number as written: "0.027" is 27/1000.
 struct Decimal {
-  std::optional<Ratio> ratio;  // nothing where its terms are too large
+  std::optional<Ratio> ratio;  // nothing if its terms are too large
   double value = 0;
-  int digits = 0;       // from the first that is not 0 to the last
-  int last_places = 0;  // of the last digit that is not 0: -3 of 0.027
+  int digits = 0;       // digits from the first to the last that is not 0
+  int last_places = 0;  // decimal exponent of the last digit that is not 0: -3 for 0.027
 };
 
-// A simple ratio that the number is but for rounding, of a computation or of its last digit. Fractions with such
-// denominators lie so far apart that one in a hundred numbers is near to one by chance.
+// Returns the simple ratio that differs from the number only by rounding, in a computation or in its last digit. Ratios
+// with such small denominators are so sparse that only one number in a hundred is near one by chance.
 std::optional<Ratio> simple_ratio(const Decimal& decimal) {
   constexpr double largest_denominator = 1e6, chance = 0.01;
   const double rounding = 4 * (std::nextafter(decimal.value, HUGE_VAL) - decimal.value);
@@ -65,7 +66,7 @@ std::optional<Ratio> simple_ratio(const Decimal& decimal) {
   return is_simple ? ratio : std::nullopt;
 }
 
-// Moves the point of a ratio by as many places; false when its terms become too large.
+// Multiplies the ratio by 10^places. Returns false if its terms become too large.
 bool shift(Ratio& ratio, int places) {
   for (; places != 0; places += places > 0 ? -1 : 1) {
     int64_t& term = places > 0 ? ratio.numerator : ratio.denominator;
@@ -75,7 +76,7 @@ bool shift(Ratio& ratio, int places) {
   return true;
 }
 
-// Digits with a point, perhaps, and an exponent, perhaps.
+// Reads digits with an optional decimal point and an optional exponent.
 std::optional<Decimal> read_decimal(std::string_view text) {
   const size_t e = text.find_first_of("eE");
   const std::string_view mantissa = text.substr(0, e);
@@ -115,7 +116,7 @@ std::optional<Ratio> decimal(std::string_view text) {
 }
 
 std::optional<Pitch> quotient(Ratio a, Ratio b) {
-  // a.n/a.d : b.n/b.d, with the common factors taken out first so that the products stay small.
+  // Computes (a.n/a.d) / (b.n/b.d). Common factors are divided out first so that the products stay small.
   const int64_t g = std::gcd(a.numerator, b.numerator), h = std::gcd(a.denominator, b.denominator);
   const int64_t n1 = a.numerator / g, n2 = b.denominator / h, d1 = a.denominator / h, d2 = b.numerator / g;
   if (n1 > largest / n2 || d1 > largest / d2) return std::nullopt;

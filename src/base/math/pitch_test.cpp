@@ -60,7 +60,7 @@ TEST(Pitch, MillimetresMeanTheirShortestDecimal) {
   for (const auto& [mm, meant] : meanings) expect_ratio(Pitch::from_mm(mm), meant);
 }
 
-// A program that divided wrote these, in double precision or with fewer digits.
+// A program wrote these quotients in double precision or with fewer digits.
 TEST(Pitch, ComputedTextIsTheRatioThatWasMeant) {
   const Meaning meanings[] = {{"0.08466666666666667", 127, 1500},  {"0.0846666666666667", 127, 1500},
                               {"0.084666666667", 127, 1500},       {"0.042333333", 127, 3000},
@@ -83,7 +83,7 @@ TEST(Pitch, ComputedMillimetresAreTheRatioThatWasMeant) {
       EXPECT_EQ(Pitch::from_mm(static_cast<double>(n) / static_cast<double>(d)), Pitch::from_ratio(n, d));
 }
 
-// Without such a ratio it is the number itself.
+// A number that is no simple ratio keeps its value.
 TEST(Pitch, AnyMillimetresAreKept) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> exponent(-4, 4);
@@ -151,7 +151,7 @@ TEST(Pitch, TextReadsBack) {
 
   std::mt19937_64 random(1);
   for (int i = 0; i < 20000; ++i) {
-    // Small and large terms alike.
+    // The terms cover all magnitudes alike.
     const auto term = [&] { return static_cast<int64_t>(1 + (random() >> (13 + random() % 50))); };
     const auto pitch = Pitch::from_ratio(term(), term());
     if (!pitch) continue;
@@ -163,18 +163,19 @@ TEST(Pitch, TextReadsBack) {
 
 TEST(Pitch, LargeIndicesAreRoundedOnce) {
   const Pitch pitch = *Pitch::from_dpi("600");
-  // 11575 voxels of 127/3000 mm: 1470025/3000 = 490 + 25/3000 mm. A product with 0.0423 would be off by 0.4 mm.
+  // 11575 voxels of 127/3000 mm make 1470025/3000 = 490 + 25/3000 mm. A product with 0.0423 would be off by 0.4 mm.
   EXPECT_EQ(pitch.times(11575), 1470025.0 / 3000.0);
-  // 3000 voxels are 127 mm, whatever the multiple.
+  // Each 3000 voxels make exactly 127 mm.
   for (int n = 0; n < 5000; ++n) EXPECT_EQ(pitch.times(3000.0 * n), 127.0 * n);
-  // Centres: (i + 1/2) p rounded once is the long double quotient rounded once more, which may only differ on ties.
+  // The centre (i + 1/2) p, rounded once, equals the long double quotient rounded a second time, which may differ only
+  // on ties.
   for (int i = 0; i < 20000; ++i)
     EXPECT_EQ(pitch.times(i + 0.5), static_cast<double>((i + 0.5L) * 127.0L / 3000.0L)) << i;
   EXPECT_EQ(pitch.mm(), 127.0 / 3000.0);
 }
 
 TEST(Pitch, DotsPerMetre) {
-  // 600 dots on 0.0254 m are 23622.047... on one metre.
+  // 600 dots per 0.0254 m are 23622.047... per metre.
   EXPECT_DOUBLE_EQ(Pitch::from_dpi("600")->dots_per_metre(), 600 / 0.0254);
   EXPECT_EQ(Pitch::from_mm(0.1)->dots_per_metre(), 10000);
 }

@@ -11,14 +11,14 @@
 namespace ombre {
 namespace {
 
-// Of points in a plane, relative to how far they lie apart.
+// Points count as coplanar if their distance from a plane is at most this fraction of their extent.
 constexpr double flattest = 1e-9;
 
 std::string counted(size_t least, size_t count) {
   return "at least " + std::to_string(least) + " points are needed, found " + std::to_string(count);
 }
 
-// Two that are the same, by their numbers.
+// Returns the indices of two equal points, or nothing.
 std::optional<std::array<size_t, 2>> find_twins(std::span<const Vec3> points) {
   std::vector<size_t> order(points.size());
   std::iota(order.begin(), order.end(), size_t{0});

@@ -1,4 +1,4 @@
-// Checks of the points from which hulls, edges and tubes are made.
+// Checks of points from which hulls, edges and tubes are made.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ namespace ombre {
 
 inline constexpr size_t most_set_points = 100'000;
 
-// Returns what is wrong with the points, in words for people, or "" where they can be used: there are at least
-// `least`, all finite, not all in one plane, and no two in one place unless `may_repeat`.
+// Returns what is wrong with the points, as text for a message, or "" if they can be used. There must be at least
+// `least` points, all finite, not all in one plane, and no two equal unless `may_repeat`.
 std::string problem_of_points(std::span<const Vec3> points, size_t least, bool may_repeat);
 
 }  // namespace ombre

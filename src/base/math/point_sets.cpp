@@ -1,4 +1,4 @@
-// Point sets by Qhull.
+// Convex hulls, Delaunay and Voronoi edges, computed by Qhull.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -17,7 +17,7 @@ extern "C" {
 namespace ombre {
 namespace {
 
-// One run of Qhull over points; its facets live as long.
+// A run of Qhull over points. Its facets are valid as long as the object lives.
 class Qhull {
  public:
   Qhull(std::span<const Vec3> points, const char* command)
@@ -45,7 +45,7 @@ class Qhull {
     for (facetT* facet = qh_.facet_list; facet && facet->next; facet = facet->next) visit(*facet);
   }
 
-  // The numbers of its points, ascending, without the one at infinity.
+  // Returns the indices of the facet's points in ascending order, without the point at infinity.
   std::vector<size_t> corners(const facetT& facet) {
     std::vector<size_t> numbers;
     for_each<vertexT>(facet.vertices, [&](const vertexT& vertex) {
@@ -83,7 +83,7 @@ constexpr const char* no_answer = "the points are too close to a plane, a line o
 
 bool is_before(Vec3 a, Vec3 b) { return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z}; }
 
-// Ends and edges in the order of their coordinates.
+// Sorts the ends of each edge, then the edges, by coordinates.
 void put_in_order(std::vector<Edge3>& edges) {
   for (Edge3& edge : edges)
     if (is_before(edge[1], edge[0])) std::swap(edge[0], edge[1]);
@@ -92,7 +92,7 @@ void put_in_order(std::vector<Edge3>& edges) {
   });
 }
 
-// What of the line from + t * way, t in [0, most], lies in the box.
+// Returns the part of the line from + t * way, t in [0, most], that lies in the box.
 std::optional<Edge3> cut(Vec3 from, Vec3 way, double most, const Box& box) {
   double begin = 0, end = most;
   for (int axis = 0; axis < 3; ++axis) {
@@ -115,7 +115,8 @@ Vec3 mean_of(std::span<const Vec3> points) {
   return (1 / static_cast<double>(points.size())) * sum;
 }
 
-// At a right angle to the face that two cells have in common, away from `middle`. Nothing when it has no area.
+// Returns the normal of the face shared by two Voronoi cells, pointing away from `middle`; nothing if the face has no
+// area.
 std::optional<Vec3> outward(std::span<const Vec3> points, const std::vector<size_t>& corners, Vec3 middle) {
   if (corners.size() < 3) return std::nullopt;
   const Vec3 a = points[corners[0]];

@@ -1,4 +1,4 @@
-// Hulls, Delaunay and Voronoi edges of points in space.
+// Convex hulls and Delaunay and Voronoi edges of points in space.
 #pragma once
 
 #include <array>
@@ -11,32 +11,33 @@
 
 namespace ombre {
 
-// Behind it lies the side where dot(normal, p) <= offset; the normal has length one.
+// A plane with a normal of length one. The inner side has dot(normal, p) <= offset.
 struct Plane {
   Vec3 normal;
   double offset = 0;
 };
 
-// Two points, each of a point set's or between them.
+// The two ends of an edge.
 using Edge3 = std::array<Vec3, 2>;
 
-// What was asked for, or what is wrong with the points, for people; in an order that follows from the points alone.
+// A list that is computed from points, or what is wrong with the points, as text for a message. The order of the list
+// depends on the points alone.
 template <class T>
 struct OfPoints {
   std::vector<T> list;
   std::string problem;
 };
 
-// False where this was built without the library that knows them.
+// False if this build lacks the library that computes hulls and edges.
 bool knows_point_sets();
 
-// The planes of the convex hull, one for each face.
+// Returns one plane for each face of the convex hull.
 OfPoints<Plane> hull_planes(std::span<const Vec3> points);
-// Of the tetrahedra around whose corners no other point lies; where more than four points lie on a sphere, one way of
-// cutting what is between them.
+// Returns the edges of the tetrahedra whose circumspheres contain no other point. If more than four points lie on a
+// sphere, one of the possible triangulations is used.
 OfPoints<Edge3> delaunay_edges(std::span<const Vec3> points);
-// Where three or more of the points are equally near and no other is nearer. Edges without an end are left out, but
-// with a box all are there, cut at its sides.
+// Returns the edges on which three or more points are equally near and no other point is nearer. Edges that extend to
+// infinity are left out, or are cut at the sides of `box` if it is given.
 OfPoints<Edge3> voronoi_edges(std::span<const Vec3> points, const std::optional<Box>& box);
 
 }  // namespace ombre

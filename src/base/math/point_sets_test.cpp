@@ -38,14 +38,14 @@ struct Tetrahedron {
   Vec3 center;
 };
 
-// By Cramer's rule from |c - p0| = |c - pi|.
+// Solves |c - p0| = |c - pi| by Cramer's rule.
 Vec3 circumcenter(Vec3 p0, Vec3 p1, Vec3 p2, Vec3 p3) {
   const Vec3 a = p1 - p0, b = p2 - p0, c = p3 - p0;
   const double volume = 2 * dot(a, cross(b, c));
   return p0 + (1 / volume) * (dot(a, a) * cross(b, c) + dot(b, b) * cross(c, a) + dot(c, c) * cross(a, b));
 }
 
-// All four points whose sphere holds no other: the definition.
+// Returns all sets of four points whose circumsphere contains no other point, by definition.
 std::vector<Tetrahedron> tetrahedra(const std::vector<Vec3>& points) {
   std::vector<Tetrahedron> found;
   for (size_t a = 0; a < points.size(); ++a)
@@ -138,13 +138,13 @@ TEST_F(PointSets, VoronoiEdgesJoinSpheresOfNeighbours) {
     for (const Edge3& edge : expected)
       EXPECT_TRUE(
           std::any_of(edges.list.begin(), edges.list.end(), [&](const Edge3& e) { return are_close(e, edge); }));
-    // In a box without end, each triangle has its edge.
+    // In a box that is large enough, each triangle has its edge.
     const auto all = voronoi_edges(points, Box::centered({1e6, 1e6, 1e6}));
     EXPECT_EQ(all.list.size(), triangles.size());
   }
 }
 
-// All along, three points are equally near and none is nearer.
+// At every position of an edge, three points are equally near and none is nearer.
 TEST_F(PointSets, VoronoiEdgesInABoxAreEquallyFar) {
   const auto points = random_points(77, 40);
   const Box box = Box::centered({6, 6, 6});
@@ -164,15 +164,15 @@ TEST_F(PointSets, VoronoiEdgesInABoxAreEquallyFar) {
   EXPECT_GT(at_sides, 20u);
 }
 
-// Eight points on each sphere: cells meet in the middles of the cubes.
+// Eight points lie on each sphere, and Voronoi cells meet at the centres of the cubes.
 TEST_F(PointSets, GridsHaveEdgesOfCubes) {
   const auto edges = voronoi_edges(grid(3), std::nullopt);
   ASSERT_EQ(edges.list.size(), 12u);
   for (const auto& [from, to] : edges.list) EXPECT_NEAR(length(to - from), 1, 1e-9);
-  // Lines through the middles of cubes, from side to side: 4 along each axis, of three pieces each.
+  // Lines through the centres of cubes, from side to side: 4 along each axis, each in three pieces.
   const auto in_box = voronoi_edges(grid(3), Box{{-1, -1, -1}, {3, 3, 3}});
   EXPECT_EQ(in_box.list.size(), 36u);
-  // The cube's own edges are the shortest, and must be there however the cubes are cut.
+  // The edges of the cubes are the shortest, and must exist in any triangulation.
   const auto delaunay = delaunay_edges(grid(3));
   const auto shortest = std::count_if(delaunay.list.begin(), delaunay.list.end(),
                                       [](const Edge3& e) { return std::abs(length(e[1] - e[0]) - 1) < 1e-12; });

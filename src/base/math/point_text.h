@@ -1,4 +1,4 @@
-// Points in messages.
+// Text of points for messages.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace ombre {
 
-// "(1, 2.5, -3)".
+// Returns a point as text: "(1, 2.5, -3)".
 inline std::string format_point(Vec3 p, int digits = 4) {
   return "(" + format_rounded(p.x, digits) + ", " + format_rounded(p.y, digits) + ", " + format_rounded(p.z, digits) +
          ")";

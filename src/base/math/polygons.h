@@ -1,4 +1,4 @@
-// Regions of a plane that polygons bound; mm.
+// Regions of a plane that are bounded by polygons; lengths in mm.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace ombre {
 
-// Its last point is joined to its first.
+// A closed polygon: its last point is joined to its first.
 using Ring = std::vector<Vec2>;
 
-// Inside is where the winding number of `solid` is not 0, and that of `holes` is.
+// A region of the plane: the points where the winding number of `solid` is not 0 and that of `holes` is 0.
 struct Polygons {
   std::vector<Ring> solid, holes;
 };
 
-// Twice the area that the ring goes round, negative where it goes clockwise.
+// Returns twice the signed area of the ring, negative if it is clockwise.
 inline double doubled_area(const Ring& ring) {
   double sum = 0;
   for (size_t n = 0; n < ring.size(); ++n) {

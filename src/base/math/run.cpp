@@ -12,7 +12,8 @@
 namespace ombre {
 namespace {
 
-// Comparing with more takes as long as looking each voxel up: to count them, and to see that there are no others.
+// Largest number of materials that are counted, or sought, by comparing whole rows. With more materials, processing
+// each voxel is as fast.
 constexpr size_t most_compared = 6, most_sought = 16;
 
 uint64_t word_at(const MaterialId* voxels) {
@@ -21,18 +22,18 @@ uint64_t word_at(const MaterialId* voxels) {
   return word;
 }
 
-// Voxels at the lower end of a word come first.
+// The first voxels lie in the low bytes of a word.
 static_assert(std::endian::native == std::endian::little);
 int equal_from_above(uint64_t differences) { return std::countl_zero(differences) / 8; }
 
 uint64_t repeated(MaterialId material) { return 0x0101010101010101 * uint64_t{material}; }
 
-// The end of the stretch of equal voxels that begins at `from`.
+// Returns the end of the stretch of equal voxels that begins at `from`.
 const MaterialId* stretch_end(const MaterialId* from, const MaterialId* end) {
   return from + equal_at_begin({from, end});
 }
 
-// The begin of the stretch of equal voxels that ends before `end`.
+// Returns the start of the stretch of equal voxels that ends before `end`.
 const MaterialId* stretch_begin(const MaterialId* from, const MaterialId* end) {
   const uint64_t pattern = repeated(end[-1]);
   const MaterialId* at = end;
@@ -42,7 +43,7 @@ const MaterialId* stretch_begin(const MaterialId* from, const MaterialId* end) {
   return at;
 }
 
-// The first stretch that is long enough for a run; empty, at `end`, if there is none.
+// Returns the first stretch that is long enough for a run, or an empty one at `end`.
 std::span<const MaterialId> find_run(const MaterialId* from, const MaterialId* end) {
   static_assert(RunLayer::shortest_run >= 32);
   for (const MaterialId* at = from;; at += 16) {
@@ -54,7 +55,7 @@ std::span<const MaterialId> find_run(const MaterialId* from, const MaterialId* e
   }
 }
 
-// How often each material occurs among loose voxels.
+// Counts the voxels of each material in dense stretches.
 class VoxelCounter {
  public:
   void count(std::span<const MaterialId> voxels) {
@@ -69,7 +70,7 @@ class VoxelCounter {
   }
 
  private:
-  // Counts nothing if there are others than the usual ones.
+  // Returns false and counts nothing if there are materials other than the usual ones.
   bool count_usual(std::span<const MaterialId> voxels) {
     std::array<size_t, most_compared> counts{};
     size_t left = voxels.size();
@@ -79,7 +80,8 @@ class VoxelCounter {
     return true;
   }
 
-  // Neighbours are often equal, and one counter takes its time between two additions: so there are several.
+  // Uses eight tables of counters: neighbours are often equal, and repeated additions to one counter would wait for
+  // each other.
   void count_any(std::span<const MaterialId> voxels) {
     size_t i = 0;
     for (; i + 8 <= voxels.size(); i += 8)
@@ -95,7 +97,7 @@ class VoxelCounter {
     has_many_ = usual_.size() > most_compared;
   }
 
-  std::vector<MaterialId> usual_;  // the most frequent first
+  std::vector<MaterialId> usual_;  // most frequent first
   bool has_many_ = false;
   std::array<std::array<uint64_t, 256>, 8> counts_{};
 };
@@ -146,7 +148,7 @@ void RunLayer::add(const MaterialId* voxels, uint32_t count) {
   add_uniform(*voxels, static_cast<uint32_t>(at - voxels));
   if (at == end) return;
 
-  // The last stretch stays open, the others are closed on both sides.
+  // Leaves the last stretch open; the others cannot grow any more.
   put_open();
   filled_ += static_cast<uint32_t>(end - at);
   const MaterialId* const last = stretch_begin(at, end);

@@ -1,4 +1,4 @@
-// Layers of voxels as rows of runs, with stretches of loose voxels where materials alternate.
+// Layers of voxels, stored as rows of runs, with dense stretches where materials alternate.
 #pragma once
 
 #include <array>
@@ -10,49 +10,49 @@
 
 namespace ombre {
 
-using MaterialId = uint8_t;  // 0 is void
+using MaterialId = uint8_t;  // number of a material; 0 is void
 
-// `length` voxels of one material, or, where it is dense, of a row's next `length` loose voxels.
+// A run of `length` voxels: all of one material, or, if dense, the next `length` voxels of the row's dense voxels.
 struct Run {
-  MaterialId material = 0;  // 0 where dense
+  MaterialId material = 0;  // 0 if dense
   bool is_dense = false;
   uint32_t length = 0;
   bool operator==(const Run&) const = default;
 };
 
-// A row of a layer. Its runs add up to the width; loose voxels stand one behind the other.
+// A row of a layer. The lengths of its runs add up to the width. `dense` holds the voxels of all dense runs in order.
 struct RowView {
   std::span<const Run> runs;
   std::span<const MaterialId> dense;
 
   bool has_dense() const { return !dense.empty(); }
-  // The voxels one by one; `out` holds as many as the row is wide.
+  // Writes the row's voxels to `out`, which has room for the whole width.
   void unpack(MaterialId* out) const;
   bool operator==(const RowView& other) const;
 };
 
-// One layer, row after row. Row 0 has the least y.
+// One layer, stored row by row. Row 0 has the least y.
 //
-// Stretches of `shortest_run` equal voxels and more are runs, all between them is dense. So a layer depends
-// on its voxels alone, not on the pieces in which they were appended, and no voxel takes more than a byte.
+// Stretches of `shortest_run` or more equal voxels are runs; all others are dense. Therefore a layer depends on its
+// voxels alone, not on the pieces in which they were appended, and no voxel takes more than a byte.
 class RunLayer {
  public:
   static constexpr uint32_t shortest_run = 32;
 
-  // With the height known, room for all voxels is set aside; it takes memory only where it is written to.
+  // If the height is given, address space for all voxels is reserved, which takes memory only where it is written.
   explicit RunLayer(uint32_t width = 0, uint32_t height = 0);
 
   uint32_t width() const { return width_; }
   uint32_t height() const { return static_cast<uint32_t>(ends_.size()); }
   RowView row(uint32_t j) const;
 
-  // The next piece of the row that is being appended; pieces may be empty.
+  // Appends a piece to the current row. Pieces may be empty.
   void add_uniform(MaterialId material, uint32_t count);
   void add(const MaterialId* voxels, uint32_t count);
-  // The pieces so far make up one row.
+  // Ends the current row.
   void end_row();
 
-  // Rows in one piece.
+  // Appends a whole row.
   void append_row(const MaterialId* voxels);
   void append_uniform_row(MaterialId material);
 
@@ -75,14 +75,14 @@ class RunLayer {
   std::vector<Run> runs_;
   std::vector<MaterialId> dense_;
   std::vector<RowEnd> ends_;
-  Run open_;  // the last stretch of the row, which the next piece may lengthen
+  Run open_;  // the last stretch of the row, which the next piece may extend
   uint32_t filled_ = 0;
 };
 
-// Voxels of each material in the layer, void included.
+// Returns the number of voxels of each material in the layer, void included.
 std::array<uint64_t, 256> count_materials(const RunLayer& layer);
 
-// Calls `found` once for each material of which there are voxels, void included, until it returns false.
+// Calls `found` once for each material in the layer, void included, until it returns false.
 void find_materials(const RunLayer& layer, const std::function<bool(MaterialId)>& found);
 
 }  // namespace ombre

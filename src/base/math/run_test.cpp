@@ -10,7 +10,7 @@ namespace {
 
 using Voxels = std::vector<MaterialId>;
 
-// Stretches of random material and length.
+// Returns stretches of random materials and lengths.
 Voxels random_row(uint32_t width, uint32_t materials, uint32_t longest, std::mt19937& random) {
   Voxels row;
   while (row.size() < width) {
@@ -26,7 +26,7 @@ Voxels unpack(const RunLayer& layer) {
   return all;
 }
 
-// The row in pieces of random size; pieces of one material in either way.
+// Appends the row in pieces of random size. Pieces of one material are appended by either function.
 void append_in_pieces(RunLayer& layer, const Voxels& row, std::mt19937& random) {
   for (size_t begin = 0; begin < row.size();) {
     const auto count = static_cast<uint32_t>(std::min<size_t>(row.size() - begin, random() % 50));
@@ -70,7 +70,7 @@ TEST_P(RunLayers, AreRunsExactlyWhereAStretchIsLongEnough) {
   RunLayer layer(width());
   layer.append_row(row.data());
 
-  // Voxel by voxel.
+  // Compares voxel by voxel.
   std::vector<ombre::Run> expected;
   for (size_t begin = 0; begin < row.size();) {
     const auto end = std::find_if(row.begin() + static_cast<std::ptrdiff_t>(begin), row.end(),
@@ -92,7 +92,8 @@ TEST_P(RunLayers, CountTheirMaterials) {
   std::mt19937 random(width() * 3 + longest());
   RunLayer layer(width());
   std::array<uint64_t, 256> expected{};
-  for (const uint32_t materials : {1U, 2U, 3U, 6U, 7U, 8U, 256U, 2U}) {  // more and more have come up
+  // Successive rows have different numbers of materials.
+  for (const uint32_t materials : {1U, 2U, 3U, 6U, 7U, 8U, 256U, 2U}) {
     const Voxels row = random_row(width(), materials, longest(), random);
     for (const MaterialId id : row) ++expected[id];
     layer.append_row(row.data());

@@ -1,11 +1,11 @@
-// The sRGB encoding of light, IEC 61966-2-1.
+// The sRGB transfer function, IEC 61966-2-1.
 #pragma once
 
 #include "base/math/math.h"
 
 namespace ombre {
 
-// Of a value from 0 to 1, as image files hold it, how much light that is, from 0 to 1.
+// Converts an sRGB-encoded value to linear light. Both range from 0 to 1.
 inline double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4); }
 
 }  // namespace ombre

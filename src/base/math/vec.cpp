@@ -8,7 +8,7 @@
 namespace ombre {
 namespace {
 
-// Whole quarter turns give exact zeros and ones, so that turned boxes keep their faces.
+// Multiples of 90 degrees give exact zeros and ones, so that turned boxes stay aligned with the axes.
 struct CosSin {
   double cos, sin;
 };
@@ -23,7 +23,7 @@ CosSin cos_sin_degrees(double degrees) {
   return {math::cos(radians), math::sin(radians)};
 }
 
-// Eigenvalues of a symmetric 3x3 matrix by Jacobi rotations.
+// Computes the eigenvalues of a symmetric 3x3 matrix by Jacobi rotations.
 Vec3 symmetric_eigenvalues(std::array<std::array<double, 3>, 3> m) {
   for (int sweep = 0; sweep < 32; ++sweep) {
     if (std::abs(m[0][1]) + std::abs(m[0][2]) + std::abs(m[1][2]) == 0) break;
@@ -52,7 +52,7 @@ Vec3 symmetric_eigenvalues(std::array<std::array<double, 3>, 3> m) {
 }  // namespace
 
 Affine Affine::rotation(Vec3 axis, double degrees) {
-  // Divided by its greatest component first: an axis along x, y or z then has length one exactly.
+  // Divides by the greatest component first, so that an axis along x, y or z gets a length of exactly one.
   const double size = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
   const Vec3 along{axis.x / size, axis.y / size, axis.z / size};
   const Vec3 n = (1 / ombre::length(along)) * along;
@@ -77,13 +77,13 @@ Affine operator*(const Affine& c_from_b, const Affine& b_from_a) {
 double determinant(const Affine& map) { return dot(map.rows[0], cross(map.rows[1], map.rows[2])); }
 
 Affine inverse(const Affine& map) {
-  // Bring the entries near one, by a power of two: a determinant of tiny entries underflows.
+  // Scales the entries by a power of two to about one, since the determinant of tiny entries underflows.
   double greatest = 0;
   for (const Vec3& row : map.rows) greatest = std::max({greatest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
   const double unit = std::ldexp(1.0, -std::ilogb(greatest));
   const Affine near_one{{unit * map.rows[0], unit * map.rows[1], unit * map.rows[2]}, {}};
   const double scale = unit / determinant(near_one);
-  // The columns of the inverse are the cross products of the rows.
+  // The columns of the inverse are cross products of the rows.
   const Vec3 a = scale * cross(near_one.rows[1], near_one.rows[2]);
   const Vec3 b = scale * cross(near_one.rows[2], near_one.rows[0]);
   const Vec3 c = scale * cross(near_one.rows[0], near_one.rows[1]);

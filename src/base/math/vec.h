@@ -1,4 +1,4 @@
-// Points, vectors, affine maps. Millimetres unless a name says otherwise.
+// Points, vectors and affine maps. Lengths are in mm unless a name says otherwise.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a
 inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
-// p -> linear * p + offset. Named `to_from`: `part_from_world` takes world points to part points.
+// The map p -> linear * p + offset. Maps are named `to_from`: `part_from_world` maps world points to part points.
 struct Affine {
   std::array<Vec3, 3> rows{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   Vec3 offset;
@@ -47,18 +47,18 @@ struct Affine {
 
   static Affine translation(Vec3 by) { return {{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, by}; }
   static Affine scaling(Vec3 s) { return {{Vec3{s.x, 0, 0}, Vec3{0, s.y, 0}, Vec3{0, 0, s.z}}, {}}; }
-  // Right-handed, exact at multiples of 90 degrees. The axis need not have length one.
+  // Returns a right-handed rotation, exact at multiples of 90 degrees. The axis may have any length but zero.
   static Affine rotation(Vec3 axis, double degrees);
 };
 
-// (c_from_b * b_from_a)(p) == c_from_b(b_from_a(p))
+// Composes two maps: (c_from_b * b_from_a)(p) == c_from_b(b_from_a(p)).
 Affine operator*(const Affine& c_from_b, const Affine& b_from_a);
 double determinant(const Affine& map);
-// The map must have a non-zero determinant.
+// Returns the inverse. The determinant must not be zero.
 Affine inverse(const Affine& map);
-// Does some coordinate of the image depend on several?
+// True if a coordinate of the image depends on more than one coordinate.
 bool mixes_axes(const Affine& map);
-// The factors by which the map can stretch a vector: {least, greatest}.
+// The least and greatest factors by which a map can stretch a vector.
 struct Stretch {
   double least = 1, greatest = 1;
 };

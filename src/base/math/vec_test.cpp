@@ -1,4 +1,4 @@
-// Affine maps against linear algebra.
+// Checks affine maps against linear algebra.
 #include "base/math/vec.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(Affine, QuarterTurnsAreExact) {
     Vec3 axis, from, to;
   } const cases[] = {{ez, ex, ey}, {ex, ey, ez}, {ey, ez, ex}, {-ez, ey, ex}};
   for (const auto& c : cases) {
-    // The length of the axis does not matter: 1/49 * 49 is not 1 in doubles.
+    // The length of the axis must not matter, although 1/49 * 49 is not 1 in doubles.
     for (const double size : {1.0, 3.0, 49.0, 0.1, 1e-200, 1e200}) {
       const Vec3 axis = size * c.axis;
       EXPECT_EQ(Affine::rotation(axis, 90)(c.from), c.to) << size;
@@ -73,9 +73,9 @@ TEST(Affine, RotationIsRightHandedAndKeepsLengths) {
     EXPECT_NEAR(length(turn(p)), length(p), 1e-13 * length(p));
     expect_near(Affine::rotation(axis, -degrees)(turn(p)), p, 1e-13);
   }
-  // Three cyclic turns about the diagonal.
+  // A turn by 120 degrees about the diagonal permutes the axes.
   expect_near(Affine::rotation({1, 1, 1}, 120)(ex), ey, 1e-15);
-  // 30 degrees about z.
+  // A turn by 30 degrees about z.
   expect_near(Affine::rotation(ez, 30)(ex), {std::sqrt(3) / 2, 0.5, 0}, 1e-15);
 }
 
@@ -90,7 +90,7 @@ TEST(Affine, InverseUndoes) {
       expect_near(unit.offset, {}, 1e-11);
     }
   }
-  // Small and large scales: 1e-110 cubed is below the least double.
+  // Very small and large scales: 1e-110 cubed is below the least double.
   for (const double scale : {1e-110, 1e-60, 1e60, 1e110}) {
     const Affine map = Affine::scaling({scale, scale, scale});
     expect_near((inverse(map) * map)({1, 2, 3}), {1, 2, 3}, 1e-14);
@@ -134,7 +134,7 @@ TEST(Affine, StretchIsTheSingularValues) {
   for (int i = 0; i < 1000; ++i) {
     const Vec3 s{random.number(0.01, 0.1), random.number(-1, 1), random.number(-10, -2)};
     const Stretch factors = stretch(random.turn() * Affine::scaling(s) * random.turn());
-    // Squares lose half the digits of the least factor beside a great one.
+    // The factors come from squares, so the least factor loses precision beside a great one.
     const double least = std::min(s.x, std::abs(s.y));
     EXPECT_NEAR(factors.least, least, 1e-15 * s.z * s.z / least);
     EXPECT_NEAR(factors.greatest, -s.z, 1e-12);

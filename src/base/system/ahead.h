@@ -1,4 +1,4 @@
-// Things made before they are asked for.
+// Values that are computed ahead, before they are asked for.
 #pragma once
 
 #include <condition_variable>
@@ -13,7 +13,7 @@
 
 namespace ombre {
 
-// make(0), make(1) ... make(count - 1), in order and on a thread of its own; at most `window` of them wait.
+// Computes make(0), make(1) ... make(count - 1) in order on its own thread. At most `window` results wait to be taken.
 template <class T>
 class Ahead {
  public:
@@ -30,8 +30,8 @@ class Ahead {
     thread_.join();
   }
 
-  // The next one; may be called `count` times. Throws what making it threw. What was taken before is best given back:
-  // memory is freed with less effort by the thread that asked for it.
+  // Returns the next result; call it at most `count` times. Rethrows what `make` threw. `spent` may be an earlier
+  // result: it is freed by the thread that allocated it, which is faster.
   T take(T spent = {}) {
     std::unique_lock lock(mutex_);
     spent_.push_back(std::move(spent));
@@ -55,7 +55,7 @@ class Ahead {
     changed_.notify_all();
   }
 
-  // Waits for it; false when stopped.
+  // Waits until there is room. Returns false when stopped.
   bool has_room() {
     std::vector<T> spent;
     std::unique_lock lock(mutex_);
@@ -80,7 +80,7 @@ class Ahead {
   std::vector<T> spent_;
   std::exception_ptr failure_;
   bool is_stopped_ = false;
-  std::thread thread_;  // the last member: it uses the others
+  std::thread thread_;  // last, since the thread uses the other members
 };
 
 }  // namespace ombre

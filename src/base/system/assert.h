@@ -1,4 +1,5 @@
-// Checks on ourselves. No design, argument or file can trip one; if it can, it is a Diagnostic.
+// Assertions about internal errors. No design, argument or file may trigger one; wrong input is reported as a
+// Diagnostic.
 #pragma once
 
 #include <cstdio>

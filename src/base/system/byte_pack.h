@@ -1,4 +1,4 @@
-// Plain values as bytes, for another process of this program.
+// Trivially copyable values as bytes, for another process of this program.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class BytePacker {
   std::string bytes_;
 };
 
-// Throws Error where bytes end too early. The bytes must outlive it.
+// Reads values that BytePacker wrote. Throws Error if the bytes end too early. The bytes must outlive this object.
 class ByteUnpacker {
  public:
   explicit ByteUnpacker(std::string_view bytes) : bytes_(bytes) {}

@@ -1,11 +1,11 @@
-// Memory that other programs leave.
+// The memory that other programs leave free.
 #pragma once
 
 #include <cstdint>
 
 namespace ombre {
 
-// Bytes that can be had without pushing others out; 0 where the system does not say.
+// Returns the bytes that can be allocated without swapping; 0 if the system does not say.
 uint64_t free_memory_bytes();
 
 }  // namespace ombre

@@ -1,4 +1,4 @@
-// 128-bit content hashes (XXH3), the same on every machine.
+// 128-bit content hashes (XXH3), identical on every machine.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Hash {
 
   friend bool operator==(const Hash&, const Hash&) = default;
   friend bool operator<(const Hash& a, const Hash& b) { return std::tie(a.high, a.low) < std::tie(b.high, b.low); }
-  std::string hex() const;  // 32 digits
+  std::string hex() const;  // 32 hexadecimal digits
 };
 
 Hash hash_bytes(std::string_view bytes);

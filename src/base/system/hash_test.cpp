@@ -1,4 +1,4 @@
-// XXH3-128 with seed 0, against published vectors.
+// Checks XXH3-128 with seed 0 against published vectors.
 #include "base/system/hash.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(Hash, HexHasThirtyTwoDigits) {
 }
 
 TEST(Hash, EveryLengthAndByteCounts) {
-  // The lengths cross the steps of the algorithm: 16, 128, 240, 1024 bytes.
+  // The lengths cross the thresholds of the algorithm: 16, 128, 240 and 1024 bytes.
   std::set<std::string> seen;
   const std::string zeros(2000, '\0');
   for (size_t size = 0; size <= zeros.size(); ++size)

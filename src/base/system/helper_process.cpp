@@ -1,4 +1,4 @@
-// Work in a process of its own, with limits of time and memory.
+// Work in a separate process, with limits of time and memory.
 #include "base/system/helper_process.h"
 
 #include <fcntl.h>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr int check_interval_ms = 50;
 
-// Comes before the bytes of a request or an answer.
+// Precedes the bytes of each request and answer.
 struct Header {
   uint64_t is_error = 0, size = 0;
 };
@@ -56,7 +56,7 @@ Error unpacked_error(const std::string& bytes) {
   return {code, message, values};
 }
 
-// False where the other side is gone.
+// Returns false if the other end is closed.
 bool write_all(int socket, const void* data, size_t size) {
   const char* at = static_cast<const char*>(data);
   while (size > 0) {
@@ -79,7 +79,7 @@ bool is_whole(const std::string& bytes, Header& header) {
   return bytes.size() - sizeof header >= header.size;
 }
 
-// Appends what has come. False at the end.
+// Appends the bytes that have arrived. Returns false at the end of the stream.
 bool read_some(int socket, std::string& bytes) {
   static thread_local std::array<char, 1 << 16> some;
   const ssize_t count = ::read(socket, some.data(), some.size());
@@ -92,7 +92,7 @@ void limit_memory(size_t bytes) {
   const rlimit core{0, 0};
   ::setrlimit(RLIMIT_CORE, &core);
   size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;  // the first number: all that is mapped
+  std::ifstream("/proc/self/statm") >> pages;  // the first number is the total size of mapped memory
   if (pages == 0 || bytes == 0) return;
   const rlim_t limit = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;
   const rlimit memory{limit, limit};
@@ -130,7 +130,8 @@ using Answer = std::function<std::string(const std::string& request)>;
   }
 }
 
-// A child that is made meanwhile would keep the child's end of the socket open, and its crash could not be seen.
+// Serialises forks: a child that is forked meanwhile would keep the other child's end of the socket open, so that its
+// crash would go unnoticed.
 std::mutex& fork_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -168,13 +169,13 @@ class Helper::Child {
 
   bool send(const std::string& bytes) { return send_message(socket_, {0, bytes.size()}, bytes); }
 
-  // Appends what has come, which may be nothing yet. False at the end.
+  // Waits up to 50 ms and appends the bytes that have arrived, if any. Returns false at the end of the stream.
   bool read(std::string& bytes) {
     pollfd wait{socket_, POLLIN, 0};
     return ::poll(&wait, 1, check_interval_ms) <= 0 || read_some(socket_, bytes);
   }
 
-  // The signal that ended it, if one did.
+  // Waits for the child to end, and kills it first if `by_force`. Returns the signal that ended it, or 0.
   int end(bool by_force = true) {
     if (by_force) ::kill(pid_, SIGKILL);
     int status = 0;

@@ -79,7 +79,7 @@ TEST(HelperProcess, AnswersOneRequestAfterAnother) {
   EXPECT_EQ(helper.ask("3", nullptr), "3");
   EXPECT_EQ(helper.ask("4", nullptr), "7");
   EXPECT_EQ(sum, 0);
-  // An error leaves it as it is.
+  // The child survives an Error.
   EXPECT_THROW(helper.ask("x", nullptr), Error);
   EXPECT_EQ(helper.ask("5", nullptr), "12");
 }

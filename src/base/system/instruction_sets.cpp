@@ -10,7 +10,7 @@ namespace ombre {
 
 namespace {
 
-bool converts_half_floats() {  // no name in __builtin_cpu_supports of Clang 14
+bool converts_half_floats() {  // F16C has no name in __builtin_cpu_supports of Clang 14
   unsigned a = 0, b = 0, c = 0, d = 0;
   return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
 }

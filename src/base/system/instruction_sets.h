@@ -1,10 +1,12 @@
-// Which of the instruction sets that Highway compiles for this processor has.
+// Detects which of Highway's instruction sets the processor has.
 //
-// Highway's own answer is in a library that times the processor's clock for 2.5 ms whenever a program with it starts.
+// Highway's own detection is not used: its library measures the processor's clock for 2.5 ms at each start of a
+// program.
 #pragma once
 
-// Whether SLEEF can be handed vectors that only parts of a file may use. It expects them in registers, where g++ passes
-// them; clang passes them in memory unless the whole file may use them.
+// 1 if SLEEF's vector functions can be called from code that enables an instruction set for parts of a file only. SLEEF
+// expects vectors in registers; g++ passes them so, but clang passes them in memory unless the instruction set is
+// enabled for the whole file.
 #if defined(__x86_64__) && !defined(__clang__)
 #define OMBRE_WIDE_SLEEF 1
 #else
@@ -14,7 +16,8 @@
 namespace ombre {
 
 struct InstructionSets {
-  bool sse4 = false, avx2 = false, avx512 = false;  // HWY_SSE4, HWY_AVX2, HWY_AVX3, with all that each of them asks for
+  // HWY_SSE4, HWY_AVX2 and HWY_AVX3, with all features that they require.
+  bool sse4 = false, avx2 = false, avx512 = false;
 };
 
 InstructionSets instruction_sets();

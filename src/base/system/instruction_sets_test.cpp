@@ -1,4 +1,4 @@
-// Against Highway's own answer.
+// Compares the detection with Highway's own.
 #include "base/system/instruction_sets.h"
 
 #include <gtest/gtest.h>

@@ -23,7 +23,7 @@ void* large_memory(size_t bytes) {
   void* const memory = size < bytes ? nullptr : std::aligned_alloc(alignment, size);
   if (!memory) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-  // Only a request: without large pages it takes longer.
+  // The result is ignored: without large pages the memory is slower to fill, but works.
   if (alignment == large_page) static_cast<void>(madvise(memory, size, MADV_HUGEPAGE));
 #endif
   return memory;

@@ -1,4 +1,4 @@
-// Large arrays whose values are not set: memory that threads touch as they fill it.
+// Large uninitialised arrays, whose memory is mapped when threads first write to it.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct FreeLargeArray {
 template <class T>
 using LargeArray = std::unique_ptr<T[], FreeLargeArray>;
 
-// In large pages where the system has them to give: asking for small ones takes longer than filling them does. Throws
-// std::bad_alloc.
+// Allocates memory in large pages where the system has them, since mapping small pages takes longer than filling them.
+// Throws std::bad_alloc.
 void* large_memory(size_t bytes);
 
 template <class T>

@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A wheel has modules beside the library, an installed program in lib/ombre of a folder above, a build in modules/.
-// Empty where it is in none of them.
+// Returns the path of the module's library, or an empty path if it is not found. It lies beside this code's library in
+// a wheel, in lib/ombre of a folder above an installed program, or in modules/ of a build folder.
 fs::path path_of(const Module& module) {
   const std::string file = "lib" + std::string(module.name) + ".so";
   std::error_code ignored;

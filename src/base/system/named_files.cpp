@@ -8,7 +8,7 @@ namespace ombre {
 namespace fs = std::filesystem;
 
 std::vector<std::string> places_of(const std::string& path, const std::string& named_by) {
-  constexpr int most_links = 40;  // in a row, as systems have it
+  constexpr int most_links = 40;  // largest number of symbolic links that are followed in a row, as on Linux
   const fs::path wanted(path);
   if (wanted.is_absolute()) return {path};
   std::vector<std::string> places;

@@ -1,4 +1,4 @@
-// The places where a file that another file names may lie.
+// Search paths of files that are named in other files.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace ombre {
 
-// The paths to try for `path`, in their order: beside the file that names it, beside the file that this one links to,
-// in the working directory. An absolute path is the only one.
+// Returns the paths to try for `path`, in order: beside the file that names it, beside each file that this one links
+// to, and in the working directory. An absolute path is returned alone.
 std::vector<std::string> places_of(const std::string& path, const std::string& named_by);
 
 }  // namespace ombre

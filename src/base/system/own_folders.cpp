@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file of the library, or, where this code is part of the program, of the program.
+// Returns the path of the library that holds this code, or of the program if the code is part of it.
 fs::path own_file() {
   std::error_code failed;
   Dl_info info{};

@@ -1,4 +1,4 @@
-// The folders of files that are installed, or built, together with this code.
+// The folders where files that are installed or built with this code lie.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace ombre {
 
-// The folder of the program or of the library that holds this code, then each folder above that one but for the root.
-// Empty where the system does not tell.
+// Returns the folder of the program or library that holds this code, then each folder above it except the root. Returns
+// an empty list if the system does not tell.
 std::vector<std::filesystem::path> own_folders();
 
 }  // namespace ombre

@@ -1,5 +1,4 @@
-// Tasks on plain threads, for the thread sanitizer: it cannot see into the task library, and takes its
-// hand-overs for races.
+// Tasks on std::thread, for the thread sanitizer, which does not see how oneTBB synchronises and reports false races.
 #ifdef OMBRE_PLAIN_THREADS
 
 #include <algorithm>
@@ -38,7 +37,7 @@ class OrderedRun {
   }
 
  private:
-  // Runs without the lock; the first exception is kept.
+  // Calls `act` without the lock and keeps the first exception.
   template <class F>
   void attempt(std::unique_lock<std::mutex>& lock, const F& act) {
     lock.unlock();

@@ -1,4 +1,4 @@
-// How a long job reports its progress, and how it is asked to stop.
+// How long jobs report progress and are asked to stop.
 #pragma once
 
 #include <atomic>
@@ -10,28 +10,29 @@
 
 namespace ombre {
 
-// How far a long job is, and what is still to come, below 0 while unknown.
+// The progress of a job. Estimates of what is left are negative while unknown.
 struct HowFar {
   uint64_t done = 0, total = 0;  // units of work
   double seconds_left = -1, bytes_left = -1;
 };
 
-// Passed down into long work. Called from several threads; implementations synchronise.
+// Receives progress from long work. It is called from several threads, so implementations synchronise.
 class Progress {
  public:
   virtual ~Progress() = default;
   virtual void update(const HowFar& how_far) = 0;
-  // Before the work, while what earlier runs left is read: in bytes.
+  // Reports progress in bytes while results of earlier runs are read, before the work starts.
   virtual void checking(const HowFar&) {}
-  // Before the work, while something that it needs as a whole is computed ("supports"): in parts of it.
+  // Reports progress while something that the work needs as a whole ("supports") is computed, before the work starts.
   virtual void preparing(const std::string& /*what*/, const HowFar&) {}
 };
 
-// Set from a signal handler or another thread; work checks it every tenth of a second or so and throws Cancelled.
+// A flag that a signal handler or another thread sets. Work checks it about every tenth of a second and throws
+// Cancelled.
 class StopFlag {
  public:
   StopFlag() = default;
-  // Also set once `outer` is, which may be null, or when the time is over.
+  // A flag that also counts as set once `outer`, which may be null, is set or the time has passed.
   StopFlag(const StopFlag* outer, double seconds) : outer_(outer), seconds_(seconds) {}
 
   void request() { flag_.store(true, std::memory_order_relaxed); }

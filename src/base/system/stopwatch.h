@@ -1,4 +1,4 @@
-// Seconds that pass.
+// A stopwatch that counts seconds.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Tasks by oneTBB.
+// Parallel tasks with oneTBB.
 #ifndef OMBRE_PLAIN_THREADS
 
 #include "base/system/tasks.h"
@@ -18,10 +18,10 @@ namespace ombre {
 
 namespace {
 
-// More threads than cores gain nothing, and the library would complain.
+// Never returns more threads than cores: they gain nothing, and oneTBB warns about them.
 int worker_count(int threads) { return threads > 0 ? std::min(threads, core_count()) : core_count(); }
 
-// Threads of the run whose task this thread is at; 0: of none.
+// Number of threads of the run whose task this thread executes; 0 outside tasks.
 thread_local int threads_of_task = 0;
 
 class AtTask {
@@ -35,8 +35,9 @@ class AtTask {
   int before_;
 };
 
-// run(threads) on so many. A run within a task of another shares its threads: an arena of its own would bring more. It
-// is isolated, so that what waits for it does not take up another task of the outer run.
+// Calls run(threads) in an arena of that many threads. Within a task of another run it shares that run's threads,
+// because an arena of its own would add more. The inner run is isolated, so that a thread that waits for it does not
+// take up another task of the outer run.
 template <class Run>
 void with_threads(int threads, Run run) {
   const int wanted = worker_count(threads);
@@ -58,7 +59,7 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
     size_t index;
     std::shared_ptr<void> result;
   };
-  // An exception that passes through the pipeline would leak the items in flight.
+  // Exceptions are caught here: one that passes through the pipeline would leak the items in flight.
   std::atomic<bool> failed{false};
   std::exception_ptr first_failure;
   std::mutex mutex;
@@ -97,7 +98,7 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
 }
 
 void run_parallel(size_t count, int threads, const std::function<void(size_t)>& body) {
-  // One by one: the partitioner of choice hands out eighths, which may take very unequal times.
+  // Hands out tasks one by one: the default partitioner hands out eighths, whose times may differ greatly.
   with_threads(threads, [&](int shared) {
     const auto task = [&](size_t i) {
       const AtTask here(shared);

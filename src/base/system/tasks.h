@@ -1,4 +1,4 @@
-// Parallel work with ordered output.
+// Parallel work whose results are ordered.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace ombre {
 
-// Runs produce(0..count) on up to `threads` threads and hands each result to consume(i, result) in
-// order, one at a time. At most `window` results exist at once. The first exception stops the rest
-// and is rethrown. `threads` 0 means all cores. A run within a task of another shares its threads.
+// Runs produce(i) for 0 <= i < count on up to `threads` threads and passes each result to consume(i, result) in order,
+// one at a time. At most `window` results exist at once. The first exception stops the rest and is rethrown. `threads`
+// 0 means all cores. A run within a task of another run shares its threads.
 void run_ordered(size_t count, int threads, size_t window, const std::function<std::shared_ptr<void>(size_t)>& produce,
                  const std::function<void(size_t, const std::shared_ptr<void>&)>& consume);
 
@@ -21,7 +21,7 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<T
       [&](size_t i, const std::shared_ptr<void>& result) { consume(i, *static_cast<T*>(result.get())); });
 }
 
-// body(i) for all i < count, in no particular order.
+// Runs body(i) for all i < count in no particular order.
 void run_parallel(size_t count, int threads, const std::function<void(size_t)>& body);
 
 int core_count();

@@ -1,4 +1,4 @@
-// Order, window, failure. The names let a filter pick them for a run under the thread sanitizer.
+// Tests of order, window and failures. Test names are chosen so that a filter can select them for the thread sanitizer.
 #include "base/system/tasks.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ struct Case {
 const Case cases[] = {{0, 4, 3},   {1, 1, 1},    {1, 8, 100},  {100, 1, 1},   {100, 1, 16}, {200, 4, 1},   {200, 4, 2},
                       {300, 4, 5}, {300, 2, 64}, {300, 16, 3}, {1000, 0, 32}, {50, 3, 0},   {50, 3, 10000}};
 
-// Work of uneven length, so that results come out of order by themselves.
+// Sleeps for varying times, so that results finish out of order.
 void work(size_t i) { std::this_thread::sleep_for(std::chrono::microseconds((i * 2654435761u) % 97)); }
 
 void raise_to(int value, std::atomic<int>& most) {
@@ -34,7 +34,7 @@ void raise_to(int value, std::atomic<int>& most) {
   }
 }
 
-// Counts how many of its kind live.
+// Counts its living instances.
 struct Counted {
   std::atomic<int>* alive;
   size_t index;
@@ -75,7 +75,7 @@ TEST(Ordered, TheWindowBoundsWhatLives) {
     };
     run_ordered(c.count, c.threads, c.window, produce, [&](size_t i, const std::shared_ptr<void>& result) {
       EXPECT_EQ(static_cast<Counted*>(result.get())->index, i);
-      // The first is slow to leave: the others must wait for it.
+      // The first result is consumed slowly, so the others must wait.
       if (i == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     });
     EXPECT_LE(most, static_cast<int>(std::max<size_t>(1, c.window)));
@@ -102,7 +102,7 @@ TEST(Ordered, AFailureStopsTheRestAndIsThrownAgain) {
               },
               [&](size_t i, const std::shared_ptr<void>& result) {
                 ASSERT_TRUE(result);
-                EXPECT_EQ(i, consumed);  // what is consumed is a beginning without gaps
+                EXPECT_EQ(i, consumed);  // consumed indices have no gaps
                 if (!in_produce && i == bad) throw std::runtime_error("at " + std::to_string(i));
                 ++consumed;
               });
@@ -165,7 +165,7 @@ TEST(Threads, NeverMoreThanRequested) {
 }
 
 #ifndef OMBRE_PLAIN_THREADS
-// Where there are threads for each inner run as well.
+// This test needs cores for the threads of each inner run as well.
 TEST(Threads, RunsWithinTasksShareThem) {
   if (core_count() < 2) GTEST_SKIP();
   const tbb::global_control enough(tbb::global_control::max_allowed_parallelism, 8);
@@ -182,7 +182,7 @@ TEST(Threads, RunsWithinTasksShareThem) {
   EXPECT_LE(most, 2);
 }
 
-// One that may have fewer has fewer.
+// An inner run that asks for fewer threads gets fewer.
 TEST(Threads, ARunWithinATaskHasNoMoreThanItAsksFor) {
   run_parallel(2, 0, [](size_t) {
     std::atomic<int> now{0};

@@ -1,4 +1,4 @@
-// A new folder for files that other programs or modules read, which goes with all that is in it.
+// A new folder for files that other programs or modules read. It is deleted with its content.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@ namespace ombre {
 
 class TemporaryFolder {
  public:
-  // In the system's folder for temporary files. Throws Error where none can be made.
+  // Creates the folder in the system's folder for temporary files. Throws Error if this fails.
   TemporaryFolder();
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

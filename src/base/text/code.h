@@ -1,4 +1,4 @@
-// Stable names of what goes wrong, for programs that read messages.
+// Stable codes of errors, for programs that read messages.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace ombre {
 
-// In the order of the table in code.cpp, which says what each means.
+// Codes, in the order of the table in code.cpp, which says what each means.
 enum class Code : uint8_t {
   design,
   syntax,
@@ -67,16 +67,16 @@ enum class Code : uint8_t {
 
 struct CodeInfo {
   Code code;
-  std::string_view name;      // "unknown-node"
-  std::string_view sentence;  // what it means
-  std::string_view values;    // the names of the values that come with it, as a list; "node, similar"
+  std::string_view name;      // the code's name: "unknown-node"
+  std::string_view sentence;  // the meaning
+  std::string_view values;    // comma-separated names of the values of a message with this code: "node, similar"
 };
 
 std::span<const CodeInfo> codes();
-// "unknown-node"
+// Returns the name of the code, for example "unknown-node".
 std::string_view name_of(Code code);
 
-// What a message is about, by name: {"node", "sphre"}.
+// The values of a message by name: {"node", "sphre"}.
 using CodeValues = std::vector<std::pair<std::string, std::string>>;
 
 }  // namespace ombre

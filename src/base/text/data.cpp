@@ -14,7 +14,7 @@ const Data* Data::find(std::string_view name) const {
 
 namespace {
 
-// The beginning of a long text, cut between characters.
+// Cuts a long text at a character boundary.
 std::string shortened(const std::string& text) {
   if (text.size() <= 40) return text;
   size_t end = 37;

@@ -1,4 +1,4 @@
-// Plain data with places: what a script hands to a node, and what a JSON file holds.
+// Plain data with source positions, such as a script's arguments to a node or the content of a JSON file.
 #pragma once
 
 #include <memory>
@@ -13,20 +13,20 @@ namespace ombre {
 
 struct Data;
 
-// Something of the program around us that data only carries, such as a function of a host language.
+// An opaque object of the host program that data carries, such as a Python function.
 struct HostObject {
   virtual ~HostObject() = default;
-  virtual std::string describe() const { return "a function"; }  // for messages
+  virtual std::string describe() const { return "a function"; }  // description for messages
 };
 using HostObjectPtr = std::shared_ptr<const HostObject>;
 
 using DataList = std::vector<Data>;
-using DataMembers = std::vector<std::pair<std::string, Data>>;  // in the order written
+using DataMembers = std::vector<std::pair<std::string, Data>>;  // members in the order written
 
 struct Data {
   std::variant<std::monostate, bool, double, std::string, DataList, DataMembers, HostObjectPtr> value;
-  // Where it was written. For a string that stands literally in the source and has no escapes,
-  // the range covers exactly its characters, so that positions inside it can be named.
+  // Position in the source. For a string literal without escapes the range covers exactly its characters, so that
+  // positions inside the string can be reported.
   SourceRange where;
 
   Data() = default;
@@ -48,20 +48,20 @@ struct Data {
     const auto* pointer = std::get_if<HostObjectPtr>(&value);
     return pointer ? *pointer : nullptr;
   }
-  // The member of that name, or null.
+  // Returns the member with that name, or null.
   const Data* find(std::string_view name) const;
 
-  // Equal values; places do not count. Numbers are equal when their bits are, but for -0 and NaN.
+  // Compares values, not positions. Numbers compare as doubles: -0 equals 0, and NaN equals nothing.
   bool operator==(const Data& other) const { return value == other.value; }
 };
 
-// Of any type of number; beyond 2^53 the nearest that a double holds.
+// Converts any numeric type. Integers above 2^53 are rounded to a double.
 template <class T>
 Data number(T value) {
   return static_cast<double>(value);
 }
 
-// "a number", "a list of 3": for messages.
+// Returns a short description for messages: "a number", "a list of 3".
 std::string describe(const Data& data);
 
 }  // namespace ombre

@@ -5,9 +5,9 @@
 namespace ombre {
 namespace {
 
-constexpr size_t widest_line = 160;  // longer source lines are shown from the mistake on
+constexpr size_t widest_line = 160;  // longer source lines are cut around the error
 
-// Control characters in a design could steer the terminal that shows them.
+// Replaces control characters, which could change the state of the terminal.
 std::string without_controls(std::string_view text) {
   std::string clean;
   for (const char c : text) {
@@ -19,13 +19,13 @@ std::string without_controls(std::string_view text) {
   return clean;
 }
 
-// The source line and, under it, a caret with the length of the range.
+// Returns the source line and, below it, a marker as long as the range.
 std::string excerpt(const SourceRange& where, Place place) {
   std::string_view line = where.source->line(place.line);
   if (line.empty()) return {};
   const SourceText& source = *where.source;
   const Place end = source.place(std::max(where.end, where.begin));
-  // A caret line repeats tabs, so that it lines up whatever their width.
+  // The marker line repeats tabs, so that it lines up at any tab width.
   size_t at = 0;
   for (int column = 1; column < place.column && at < line.size(); ++at)
     if (at + 1 >= line.size() || (static_cast<unsigned char>(line[at + 1]) & 0xC0) != 0x80) ++column;
@@ -45,7 +45,7 @@ std::string excerpt(const SourceRange& where, Place place) {
     else if ((static_cast<unsigned char>(line[i]) & 0xC0) != 0x80)
       text += ' ';
   }
-  // No longer than what is shown of the range.
+  // The marker is no longer than the visible part of the range.
   int shown = 0;
   for (size_t i = at; i < to; ++i) shown += (static_cast<unsigned char>(line[i]) & 0xC0) != 0x80;
   const int width = std::clamp(end.line == place.line ? end.column - place.column : 1, 1, std::max(1, shown));
@@ -74,7 +74,8 @@ void Diagnostics::add(Diagnostic diagnostic) {
 
 void Diagnostics::add_all(const Diagnostics& others) {
   for (const Diagnostic& diagnostic : others.list_) add(diagnostic);
-  error_count_ += others.error_count_ - std::min(others.error_count_, most);  // those that were not kept
+  // Adds the errors that `others` counted but did not keep.
+  error_count_ += others.error_count_ - std::min(others.error_count_, most);
 }
 
 void Diagnostics::add_new(const Diagnostic& diagnostic) {

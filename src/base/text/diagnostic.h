@@ -1,4 +1,4 @@
-// Messages to a designer about a design: where, what was expected, what to write instead.
+// Messages to a designer about a design: the position, what is wrong, and what to write instead.
 #pragma once
 
 #include <string>
@@ -16,22 +16,22 @@ enum class Severity { note, warning, error };
 struct Diagnostic {
   Severity severity = Severity::error;
   SourceRange where;
-  std::string message;  // one sentence, lower case, no full stop
+  std::string message;  // one sentence in lower case without a full stop
   Phrase hint;          // what to write instead; may be empty
   Code code = Code::design;
-  CodeValues values = {};  // what the message is about, as code.cpp lists them
+  CodeValues values = {};  // values named in code.cpp for this code
 
   bool operator==(const Diagnostic&) const = default;
 };
 
-// Collects what is found, so that one run reports several mistakes.
+// Collects diagnostics, so that one run reports several errors.
 class Diagnostics {
  public:
-  static constexpr size_t most = 20;  // errors kept; the rest are counted
+  static constexpr size_t most = 20;  // number of errors that are kept; further ones are only counted
 
   void add(Diagnostic diagnostic);
   void add_all(const Diagnostics& others);
-  // Adds diagnostics that are not in the list yet; a job may find the same ones each time it lowers a design.
+  // Adds diagnostics that are not in the list yet. A job may find the same ones each time it lowers a design.
   void add_new(const Diagnostic& diagnostic);
   void add_new(const Diagnostics& others);
   void error(SourceRange where, std::string message, Phrase hint = {});
@@ -39,11 +39,11 @@ class Diagnostics {
   void warning(SourceRange where, std::string message, Phrase hint = {});
   void warning(Code code, SourceRange where, std::string message, Phrase hint = {}, CodeValues values = {});
   void note(SourceRange where, std::string message);
-  // Gives a code to all but the first `count`, where they have none yet, and values to those that have none.
+  // Skips the first `count` diagnostics; gives the others the code if they have none, and the values if they have none.
   void tell_code(size_t count, Code code, const CodeValues& values = {});
 
   const std::vector<Diagnostic>& list() const { return list_; }
-  // All but the first `count`, which were reported already.
+  // Returns the diagnostics after the first `count`, which were reported already.
   Diagnostics after(size_t count) const;
   size_t error_count() const { return error_count_; }
   bool has_errors() const { return error_count_ > 0; }
@@ -53,20 +53,20 @@ class Diagnostics {
   size_t error_count_ = 0;
 };
 
-// "note", "warning" or "error".
+// Returns "note", "warning" or "error".
 std::string_view name_of(Severity severity);
 
-// What to write instead, in the language of the design that the diagnostic points into.
+// Returns what to write instead, in the language of the design where the diagnostic lies.
 std::string hint_of(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
-// "message; hint"
+// Returns "message; hint".
 std::string sentence_of(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
-// "file:line:column: error: message; hint" ("file: error: ..." for a file as a whole), then the source line and a caret
-// line.
+// Returns "file:line:column: error: message; hint" ("file: error: ..." for a whole file), then the source line and a
+// marker line.
 std::string to_text(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
-// All of them, and how many more there were.
+// Returns the text of all diagnostics and the number of further errors.
 std::string to_text(const Diagnostics& diagnostics, FrontEnd front_end = FrontEnd::command_line);
 
-// Ends a front end's work early after its diagnostics were recorded.
+// Thrown to stop work on a design after its diagnostics were recorded.
 struct DesignError : std::exception {
   const char* what() const noexcept override { return "the design has errors"; }
 };

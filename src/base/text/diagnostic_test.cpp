@@ -1,4 +1,4 @@
-// What a designer reads: place, message, source line, caret.
+// Tests of the text of diagnostics: position, message, source line, marker.
 #include "base/text/diagnostic.h"
 
 #include <algorithm>
@@ -34,11 +34,11 @@ TEST(Diagnostic, CaretLines) {
       {"é = ü + x;", 10, 11, "part.vcad:1:9: error: wrong\n  1 | é = ü + x;\n    |         ^\n"},
       {"\"漢字\"", 0, 8, "part.vcad:1:1: error: wrong\n  1 | \"漢字\"\n    | ^~~~\n"},
       {"x = 1;\r\ny = ;\r\n", 12, 13, "part.vcad:2:5: error: wrong\n  2 | y = ;\n    |     ^\n"},
-      {"abc", 3, 3, "part.vcad:1:4: error: wrong\n  1 | abc\n    |    ^\n"},  // the end of the text
-      {"abc\n", 4, 4, "part.vcad:2:1: error: wrong\n"},                       // an empty last line
-      {"ab", 0, 0, "part.vcad: error: wrong\n"},                              // the source as a whole
+      {"abc", 3, 3, "part.vcad:1:4: error: wrong\n  1 | abc\n    |    ^\n"},  // at the end of the text
+      {"abc\n", 4, 4, "part.vcad:2:1: error: wrong\n"},                       // in an empty last line
+      {"ab", 0, 0, "part.vcad: error: wrong\n"},                              // about the whole source
       {"", 0, 0, "part.vcad: error: wrong\n"},
-      {"ab\ncd", 1, 4, "part.vcad:1:2: error: wrong\n  1 | ab\n    |  ^\n"},  // a range over lines
+      {"ab\ncd", 1, 4, "part.vcad:1:2: error: wrong\n  1 | ab\n    |  ^\n"},  // a range over two lines
       {"ab", 0, 1, "part.vcad:1:1: error: wrong\n  1 | ab\n    | ^\n"},
   };
   for (const auto& c : cases) EXPECT_EQ(shown(c.text, c.begin, c.end), c.expected);
@@ -56,10 +56,10 @@ TEST(Diagnostic, LongLinesAreCutAroundTheMistake) {
         EXPECT_EQ(lines[0], "part.vcad:1:" + std::to_string(at + 1) + ": error: wrong");
         const std::string source = lines[1].substr(6), caret = lines[2].substr(6);
         EXPECT_LE(code_points(source), 165u);
-        // Whole characters alone are shown.
+        // Only whole characters are shown.
         EXPECT_EQ(source.size() % size, 0u);
         EXPECT_EQ(code_points(source) * size, source.size());
-        // The caret stands under what is shown, or right behind it.
+        // The marker lies below the text that is shown, or right after it.
         EXPECT_LE(caret.find('^'), code_points(source));
         EXPECT_LE(caret.size(), code_points(source) + 1);
       }

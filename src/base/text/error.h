@@ -1,4 +1,4 @@
-// What the machine can do wrong: files, disks, memory, other programs. Wrong designs are Diagnostics.
+// Errors outside designs: files, disks, memory, other programs. Errors in designs are Diagnostics.
 #pragma once
 
 #include <stdexcept>
@@ -9,8 +9,8 @@
 
 namespace ombre {
 
-// Thrown at the edge to the operating system; the message names the path and says what to do. what() is worded for the
-// command line.
+// Thrown when the operating system, a file or another program fails. The message names the path and says what to do.
+// what() is worded for the command line.
 class Error : public std::runtime_error {
  public:
   explicit Error(const Phrase& message) : Error(Code::machine, message) {}
@@ -27,7 +27,7 @@ class Error : public std::runtime_error {
   CodeValues values_;
 };
 
-// Thrown when a run was asked to stop (Ctrl-C, a host that cancels). What is finished stays valid.
+// Thrown when a run was asked to stop, by Ctrl-C or a host program. Finished results stay valid.
 class Cancelled : public std::exception {
  public:
   const char* what() const noexcept override { return "interrupted"; }

@@ -1,4 +1,4 @@
-// The ending of a file's name, which says its format.
+// Endings of file names, which tell the format.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace ombre {
 
-// Returns the ending in small letters, with its dot: ".vtu"; an empty string where the name has none.
+// Returns the ending in lower case with its dot (".vtu"), or an empty string if there is none.
 std::string ending_of(const std::filesystem::path& path);
 
 }  // namespace ombre

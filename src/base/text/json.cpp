@@ -13,8 +13,8 @@
 namespace ombre {
 namespace {
 
-// Counts what the parser has read, so that values get places. A number's end is found only by
-// reading one character more, which the search for the next token's start makes good.
+// Counts the characters that the parser has read, to find the positions of values. The parser reads one character past
+// a number; token() corrects this when it seeks the start of the next token.
 struct CountingIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -66,8 +66,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...", or
-    // "[json.exception.out_of_range.406] number overflow parsing '1e999'": keep the last part.
+    // Keeps the last part of "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ..."
+    // or "[json.exception.out_of_range.406] number overflow parsing '1e999'".
     std::string message = error.what();
     const bool has_place = message.find("] parse error at ") != std::string::npos;
     if (const size_t at = message.find(has_place ? ": " : "] "); at != std::string::npos)
@@ -87,7 +87,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
  private:
   static constexpr size_t deepest = 200;
 
-  // The range of the token just read: from the first character after the last one that can begin a token.
+  // Returns the range of the token that was just read. It starts at the first character after the previous token that
+  // can begin a token.
   SourceRange token() {
     const std::string_view text = source_->text();
     size_t begin = text.find_first_not_of(" \t\r\n,:", last_end_);
@@ -117,7 +118,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   bool add(Data data) {
     data.where = token();
-    // Without escapes the characters between the quotes are the string itself.
+    // A string without escapes consists of the characters between the quotes.
     if (const std::string* s = data.string(); s && data.where.end - data.where.begin == s->size() + 2) {
       ++data.where.begin;
       --data.where.end;
@@ -149,11 +150,11 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   Diagnostics& diagnostics_;
   std::vector<Data> stack_;
   std::vector<std::string> keys_;
-  std::vector<std::unordered_set<std::string>> names_;  // the keys of every open object
+  std::vector<std::unordered_set<std::string>> names_;  // the keys of all open objects
   size_t last_end_ = 0;
 };
 
-// Escapes as JSON wants it; bytes that are not UTF-8 become U+FFFD.
+// Returns the string as a JSON literal. Invalid UTF-8 becomes U+FFFD.
 std::string quoted(const std::string& text) {
   const auto is_plain = [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; };
   if (std::all_of(text.begin(), text.end(), is_plain)) return '"' + text + '"';
@@ -162,23 +163,23 @@ std::string quoted(const std::string& text) {
 
 std::string number_text(double value) {
   if (!std::isfinite(value)) return "null";
-  // Whole numbers without an exponent, so that other programs read them as integers.
+  // Writes integers without an exponent, so that other programs read them as integers.
   if (std::abs(value) < 0x1p53 && value == std::trunc(value)) return std::to_string(static_cast<long long>(value));
   return format_number(value == 0 ? 0.0 : value);
 }
 
-// What is neither a list nor an object.
+// Returns the text of a value that is neither a list nor an object.
 std::string scalar_text(const Data& data) {
   if (const bool* b = data.boolean()) return *b ? "true" : "false";
   if (const double* n = data.number()) return number_text(*n);
   if (const std::string* s = data.string()) return quoted(*s);
-  if (data.host_object()) return quoted("a function of the host program");  // for people: nothing reads it back
+  if (data.host_object()) return quoted("a function of the host program");  // for people only; it cannot be read back
   return "null";
 }
 
 constexpr size_t longest_line = 100;
 
-// Lists and objects that fit stay on one line.
+// Prints lists and objects on one line if they fit.
 class Printer {
  public:
   std::string print(const Data& data, size_t indent) const {

@@ -1,4 +1,4 @@
-// JSON text <-> Data, with the place of every value.
+// Conversion between JSON text and Data with source positions.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace ombre {
 
-// Nothing, and a diagnostic with line and column, when the text is not JSON or nests deeper than 200.
+// Returns nothing and adds a diagnostic with line and column if the text is not JSON or nests deeper than 200 levels.
 // Duplicate keys are errors.
 std::optional<Data> parse_json(const SourcePtr& source, Diagnostics& diagnostics);
 
-// Pretty-printed with two spaces, short lists on one line; numbers read back to the same bits.
-// Infinities and NaN, which JSON lacks, are written as null.
+// Returns indented text (two spaces), with short lists on one line. Numbers read back to the same bits. Infinities and
+// NaN, which JSON lacks, are written as null.
 std::string print_json(const Data& data);
-// On one line, for event streams and hashing.
+// Returns the text on one line, for event streams and hashes.
 std::string print_json_line(const Data& data);
 
 }  // namespace ombre

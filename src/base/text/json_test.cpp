@@ -1,4 +1,4 @@
-// JSON text to data and back: values, places, messages.
+// Tests of JSON text to data and back: values, positions, messages.
 #include "base/text/json.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ std::optional<Data> parse(std::string text) {
   return parse_json(make_source("t.json", std::move(text)), diagnostics);
 }
 
-// "line:column" of the beginning, and the characters covered.
+// Returns "line:column" of the start and the characters of the range.
 std::string place_of(const Data& data) {
   const Place place = data.where.source->place(data.where.begin);
   return std::to_string(place.line) + ':' + std::to_string(place.column) + ' ' +
@@ -26,7 +26,7 @@ std::string place_of(const Data& data) {
 struct Wrong {
   std::string text;
   int line, column;
-  std::string message;  // a part of it
+  std::string message;  // a part of the message
 };
 
 class RandomData {
@@ -56,7 +56,7 @@ class RandomData {
     }
   }
 
-  // All exponents alike, by their bits.
+  // Random bits cover all exponents evenly.
   double number() {
     for (;;) {
       const auto value = random_() % 4 == 0 ? static_cast<double>(static_cast<int>(random_() % 2001) - 1000)
@@ -92,7 +92,7 @@ TEST(Json, PlacesOfValues) {
   const Data& deep = *root->find("deep");
   EXPECT_EQ(place_of(deep), "4:11 {\"q\":null,\"e\":\"a\\nb\"}");
   EXPECT_EQ(place_of(*deep.find("q")), "4:16 null");
-  // A string with escapes keeps its quotes, since its characters are not those of the source.
+  // The range of a string with escapes includes the quotes, since its characters differ from those in the source.
   EXPECT_EQ(place_of(*deep.find("e")), "4:25 \"a\\nb\"");
   EXPECT_EQ(place_of(*root).substr(0, 5), "1:1 {");
   EXPECT_EQ(root->where.end, root->where.source->text().size() - 1);
@@ -135,7 +135,7 @@ TEST(Json, MessagesHavePlaces) {
     const Diagnostic& error = diagnostics.list()[0];
     const Place place = error.where.source->place(error.where.begin);
     EXPECT_EQ(place.line, wrong.line) << to_text(error);
-    // The reader may stop on the character that is wrong or on the one before.
+    // The reader may stop at the wrong character or one before it.
     EXPECT_NEAR(place.column, wrong.column, 1) << to_text(error);
     EXPECT_NE(error.message.find(wrong.message), std::string::npos) << error.message;
     EXPECT_EQ(error.message.find("json.exception"), std::string::npos) << error.message;
@@ -228,7 +228,7 @@ TEST(Data, DescribesItself) {
                                                 {DataList{1.0, 2.0, 3.0}, "a list of 3"},
                                                 {DataMembers{}, "an object"}};
   for (const auto& [data, text] : cases) EXPECT_EQ(describe(data), text);
-  // Long texts are cut between characters.
+  // Long texts are cut at character boundaries.
   std::string accents;
   for (int i = 0; i < 40; ++i) accents += "é";
   const std::string text = describe(accents);

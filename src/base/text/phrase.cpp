@@ -1,4 +1,4 @@
-// Needs nothing else of `base`: each module that throws errors has a copy of its own.
+// This file uses nothing else of `base`, since each module that throws errors contains a copy.
 #include "base/text/phrase.h"
 
 #include <algorithm>
@@ -20,8 +20,7 @@ bool is_number(const std::string& text) {
   return status == std::errc() && end == text.data() + text.size();
 }
 
-// The value with brackets around its vectors, as all languages but scripts and Python write them. Parentheses after a
-// name are those of a call, and stay.
+// Writes vectors in brackets, as all languages except scripts do. The parentheses of a call stay.
 std::string in_brackets(const std::string& value) {
   std::string text = value;
   std::vector<char> open;
@@ -52,7 +51,7 @@ std::string arguments_in(const Phrase::Arguments& arguments, Language language) 
   return listed(parts);
 }
 
-// {"type": "tile", "parameters": {...}}; arguments of which only the place in a call is known are left to the reader.
+// Returns {"type": "tile", "parameters": {...}}. Arguments without names are written as "...".
 std::string node_in_json(const std::string& node, const Phrase::Arguments& arguments, bool has_inputs) {
   std::vector<std::string> members;
   for (const auto& [name, value] : arguments)
@@ -68,16 +67,16 @@ std::string around_in_python(const std::string& node, const std::string& argumen
   return "ombre." + node + "(solid" + (arguments.empty() ? "" : ", " + arguments) + ')';
 }
 
-// Keyword arguments of Python: numbers and lists as they are, words in quotes.
+// Returns a keyword argument of Python: numbers as they are, other values in quotes.
 std::string option_in_python(const std::string& name, const std::string& value) {
   std::string keyword = name == "-o" ? "output" : name.substr(std::min(name.find_first_not_of('-'), name.size()));
   std::replace(keyword.begin(), keyword.end(), '-', '_');
-  if (keyword == "from") keyword += '_';  // a word of the language
+  if (keyword == "from") keyword += '_';  // a keyword of Python
   if (value.empty()) return keyword;
   return keyword + '=' + (is_number(value) ? value : '"' + value + '"');
 }
 
-// Fields of the studio's page are called as options, without dashes.
+// Returns the label of a field in the studio: the option's name without dashes.
 std::string option_in_studio(std::string name, const std::string& value) {
   name.erase(0, std::min(name.find_first_not_of('-'), name.size()));
   std::replace(name.begin(), name.end(), '-', ' ');

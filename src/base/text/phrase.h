@@ -1,5 +1,5 @@
-// Texts of messages in which names of options, calls and values are spelled as the reader's language spells them: a
-// script's, a design file's, Python's, OpenSCAD's.
+// Texts of messages that spell options, calls and values in the reader's language: a script, a design file, Python or
+// OpenSCAD.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace ombre {
 
-// What a design is written in.
+// The language of a design.
 enum class Language : uint8_t { script, json, python, openscad };
 
-// Who shows messages: it says how the options of a job are given.
+// The program that shows messages, which determines how options of a job are spelled.
 enum class FrontEnd : uint8_t { command_line, python, studio };
 
 struct Wording {
@@ -21,13 +21,14 @@ struct Wording {
   FrontEnd front_end = FrontEnd::command_line;
 };
 
-// That of a design with this name, "part.json"; names without a known ending are in the front end's own language.
+// Returns the wording for a design file with this name ("part.json"). For a name without a known ending it is that of
+// the front end's own language.
 Wording wording_of(std::string_view file, FrontEnd front_end);
 
-// A sentence, or a part of one. Texts turn into phrases, which are put together by +.
+// A sentence or a part of one. Strings convert to phrases, and + joins phrases.
 class Phrase {
  public:
-  // Arguments of a call by their names, in a script's syntax; a name may be empty.
+  // Arguments of a call with their names, in the syntax of scripts. A name may be empty.
   using Arguments = std::vector<std::pair<std::string, std::string>>;
   enum class Form : uint8_t { text, call, around, parameter, value, option, assignment, either };
 
@@ -35,12 +36,12 @@ class Phrase {
   Phrase(std::string text) : Phrase(Form::text, std::move(text), {}) {}
   Phrase(std::string_view text) : Phrase(std::string(text)) {}
   Phrase(const char* text) : Phrase(std::string(text)) {}
-  // As the functions of `spelled` make them.
+  // Called by the functions of namespace `spelled`.
   Phrase(Form form, std::string name, Arguments arguments);
 
   bool empty() const { return pieces_.empty(); }
   std::string in(const Wording& wording) const;
-  // For people who write scripts at the command line.
+  // Returns the text for people who write scripts at the command line.
   std::string text() const { return in({}); }
 
   friend Phrase operator+(Phrase first, const Phrase& second);
@@ -60,30 +61,31 @@ class Phrase {
 
 namespace spelled {
 
-// A call of a node: `sphere(radius=5)`, or {"type": "sphere", "parameters": {"radius": 5}}. Arguments without a name
-// are "..." in design files.
+// A call of a node: `sphere(radius=5)`, or {"type": "sphere", "parameters": {"radius": 5}}. Unnamed arguments become
+// "..." in design files.
 inline Phrase call(std::string node, Phrase::Arguments arguments = {}) {
   return {Phrase::Form::call, std::move(node), std::move(arguments)};
 }
-// A node around solids: `tile(...) { ... }`, ombre.tile(solid, ...).
+// A call of a node with solids inside: `tile(...) { ... }` or ombre.tile(solid, ...).
 inline Phrase around(std::string node, Phrase::Arguments arguments = {{"", "..."}}) {
   return {Phrase::Form::around, std::move(node), std::move(arguments)};
 }
-// `angle=90`, "angle": 90.
+// A parameter with its value: `angle=90` or "angle": 90.
 inline Phrase parameter(std::string name, std::string value) {
   return {Phrase::Form::parameter, std::move(name), {{"", std::move(value)}}};
 }
-// A number, a text in quotes, a vector or a list in a script's syntax: `(0, 0, 1)`, [0, 0, 1].
+// A value in the syntax of scripts (a number, a quoted text, a vector or a list), translated to the language: `(0, 0,
+// 1)` or [0, 0, 1].
 inline Phrase value(std::string value) { return {Phrase::Form::value, std::move(value), {}}; }
-// An option of a job: --cell, `--voxel 1` with a value; `cell` and voxel=1 in Python.
+// An option of a job: `--cell`, or `--voxel 1` with a value; `cell` and voxel=1 in Python.
 inline Phrase option(std::string name, std::string value = "") {
   return {Phrase::Form::option, std::move(name), {{"", std::move(value)}}};
 }
-// A variable of the design: `width = 1;`.
+// An assignment to a variable of the design: `width = 1;`.
 inline Phrase assignment(std::string name, std::string value) {
   return {Phrase::Form::assignment, std::move(name), {{"", std::move(value)}}};
 }
-// What has nothing in common from language to language. OpenSCAD's is the script's.
+// A text that differs in each language. OpenSCAD uses the script's.
 inline Phrase either(std::string script, std::string json, std::string python) {
   return {Phrase::Form::either, std::move(script), {{"", std::move(json)}, {"", std::move(python)}}};
 }

@@ -1,4 +1,4 @@
-// One message in each language and front end.
+// Checks one message in each language and front end.
 #include "base/text/phrase.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(Phrase, CallsOfNodes) {
   EXPECT_EQ(in(named, Language::python), R"(ombre.union(blend=1, materials="blend"))");
   EXPECT_EQ(in(named, Language::json), R"({"type": "union", "parameters": {"blend": 1, "materials": "blend"}})");
   EXPECT_EQ(in(spelled::call("sphere"), Language::json), R"({"type": "sphere"})");
-  // The file has no places of arguments.
+  // Design files have no positional arguments.
   EXPECT_EQ(in(spelled::call("sphere", {{"", "5"}}), Language::json), R"({"type": "sphere", "parameters": {...}})");
 }
 
@@ -43,7 +43,7 @@ TEST(Phrase, VectorsHaveBracketsWhereTheLanguageKnowsNoOthers) {
   EXPECT_EQ(in(phrase, Language::python), "spacing=(0.5, 0.5, 1)");
   EXPECT_EQ(in(phrase, Language::openscad), "spacing=[0.5, 0.5, 1]");
   EXPECT_EQ(in(phrase, Language::json), R"("spacing": [0.5, 0.5, 1])");
-  // Calls and texts keep their own.
+  // The parentheses of calls and of quoted texts stay.
   EXPECT_EQ(in(spelled::value(R"v([(1, 2), f(3, (4, 5)), "(6)"])v"), Language::json),
             R"v([[1, 2], f(3, [4, 5]), "(6)"])v");
 }

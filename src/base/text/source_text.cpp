@@ -20,7 +20,8 @@ SourceText::SourceText(std::string name, std::string text) : name_(std::move(nam
     const bool is_half_end = text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n';
     if (is_line_end(text_[i]) && !is_half_end) line_starts_.push_back(i + 1);
   }
-  characters_before_block_.push_back(characters);  // for the end of a text of whole blocks
+  // The last entry serves positions at the end of a text that consists of whole blocks.
+  characters_before_block_.push_back(characters);
 }
 
 size_t SourceText::characters_before(size_t offset) const {

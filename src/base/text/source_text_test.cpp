@@ -1,4 +1,4 @@
-// Lines and columns: columns count code points, tabs as one, lines end at "\n", "\r\n" or "\r".
+// Tests of lines and columns. Columns count code points, a tab counts as one, and lines end with "\n", "\r\n" or "\r".
 #include "base/text/source_text.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(SourceText, Lines) {
   EXPECT_EQ(source.line(1), "one");
   EXPECT_EQ(source.line(2), "two");
   EXPECT_EQ(source.line(3), "");
-  EXPECT_EQ(source.line(4), "four");  // without an end
+  EXPECT_EQ(source.line(4), "four");  // without its line ending
   for (const int number : {0, -1, 5, 1 << 30}) EXPECT_EQ(source.line(number), "");
   const SourceText old("t", "one\rtwo\r\rfour\r\nfive");
   EXPECT_EQ(old.line(1), "one");
@@ -67,7 +67,7 @@ TEST(SourceText, PlacesAgreeWithCounting) {
 }
 
 TEST(SourceText, LongLinesAreQuick) {
-  // A place for every character of 2 MB: no time for counting from the beginning of the line.
+  // Looks up every character of 2 MB, which would take too long if each look-up counted from the start of the line.
   std::string text;
   for (int i = 0; i < 1000000; ++i) text += "é";
   const SourceText source("t", text);

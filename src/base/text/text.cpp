@@ -64,7 +64,7 @@ std::string to_lower(std::string_view text) {
 
 namespace {
 
-// Levenshtein distance with swaps of neighbours counted as one slip.
+// Computes the Levenshtein distance, with a swap of neighbouring characters counted as one edit.
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), size_t{0});
@@ -88,7 +88,7 @@ std::optional<std::string> closest_name(std::string_view name, std::span<const s
   size_t best_distance = std::max<size_t>(1, folded.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const size_t distance = edit_distance(folded, fold_name(candidate));
-    if (distance >= best_distance || distance >= folded.size()) continue;  // nothing in common
+    if (distance >= best_distance || distance >= folded.size()) continue;  // no character in common
     best_distance = distance;
     best = candidate;
   }

@@ -1,4 +1,4 @@
-// Small helpers for names and numbers in text.
+// Helpers for names and numbers in text.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,24 @@
 
 namespace ombre {
 
-// The shortest decimal that reads back to the same double; "inf", "-inf", "nan".
+// Returns the shortest decimal that reads back to the same double, or "inf", "-inf", "nan".
 std::string format_number(double value);
-// For people: at most `digits` significant digits, no trailing zeros.
+// Rounds to at most `digits` significant digits, without trailing zeros, for people to read.
 std::string format_rounded(double value, int digits = 4);
-// 1234567 -> "1,234,567"
+// Returns for example "1,234,567".
 std::string format_count(unsigned long long count);
-// "1.5 GiB"
+// Returns for example "1.5 GiB".
 std::string format_bytes(double bytes);
-// The whole text must be one finite decimal number.
+// Returns nothing unless the whole text is one finite decimal number.
 std::optional<double> parse_number(std::string_view text);
 
-// Lower case, without '-' and '_': F-grade, f_grade and fgrade are one name.
+// Converts to lower case and removes '-' and '_', so that F-grade, f_grade and fgrade are the same name.
 std::string fold_name(std::string_view name);
 std::string to_lower(std::string_view text);
 
-// The closest candidate that a typing slip could have turned into `name`.
+// Returns the candidate that is closest to `name` if a typing error could have caused the difference.
 std::optional<std::string> closest_name(std::string_view name, std::span<const std::string> candidates);
-// `did you mean "ring"?`, or nothing when no candidate is close.
+// Returns `did you mean "ring"?`, or an empty text if no candidate is close.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
 std::string join(std::span<const std::string> parts, std::string_view separator);

@@ -73,7 +73,7 @@ TEST(FoldName, SpellingsOfOneName) {
   for (const char* name : {"F-grade", "f_grade", "fgrade", "FGRADE", "F_-Grade", "-fgrade_"})
     EXPECT_EQ(fold_name(name), "fgrade");
   EXPECT_EQ(fold_name(""), "");
-  EXPECT_EQ(fold_name("É"), "É");  // ASCII alone
+  EXPECT_EQ(fold_name("É"), "É");  // only ASCII letters are folded
   EXPECT_EQ(to_lower("F-Grade É"), "f-grade É");
 }
 

@@ -1,4 +1,4 @@
-// Strings as sequences of Unicode code points.
+// Strings as sequences of Unicode code points, in UTF-8.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace ombre {
 
-// Bytes of the code point that begins at `at`; 0 when no valid one does.
+// Returns the number of bytes of the code point at `at`, or 0 if it is not valid UTF-8.
 size_t code_point_size(std::string_view text, size_t at);
-// The code point at `at`, which must be valid.
+// Returns the code point at `at`, which must be valid.
 uint32_t code_point(std::string_view text, size_t at);
-// Nothing happens for what is no Unicode scalar value.
+// Appends a code point as UTF-8. Does nothing if `code` is not a Unicode scalar value.
 void append_code_point(std::string& text, uint32_t code);
 bool is_code_point(double code);
 size_t count_code_points(std::string_view text);

@@ -17,7 +17,7 @@ constexpr uint8_t axis_x = 1, axis_y = 2, axis_z = 4, all_axes = 7;
 constexpr size_t late = 8;
 constexpr ValueId none = ~ValueId{0};
 
-// The axis along which values that depend on these axes are stored; 0: they are one number.
+// Returns the axis along which values that depend on the axes in `mask` are stored, or 0 if they are single numbers.
 uint8_t row_axis(uint8_t mask) { return mask & axis_x ? axis_x : mask & axis_y ? axis_y : mask; }
 
 }  // namespace
@@ -107,7 +107,7 @@ void BatchEvaluator::place_input(size_t axis, std::span<const float> values) {
   }
 }
 
-// What does not change from layer to layer.
+// Computes values that are the same in all layers.
 void BatchEvaluator::run_before_layers() {
   run(steps_[0], 0, 1);
   run(steps_[axis_y], 0, rows_);
@@ -142,20 +142,21 @@ Values BatchEvaluator::output(size_t n) const {
   return {place_for(id, all_axes).at(j_), row_axis(facts_[id].mask) != axis_x};
 }
 
-// What an instruction reads; sources that know their rows need no operands.
+// Calls `f` with the operands that an instruction reads. Sources with values for whole rows read none.
 template <class F>
 void BatchEvaluator::each_read(const Instruction& in, F f) const {
   if (in.op == Op::parts || (in.op == Op::source && sources_->has(program_->reads[in.aux]))) return;
   each_operand(in, f);
 }
 
-// Points of a layer, or all of them, lie along one row.
+// Returns the axes along which an input varies. In form `layers` all points of a layer lie in one row, in form `list`
+// all points do.
 uint8_t BatchEvaluator::mask_of_input(size_t axis) const {
   if (shape_.form == Form::list) return all_axes;
   return shape_.form == Form::layers && axis == 1 ? axis_x : static_cast<uint8_t>(1 << axis);
 }
 
-// Which axes does each value depend on, and who needs it?
+// Finds the axes on which each value depends, and the values that are needed.
 void BatchEvaluator::classify() {
   facts_.assign(program_->code.size(), Fact{});
   for (size_t i = 0; i < facts_.size(); ++i) {
@@ -176,7 +177,7 @@ void BatchEvaluator::classify() {
   }
 }
 
-// What output 0 needs comes first. Notes where each value is used last.
+// Puts the instructions that output 0 needs first, and finds the last use of each value.
 void BatchEvaluator::find_order() {
   order_.clear();
   for (const bool early : {true, false})
@@ -190,7 +191,7 @@ void BatchEvaluator::find_order() {
   for (const ValueId id : program_->outputs) facts_[id].outlives = true;
 }
 
-// Sine and cosine of one value are computed together.
+// Pairs the sine and cosine of the same value, which are computed together.
 void BatchEvaluator::pair_sines() {
   seen_.assign(facts_.size(), none);
   for (const ValueId i : order_) {
@@ -205,7 +206,7 @@ void BatchEvaluator::pair_sines() {
   }
 }
 
-// Channels that are asked for at the same points, for the same outputs, are sampled together.
+// Links channels of one source that are needed at the same points and for the same outputs. They are sampled together.
 void BatchEvaluator::link_channels() {
   channels_.clear();
   if (program_->reads.empty()) return;
@@ -236,7 +237,7 @@ void BatchEvaluator::add_channels(ValueId first, Step& step) {
   step.channel_count = static_cast<uint32_t>(channels_.size()) - step.channels;
 }
 
-// Of the largest box.
+// Returns the length of a row in the largest box.
 size_t BatchEvaluator::row_length(uint8_t mask) const {
   switch (row_axis(mask)) {
     case axis_x:
@@ -250,7 +251,7 @@ size_t BatchEvaluator::row_length(uint8_t mask) const {
   }
 }
 
-// Room for the case that no row is used twice, so most of it stays untouched.
+// Reserves memory for the case that no row is reused. Most of it is never touched.
 void BatchEvaluator::reserve() {
   size_t floats = 2 * batch_lanes;
   for (const Fact& fact : facts_) {
@@ -270,7 +271,7 @@ void BatchEvaluator::reserve() {
   layer_numbers_.clear();
 }
 
-// A place for a value's result.
+// Returns memory for a value's result.
 BatchEvaluator::Place BatchEvaluator::take(ValueId id) {
   Fact& fact = facts_[id];
   auto& free_rows = free_[fact.mask];
@@ -291,11 +292,11 @@ BatchEvaluator::Place BatchEvaluator::take(ValueId id) {
 void BatchEvaluator::release(ValueId id, ValueId user) {
   Fact& fact = facts_[id];
   if (fact.outlives || fact.last_use != user) return;
-  fact.last_use = none;  // an operand may be named twice
+  fact.last_use = none;  // avoids a second release if both operands are the same
   free_[fact.mask].push_back(fact.base);
 }
 
-// Where an instruction that depends on the axes `consumer` finds a value.
+// Returns where an instruction that depends on the axes `consumer` reads a value.
 BatchEvaluator::Place BatchEvaluator::place_for(ValueId id, uint8_t consumer) const {
   const Fact& fact = facts_[id];
   const uint8_t own = row_axis(fact.mask), reader = row_axis(consumer);
@@ -303,7 +304,7 @@ BatchEvaluator::Place BatchEvaluator::place_for(ValueId id, uint8_t consumer) co
     return {fact.base, fact.outlives ? static_cast<ptrdiff_t>(row_length(fact.mask)) : 0};
   if (own == reader || own == 0) return {fact.base, 0};
   if (own == axis_y) return {fact.base, 1};  // one number for each row
-  // One number for the layer, which begin_layer puts behind the row of all layers' numbers.
+  // One number for the layer, which begin_layer copies to the place after the row of all layers' numbers.
   return {fact.base + row_length(fact.mask), 0};
 }
 
@@ -379,7 +380,7 @@ void BatchEvaluator::run(const std::vector<Step>& steps, size_t j, size_t count)
   }
 }
 
-// The rows of the box that the row at work stands for.
+// Returns the rows of the box that make up the current row.
 RowsToFill BatchEvaluator::rows_of(const Step& step, size_t j, size_t count) const {
   if (shape_.form == Form::box) return {k_, j, 1, step.out.at(j), count, count};
   return {k_, 0, box_rows_, step.out.at(j), box_width_, padded(box_width_)};

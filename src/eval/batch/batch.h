@@ -1,8 +1,8 @@
-// Evaluates programs over boxes of points in single precision, row by row, each value where it varies.
+// Evaluates programs over boxes of points in single precision, row by row.
 //
-// A value that depends on x alone is computed once for the box, one of x and y once for each y, one of
-// x and z once for each z; only what mixes all three is computed for each row. Values live in reused
-// rows of floats that stay in the first-level cache.
+// A value that depends on x alone is computed once for the box, one of x and y once for each y, and one of x and z once
+// for each z. Only values of all three are computed for each row. Values are stored in reused rows of floats that stay
+// in the first-level cache.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace ombre::eval {
 
-// A row of floats, or one number for all of them.
+// A row of floats, or one number for a whole row.
 struct Values {
   const float* row = nullptr;
   bool is_number = false;
@@ -24,20 +24,20 @@ struct Values {
   Values from(size_t n) const { return {row + (is_number ? 0 : n), is_number}; }
 };
 
-// Rows of a layer to be filled: row `first` + n begins at values + n * stride.
+// Rows of a layer that are to be filled. Row `first` + n begins at values + n * stride.
 struct RowsToFill {
   size_t layer = 0, first = 0, count = 0;
   float* values = nullptr;
   size_t width = 0, stride = 0;
 };
 
-// Sources that know their rows: what they say along those of the box.
+// Sources and parts that give values for whole rows of the box.
 class SourceRows {
  public:
   virtual ~SourceRows() = default;
-  virtual bool has(const program::Read& read) const = 0;  // if not, it is evaluated point by point
+  virtual bool has(const program::Read& read) const = 0;  // false if the source must be evaluated at each point
   virtual void fill(const program::Read& read, const RowsToFill& rows) const = 0;
-  // Slot of the program's part set `set`; only for those that have parts.
+  // Fills rows with a slot of the program's part set `set`. Only called for programs with parts.
   virtual void fill_parts(uint32_t /*set*/, size_t /*slot*/, const RowsToFill&) const {}
 };
 
@@ -46,10 +46,10 @@ struct BoxPoints {
   std::span<const float> xs, ys, zs;
 };
 
-// Narrow boxes have short rows, and starting an op on a row costs as much as some dozens of points. So the
-// rows of a layer can make up one: they are padded to a multiple of batch_lanes, and need not be neighbours.
+// A row of points of a narrow box. Starting an op on a row costs as much as dozens of points, so the rows of a layer
+// are joined into one. Each is padded to a multiple of batch_lanes. They need not be neighbours.
 struct PointRow {
-  const float* xs = nullptr;  // padded width
+  const float* xs = nullptr;  // x coordinates, padded
   float y = 0;
 };
 struct BoxLayers {
@@ -58,7 +58,7 @@ struct BoxLayers {
   size_t width = 0;
 };
 
-// Points anywhere, as many in each list.
+// Arbitrary points, given by lists of equal length.
 struct PointList {
   std::span<const float> xs, ys, zs;
 };
@@ -67,35 +67,36 @@ class BatchEvaluator {
  public:
   explicit BatchEvaluator(const KernelSet& kernels) : kernels_(kernels) {}
 
-  // `program` without calls and affine maps, parts only where `sources` has them; `ranges` are its values' over
-  // the box for batches, and decide nothing but speed. All arguments must outlive the evaluation.
+  // Starts the evaluation of a box. `program` may not hold calls or affine maps, and parts only if `sources` has them.
+  // `ranges` are the values' ranges over the box for batches, and affect only speed. All arguments must outlive the
+  // evaluation.
   void begin(const program::Program& program, const std::vector<Interval>& ranges, const BoxPoints& points,
              const SourceRows& sources);
-  // The only row of a layer is row 0.
+  // Starts the evaluation of layers. The only row of each layer is row 0.
   void begin(const program::Program& program, const std::vector<Interval>& ranges, const BoxLayers& points,
              const SourceRows& sources);
 
-  // The same in steps: what is compiled once can be placed on many boxes of at most so many points a layer
-  // (padding included) and layers, whose constants may differ.
+  // Compiles a program for boxes with up to `most_points` points per layer, padding included, and up to `most_layers`
+  // layers. The compiled program can be placed on many such boxes, with different constants.
   void compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_points,
                size_t most_layers, const SourceRows& sources);
   void set_constant(program::ValueId constant, float value);
   void place(const BoxLayers& points);
-  // And on lists of at most so many points: row 0 of layer 0.
+  // Compiles a program for lists of up to `most_points` points, which are row 0 of layer 0.
   void compile_for_list(const program::Program& program, const std::vector<Interval>& ranges, size_t most_points,
                         const SourceRows& sources);
   void place(const PointList& points);
 
   void begin_layer(size_t k);
-  // Computes output 0 along row j of the layer; finish_row then the other outputs, and finish_row_inside those whose
-  // values mean nothing where output 0 is 0: sources are not sampled there.
+  // begin_row computes output 0 along row j of the layer. finish_row then computes the other outputs. finish_row_inside
+  // does so too, but does not sample sources where output 0 is 0; outputs are undefined there.
   void begin_row(size_t j);
   void finish_row();
   void finish_row_inside();
   Values output(size_t n) const;
 
  private:
-  // A value's place. Where it is kept for each y, they are `step` apart.
+  // The memory of a value. Values that are stored for each y are `step` floats apart.
   struct Place {
     float* base = nullptr;
     ptrdiff_t step = 0;
@@ -103,30 +104,30 @@ class BatchEvaluator {
   };
   struct Step {
     enum class Kind : uint8_t { kernel, sine_cosine, fill, sample, parts } kind = Kind::kernel;
-    uint8_t numbers = 0;  // operands that are one number for the row
+    uint8_t numbers = 0;  // bits of the operands that are one number for the whole row
     Kernel kernel = nullptr;
     Place a, b, c, out, second_out;
     const program::Read* read = nullptr;
-    uint32_t channels = 0;  // of a sample: where its list begins in channels_, which `channel_count` says the length of
+    uint32_t channels = 0;  // begin of a sample's list of channels in channels_
     uint32_t channel_count = 0;
     const program::Instruction* parts = nullptr;
   };
-  // What the compiler knows of an instruction.
+  // Properties of an instruction that the compiler computes.
   struct Fact {
-    uint8_t mask = 0;  // the axes it depends on
+    uint8_t mask = 0;  // the axes on which it depends
     bool needed = false;
     bool early = false;     // output 0 needs it
-    bool outlives = false;  // read by instructions of other axes, or an output
+    bool outlives = false;  // an output, or read by instructions that depend on other axes
     bool done = false;
     program::ValueId last_use = 0, partner = 0;
-    program::ValueId next_channel = 0;  // another one of its source at the same points
+    program::ValueId next_channel = 0;  // another channel of the same source at the same points
     float* base = nullptr;
   };
 
   enum class Form : uint8_t { box, layers, list };
   struct Shape {
     Form form = Form::box;
-    std::array<size_t, 3> most{};  // points along each axis
+    std::array<size_t, 3> most{};  // greatest number of points along each axis
   };
   uint8_t mask_of_input(size_t axis) const;
   void compile(const program::Program& program, const std::vector<Interval>& ranges, const Shape& shape,
@@ -149,7 +150,8 @@ class BatchEvaluator {
   size_t row_length(uint8_t mask) const;
   void run(const std::vector<Step>& steps, size_t j, size_t count);
   void sample(const Step& step, size_t j, size_t count) const;
-  // Which lanes of `count` from `begin` on are sampled: their numbers, one after the other.
+  // Writes the numbers of the lanes in [begin, begin + count) where sources are sampled, and returns how many there
+  // are.
   size_t choose_lanes(size_t begin, size_t count, uint8_t* lanes) const;
   RowsToFill rows_of(const Step& step, size_t j, size_t count) const;
 
@@ -158,18 +160,19 @@ class BatchEvaluator {
   const SourceRows* sources_ = nullptr;
   Shape shape_;
   size_t width_ = 0, rows_ = 0, layers_ = 0, j_ = 0, k_ = 0;
-  size_t box_width_ = 0, box_rows_ = 0;                  // of the points of a layer
-  std::array<std::vector<program::ValueId>, 3> inputs_;  // that are needed
+  size_t box_width_ = 0, box_rows_ = 0;                  // size of a layer in points
+  std::array<std::vector<program::ValueId>, 3> inputs_;  // the inputs that are needed
   std::vector<Fact> facts_;
   std::vector<program::ValueId> order_, seen_;
-  std::array<std::vector<float*>, 8> free_;               // rows by mask
-  std::array<std::vector<Step>, 9> steps_;                // by mask; [8]: all axes, and not needed by output 0
-  std::vector<std::pair<float*, float*>> layer_numbers_;  // from where values of z lie to where rows read them
-  std::vector<std::pair<int, Place>> channels_;           // of samples, and where their values go
+  std::array<std::vector<float*>, 8> free_;  // free rows by mask
+  std::array<std::vector<Step>, 9> steps_;   // steps by mask; [8] holds those of all axes that output 0 does not need
+  // Pairs of the row of a value that depends on z, and the place where rows read it.
+  std::vector<std::pair<float*, float*>> layer_numbers_;
+  std::vector<std::pair<int, Place>> channels_;  // channels of samples, and the places of their values
   LargeArray<float> memory_;
   size_t memory_floats_ = 0;
   float* next_ = nullptr;
-  Values inside_;  // where sources are sampled; no row: everywhere
+  Values inside_;  // nonzero where sources are sampled; everywhere if there is no row
 };
 
 }  // namespace ombre::eval

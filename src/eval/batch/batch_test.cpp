@@ -1,4 +1,4 @@
-// Float batches: equal bits on every instruction set and in boxes of any shape, within their intervals.
+// Tests of float batches: bits are equal for every instruction set and shape of box, and values lie in their intervals.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ struct Points {
   }
 };
 
-// All outputs at all points: [output][k][j][i].
+// Returns all outputs at all points, indexed [output][k][j][i].
 std::vector<float> evaluate(const KernelSet& kernels, const Program& program, const Points& points) {
   std::vector<Interval> ranges;
   program::evaluate_intervals(program, points.box(), ranges, nullptr, program::Precision::batch);
@@ -63,7 +63,7 @@ std::vector<float> evaluate(const KernelSet& kernels, const Program& program, co
   return values;
 }
 
-// Some outputs over all axes, from ops that are drawn at random.
+// Returns a program with several outputs that depend on all axes, made of random ops.
 Program random_program(std::mt19937& random, size_t size) {
   Builder builder;
   std::vector<Field> fields{builder.input(0), builder.input(1), builder.input(2)};
@@ -122,7 +122,7 @@ TEST(Batch, EveryInstructionSetGivesTheSameBits) {
   }
 }
 
-// Where the reference has a value and floats hold it, the batch has it within a unit in the last place.
+// If the reference has a value that a float can hold, the batch is accurate to one unit in the last place.
 TEST(Batch, ElementaryFunctionsAreAccurate) {
   const auto& sets = kernel_sets();
   if (sets.empty()) GTEST_SKIP();
@@ -131,7 +131,7 @@ TEST(Batch, ElementaryFunctionsAreAccurate) {
   alignas(64) static float a[count], b[count], c[count], out[count];
   for (const Op op : program::numeric_ops) {
     const bool truth = op >= Op::less && op <= Op::is_finite;
-    const bool jumps = op == Op::mod || truth;  // exact, or not at all
+    const bool jumps = op == Op::mod || truth;  // results are exact or discontinuous
     for (size_t n = 0; n < count; ++n) {
       a[n] = std::uniform_real_distribution<float>(-20, 20)(random);
       b[n] = std::uniform_real_distribution<float>(-5, 5)(random);

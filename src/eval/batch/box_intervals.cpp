@@ -17,7 +17,7 @@ using program::ValueId;
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
-// So many are compared with all boxes rather than looked up for each.
+// Up to this many pieces of parts are compared with all boxes. With more, the index is queried for each box.
 constexpr size_t few_pieces = 256;
 
 struct Ends {
@@ -29,7 +29,7 @@ void meet(const IntervalRow& row, Ends piece, std::vector<int32_t>& meets) {
     meets[n] &= static_cast<int32_t>(row.lo[n] <= piece.hi) & static_cast<int32_t>(row.hi[n] >= piece.lo);
 }
 
-// Better known than a quotient of two.
+// True for x / x and the like, whose range is narrower than that of a general quotient.
 bool is_own_quotient(const Instruction& in) { return in.a == in.b && (in.op == Op::divide || in.op == Op::share); }
 
 }  // namespace
@@ -114,7 +114,7 @@ void BoxIntervals::evaluate_alone(ValueId id, std::span<const Box> boxes, const 
   }
 }
 
-// Slots of one set at one place follow each other, so the index is queried once.
+// Queries the index once for consecutive slots of one set at one place.
 void BoxIntervals::query_parts(ValueId id) {
   const Instruction& in = program_->code[id];
   const program::PartSet& set = *program_->part_sets[in.aux];
@@ -127,8 +127,8 @@ void BoxIntervals::query_parts(ValueId id) {
   fill(id, [&](size_t box) { return reached_[box] ? range : Interval(0); });
 }
 
-// Boxes that lie together have few pieces of parts near them: each is compared with all boxes. Its ends are rounded to
-// nearest, since boxes of parts are grown by more than that (program/parts.h).
+// Finds the boxes that parts reach. Neighbouring boxes have few pieces near them, so each piece is compared with all
+// boxes. Its ends are rounded to nearest, since boxes of parts are grown by more than that rounding (program/parts.h).
 void BoxIntervals::find_reached(const program::PartIndex& index, const Instruction& in) {
   const Place place = operands(in);
   Box around = place.in(0);

@@ -1,4 +1,4 @@
-// Evaluates a program's intervals over many boxes at once: what evaluate_intervals does for one, with SIMD.
+// Evaluates a program's intervals over many boxes at once with SIMD, as evaluate_intervals does for one box.
 #pragma once
 
 #include <array>
@@ -14,22 +14,22 @@ namespace ombre::eval {
 
 class BoxIntervals {
  public:
-  // The operands' ranges that a source is evaluated at.
+  // The ranges of the operands at which a source is evaluated.
   struct Place {
     std::array<IntervalRow, 3> rows;
     Box in(size_t box) const;
   };
-  // Fills `to`, as long as the boxes, with what a source can be at a place in each of them.
+  // Writes the range of a source for each box to `to`, which has one interval per box.
   using SourceRanges = std::function<void(const program::Read&, const Place& at, IntervalRow to)>;
 
   explicit BoxIntervals(const KernelSet& kernels);
 
-  // The values enclose what float batches compute (program/single.h). `program` without calls and affine maps; it
-  // must outlive the questions. Equal to evaluate_intervals, but for sine, cosine, atan2 and exp, which are some 1e-6
-  // wider.
+  // Computes intervals that enclose the results of float batches (program/single.h). `program` may not hold calls or
+  // affine maps, and must outlive later queries. Results equal those of evaluate_intervals, except that sine, cosine,
+  // atan2 and exp are about 1e-6 wider.
   void evaluate(const program::Program& program, std::span<const Box> boxes, const SourceRanges& sources);
   Interval output(size_t n, size_t box) const { return value(program_->outputs[n], box); }
-  // Of each instruction: over one box, or the hull over some.
+  // Returns the range of each instruction over one box, or the hull over several.
   void values(size_t box, std::vector<Interval>& values) const;
   void values(std::span<const size_t> boxes, std::vector<Interval>& values);
 
@@ -51,12 +51,13 @@ class BoxIntervals {
   void find_reached(const program::PartIndex& index, const program::Instruction& place);
 
   const KernelSet& kernels_;
-  std::array<IntervalKernel, program::op_table.size()> by_op_{};  // null for what is done box by box
+  std::array<IntervalKernel, program::op_table.size()> by_op_{};  // null for ops that are evaluated box by box
   const program::Program* program_ = nullptr;
-  size_t count_ = 0, stride_ = 0;  // boxes; floats from row to row
+  size_t count_ = 0, stride_ = 0;  // number of boxes; floats from row to row
   std::vector<float> memory_;
-  float* floats_ = nullptr;               // for each instruction the lower ends, then the upper ones; then flags
-  std::vector<int32_t> reached_, meets_;  // by box: do parts reach it? Of the last `parts` instruction
+  // The lower ends and then the upper ends of each instruction; after these, flags of chosen boxes.
+  float* floats_ = nullptr;
+  std::vector<int32_t> reached_, meets_;  // one flag per box, set if parts reach it, for the last `parts` instruction
   std::vector<program::PartIndex::Entry> near_;
 };
 

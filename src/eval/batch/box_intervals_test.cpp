@@ -1,4 +1,4 @@
-// Intervals over many boxes at once are those over one box each, on every instruction set.
+// Compares intervals over many boxes at once with those over single boxes, for every instruction set.
 #include "eval/batch/box_intervals.h"
 
 #include <gtest/gtest.h>
@@ -25,11 +25,11 @@ using program::Program;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Their functions on floats stand in for those on doubles.
+// These ops use functions on floats instead of doubles.
 constexpr Op wider_ops[] = {Op::sin, Op::cos, Op::atan2, Op::exp};
 bool is_wider(Op op) { return std::find(std::begin(wider_ops), std::end(wider_ops), op) != std::end(wider_ops); }
 
-// Every value is an output. Constants are out of the range of floats too.
+// Returns a program in which every value is an output. Some constants exceed the range of floats.
 Program random_program(std::mt19937& random, size_t size, bool with_wider) {
   Builder builder;
   std::vector<Field> fields{builder.input(0), builder.input(1), builder.input(2)};
@@ -45,7 +45,7 @@ Program random_program(std::mt19937& random, size_t size, bool with_wider) {
   return fuse(builder.finish(outputs));
 }
 
-// Points, thin and wide boxes, around 0 and away from it.
+// Returns points, thin boxes and wide boxes, some of which contain 0.
 std::vector<Box> random_boxes(std::mt19937& random, size_t count) {
   const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
   constexpr double sizes[] = {0, 1e-3, 0.5, 8};
@@ -85,7 +85,7 @@ TEST(BoxIntervals, AreThoseOfOneBoxEach) {
   }
 }
 
-// Whether few parts lie near the boxes, or many. Places are multiples of 1/8, so that nothing is rounded.
+// Tests few and many parts near the boxes. Positions are multiples of 1/8, so that nothing is rounded.
 TEST(BoxIntervals, PartsReachTheBoxesThatTheirPiecesMeet) {
   std::mt19937 random(12);
   const auto eighths = [&](int lo, int hi) { return 0.125 * std::uniform_int_distribution(8 * lo, 8 * hi)(random); };
@@ -126,7 +126,7 @@ TEST(BoxIntervals, PartsReachTheBoxesThatTheirPiecesMeet) {
   }
 }
 
-// Wider than those of double precision by what floats lose, and never narrower than the crests and ends say.
+// The intervals contain those of double precision, and are wider only by the rounding of floats.
 TEST(BoxIntervals, WavesHoldTheirCrestsAndAreTight) {
   for (const KernelSet& kernels : kernel_sets()) {
     std::mt19937 random(12);
@@ -147,7 +147,7 @@ TEST(BoxIntervals, WavesHoldTheirCrestsAndAreTight) {
         const Interval found = evaluator.output(output, 0);
         ASSERT_LE(found.lo, exact.lo + 1e-12) << text(argument);
         ASSERT_GE(found.hi, exact.hi - 1e-12) << text(argument);
-        // The slope of a wave is at most its argument's slack, and crests are flat.
+        // A wave's slope is at most 1, and it is flat at crests.
         const double slack = 1e-6 + 1e-11 * scale * scale;
         ASSERT_GE(found.lo, exact.lo - slack) << text(argument);
         ASSERT_LE(found.hi, exact.hi + slack) << text(argument);

@@ -1,4 +1,4 @@
-// Channels of one source at the same points are asked for together.
+// Channels of one source at the same points are sampled together.
 #include <gtest/gtest.h>
 
 #include "eval/batch/batch.h"
@@ -10,7 +10,7 @@ namespace {
 
 using program::Builder;
 
-// Channel n is x + n * y; remembers how many channels each call asked for.
+// A source whose channel n is x + n * y. It records the number of channels of each call.
 class FourChannels : public program::FieldSource {
  public:
   std::string name() const override { return "four channels"; }
@@ -27,7 +27,7 @@ class FourChannels : public program::FieldSource {
   mutable std::vector<size_t> group_sizes;
 };
 
-// Says x, and remembers where it was asked.
+// A source with value x that records the points at which it is sampled.
 class QueriedPoints : public program::FieldSource {
  public:
   std::string name() const override { return "queried points"; }
@@ -42,7 +42,7 @@ class QueriedPoints : public program::FieldSource {
   mutable std::vector<double> queried;
 };
 
-// All channels at (x, y, z), and one at (y, x, z).
+// Returns a program that reads all channels at (x, y, z), and one at (y, x, z).
 program::Program program_of(const std::shared_ptr<FourChannels>& source) {
   Builder builder;
   const auto x = builder.input(0), y = builder.input(1), z = builder.input(2);
@@ -105,7 +105,7 @@ TEST(Channels, BatchesAskForThemTogether) {
   ListEvaluation evaluation(program, PointList{xs, ys, zs}, xs.size());
   BatchEvaluator& batch = evaluation.batch;
   batch.finish_row();
-  // 128 points at a time.
+  // Sources are sampled at 128 points at a time.
   EXPECT_EQ(source->group_sizes, (std::vector<size_t>{4, 4, 1, 1}));
   for (size_t channel = 0; channel < 4; ++channel)
     for (size_t n = 0; n < xs.size(); ++n)
@@ -113,7 +113,7 @@ TEST(Channels, BatchesAskForThemTogether) {
   for (size_t n = 0; n < xs.size(); ++n) ASSERT_EQ(batch.output(5)[n], ys[n] + xs[n]);
 }
 
-// A source is not queried at points where output 0 is 0, since values mean nothing there.
+// A source is not sampled where output 0 is 0, since outputs are undefined there.
 TEST(Channels, AreQueriedOnlyInside) {
   if (kernel_sets().empty()) GTEST_SKIP() << "no instruction set for batches";
   const auto source = std::make_shared<QueriedPoints>();

@@ -1,6 +1,6 @@
-// The ops on vectors of intervals. Included once for each instruction set.
+// Ops on vectors of intervals. Included once for each instruction set.
 //
-// What comes out encloses what float batches compute on any operands inside.
+// Results enclose the values that float batches compute for any operands in the intervals.
 
 #if defined(OMBRE_EVAL_BATCH_INTERVALS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef OMBRE_EVAL_BATCH_INTERVALS_INL_H_
@@ -34,7 +34,7 @@ struct Ends {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-// Zeros have no sign here, and NaN does not occur: the processor's own minimum does.
+// Uses the processor's minimum and maximum. The sign of zero does not matter here, and NaN does not occur.
 HWY_INLINE V least(V a, V b) { return hn::Min(a, b); }
 HWY_INLINE V most(V a, V b) { return hn::Max(a, b); }
 HWY_INLINE V zero() { return hn::Zero(D()); }
@@ -48,14 +48,14 @@ HWY_INLINE Ends everything_where(M m, Ends otherwise) {
   return {hn::IfThenElse(m, number(-inf), otherwise.lo), hn::IfThenElse(m, number(inf), otherwise.hi)};
 }
 HWY_INLINE Ends truth_of(M surely, M never) { return {batch::one_where(surely), batch::one_where(hn::Not(never))}; }
-// Of results at the corners of two operands.
+// Returns the hull of the results at the four corners of two operands.
 HWY_INLINE Ends around(V p, V q, V r, V s) { return {least(least(p, q), least(r, s)), most(most(p, q), most(r, s))}; }
 HWY_INLINE Ends absolute(Ends v) {
   const V below = hn::Neg(v.hi);
   return {most(most(v.lo, below), zero()), most(hn::Neg(v.lo), v.hi)};
 }
 
-// Does some phase + 2 pi n lie in v? Errs towards yes.
+// True if v may contain phase + 2 pi n for some integer n; the tolerance errs towards true.
 HWY_INLINE M meets(Ends v, float phase) {
   constexpr float turn = 2 * std::numbers::pi_v<float>;
   const V slack = hn::Mul(number(2e-6F), hn::Add(number(1), most(hn::Abs(v.lo), hn::Abs(v.hi))));
@@ -64,7 +64,7 @@ HWY_INLINE M meets(Ends v, float phase) {
   return hn::Le(hn::Add(number(phase), hn::Mul(number(turn), n)), hn::Add(v.hi, slack));
 }
 
-// A wave of height 1 whose crests are at `crest` + 2 pi n; a and b are its values at the ends of v.
+// Returns the range of a wave of height 1 with crests at `crest` + 2 pi n. a and b are its values at the ends of v.
 HWY_INLINE Ends wave(Ends v, V a, V b, float crest) {
   constexpr float half_turn = std::numbers::pi_v<float>;
   const V error = number(static_cast<float>(program::batch_trigonometric_error)), one = number(1);
@@ -76,7 +76,7 @@ HWY_INLINE Ends wave(Ends v, V a, V b, float crest) {
   return everything_where(outside, met);
 }
 
-// By more than the errors of two values of an elementary function.
+// Widens by more than the errors of two values of an elementary function.
 HWY_INLINE Ends widened(Ends v) {
   const V share = number(0x1p-21F), least_float = number(std::numeric_limits<float>::min());
   const auto slack = [&](V end) { return batch::fma(hn::Abs(end), share, least_float); };
@@ -87,12 +87,12 @@ HWY_INLINE Ends arc(Ends y, Ends x) {
   const M crosses_cut = hn::And(hn::Le(x.lo, zero()), hn::And(hn::Le(y.lo, zero()), hn::Ge(y.hi, zero())));
   const Ends corners = widened(
       around(batch::atan2(y.lo, x.lo), batch::atan2(y.lo, x.hi), batch::atan2(y.hi, x.lo), batch::atan2(y.hi, x.hi)));
-  const V most_angle = number(0x1.921fb8p+1F);  // above pi
+  const V most_angle = number(0x1.921fb8p+1F);  // slightly above pi
   return {hn::IfThenElse(crosses_cut, hn::Neg(most_angle), corners.lo),
           hn::IfThenElse(crosses_cut, most_angle, corners.hi)};
 }
 
-// Never below 0; near the end of the floats it gives up early.
+// Never returns less than 0. Returns infinity a little below the largest float.
 HWY_INLINE Ends exponential(Ends v) {
   const Ends wide = widened({batch::exp(v.lo), batch::exp(v.hi)});
   return {most(wide.lo, zero()), hn::IfThenElse(hn::Gt(wide.hi, number(0x1p126F)), number(inf), wide.hi)};
@@ -125,10 +125,10 @@ HWY_INLINE Ends select(Ends condition, Ends a, Ends b) {
   return everything_where(is_everything(condition), one);
 }
 
-// Stands for ops that have nothing here: they are evaluated interval by interval.
+// Marks ops without a vectorised version; they are evaluated one interval at a time.
 struct OneByOne {};
 
-// On bounded operands. Sums, products, quotients and roots are rounded once, which keeps the order.
+// Computes an op on bounded operands. Sums, products, quotients and roots are rounded once, which preserves order.
 template <Op op>
 HWY_INLINE auto on(Ends a, [[maybe_unused]] Ends b, [[maybe_unused]] Ends c) {
   if constexpr (op == Op::add) {
@@ -205,7 +205,7 @@ inline Interval at(IntervalRow row, size_t n) {
   return {static_cast<double>(row.lo[n]), static_cast<double>(row.hi[n])};
 }
 
-// As the lane before?
+// True if the lane equals the one before.
 inline bool is_same(IntervalRow row, size_t n) { return row.lo[n] == row.lo[n - 1] && row.hi[n] == row.hi[n - 1]; }
 
 template <Op op, int arity>
@@ -227,7 +227,7 @@ void run(IntervalRow a, IntervalRow b, IntervalRow c, IntervalRow out, size_t co
     hn::Store(result.hi, D(), out.hi + n);
     if (op == Op::select || hn::AllTrue(D(), known)) continue;
     for (size_t i = n; i < n + hn::Lanes(D()); ++i) {
-      // Padding repeats what comes before it.
+      // Padding repeats the last value.
       const bool is_repeated = i > n && is_same(a, i) && (arity < 2 || is_same(b, i)) && (arity < 3 || is_same(c, i));
       if (is_repeated) {
         out.lo[i] = out.lo[i - 1];

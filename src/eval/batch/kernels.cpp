@@ -6,7 +6,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "eval/batch/kernels.cpp"
-// Only what has fused multiply-add, and the portable version.
+// Compiles only instruction sets with fused multiply-add, and the portable version.
 #if OMBRE_WIDE_SLEEF
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #else
@@ -42,7 +42,7 @@ HWY_INLINE V plain(V a, [[maybe_unused]] V b, [[maybe_unused]] V c) {
 #undef OMBRE_CALL_3
 }
 
-// A NaN operand makes the result NaN, unless the other operands alone decide it.
+// Makes the result NaN if an operand is NaN, unless the other operands alone determine it.
 template <Op op>
 HWY_INLINE V with_unknowns(V a, V b, V c) {
   const M nan_a = batch::is_nan(a), nan_b = batch::is_nan(b);
@@ -60,7 +60,7 @@ HWY_INLINE V with_unknowns(V a, V b, V c) {
   return batch::nan_where(is_unary ? nan_a : hn::Or(nan_a, nan_b), result);
 }
 
-// Do other ops pass NaN on as they are?
+// True for ops that do not propagate NaN by themselves.
 constexpr bool loses_nan(Op op) {
   return program::gives_truth(op) || op == Op::min || op == Op::max || op == Op::select || op == Op::share ||
          op == Op::pow;
@@ -88,7 +88,7 @@ void run(const float* a, const float* b, const float* c, float* out, size_t coun
   }
 }
 
-using Row = std::array<std::array<Kernel, 2>, 8>;  // [shape][unknowns]
+using Row = std::array<std::array<Kernel, 2>, 8>;  // indexed [shape][unknowns]
 
 template <Op op, int arity, unsigned shape>
 constexpr void fill_shape(Row& row) {
@@ -96,7 +96,7 @@ constexpr void fill_shape(Row& row) {
   row[shape][1] = run<op, arity, shape, loses_nan(op)>;
 }
 
-// Not all operands are numbers: then the op would not be evaluated by rows.
+// Fills the shapes of operands. The shape with numbers only is left out, since such an op is not evaluated by rows.
 template <Op op, int arity>
 constexpr Row make_row() {
   Row row{};

@@ -1,7 +1,7 @@
-// The ops on SIMD vectors. Included once for each instruction set.
+// Ops on SIMD vectors. Included once for each instruction set.
 //
-// Every function gives the same bits on all of them: operations that IEEE 754 rounds correctly, fused
-// multiply-add where it is written, and SLEEF's deterministic family ("finz") for the rest.
+// Every function gives the same bits on all instruction sets. It uses operations that IEEE 754 rounds correctly,
+// explicit fused multiply-adds, and SLEEF's deterministic family ("finz") for the rest.
 
 #if defined(OMBRE_EVAL_BATCH_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef OMBRE_EVAL_BATCH_MATH_INL_H_
@@ -32,7 +32,7 @@ using M = hn::Mask<D>;
 HWY_INLINE V number(float v) { return hn::Set(D(), v); }
 HWY_INLINE V one_where(M m) { return hn::IfThenElseZero(m, number(1)); }
 HWY_INLINE M is_nan(V v) { return hn::IsNaN(v); }
-// Not Ne, which instruction sets disagree about for NaN.
+// Does not use Ne, whose result for NaN differs between instruction sets.
 HWY_INLINE M is_set(V v) { return hn::Not(hn::Eq(v, hn::Zero(D()))); }
 HWY_INLINE V nan_where(M m, V otherwise) {
   return hn::IfThenElse(m, number(std::numeric_limits<float>::quiet_NaN()), otherwise);
@@ -52,8 +52,8 @@ HWY_INLINE V fma(V a, V b, V c) {
 }
 #endif
 
-// SLEEF by instruction set. Its header shows these functions only to sources that are compiled for
-// those sets throughout, so they are declared here.
+// SLEEF's functions for each instruction set. They are declared here, since its header declares only those for sets
+// that are enabled for the whole file.
 #if HWY_TARGET == HWY_AVX2
 #define OMBRE_SLEEF_RAW __m256
 #define OMBRE_SLEEF_NAME(name, suffix) Sleef_finz_##name##f8_##suffix##avx2
@@ -65,7 +65,7 @@ HWY_INLINE V fma(V a, V b, V c) {
 #define OMBRE_SLEEF_NAME(name, suffix) Sleef_finz_##name##f1_##suffix##purecfma
 #endif
 
-// A call on the whole vector, or lane by lane.
+// Calls a function on the whole vector, or lane by lane.
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
 template <class F>
 HWY_INLINE V through(F f, V a) {
@@ -125,17 +125,17 @@ HWY_INLINE V negate(V v) { return hn::Neg(v); }
 HWY_INLINE V square(V v) { return hn::Mul(v, v); }
 HWY_INLINE V abs(V v) { return hn::Abs(v); }
 HWY_INLINE V sqrt(V v) { return hn::Sqrt(v); }
-// Zeros keep their sign, which emulated instructions forget.
+// Zeros keep their sign, which emulated instructions lose.
 HWY_INLINE V floor(V v) { return hn::CopySign(hn::Floor(v), v); }
 HWY_INLINE V ceil(V v) { return hn::CopySign(hn::Ceil(v), v); }
 HWY_INLINE V trunc(V v) { return hn::CopySign(hn::Trunc(v), v); }
-// Halves go away from zero; the difference from the whole part is exact.
+// Rounds halves away from zero. The difference from the integer part is exact.
 HWY_INLINE V round(V v) {
   const V whole = trunc(v), rest = hn::Sub(v, whole);
   const V away = hn::Add(whole, hn::CopySign(number(1), v));
   return hn::IfThenElse(hn::Ge(hn::Abs(rest), number(0.5f)), away, whole);
 }
-// Not the processor's own minimum: which zero or NaN that gives is a matter of taste.
+// Does not use the processor's minimum, which may return either zero or NaN.
 HWY_INLINE V min(V a, V b) { return hn::IfThenElse(hn::Lt(b, a), b, a); }
 HWY_INLINE V max(V a, V b) { return hn::IfThenElse(hn::Gt(b, a), b, a); }
 HWY_INLINE V less(V a, V b) { return one_where(hn::Lt(a, b)); }
@@ -150,20 +150,20 @@ HWY_INLINE V share(V part, V total) {
   return hn::IfThenElseZero(hn::Gt(total, hn::Zero(D())), most);
 }
 HWY_INLINE V select(V condition, V a, V b) { return hn::IfThenElse(is_set(condition), a, b); }
-// What overflowed may be finite in double precision.
+// Returns NaN for infinities, since a value that overflowed may be finite in double precision.
 HWY_INLINE V is_finite(V v) {
   const M finite = hn::Lt(hn::Abs(v), number(std::numeric_limits<float>::infinity()));
   return nan_where(hn::Not(finite), number(1));
 }
 
-// Sine and cosine: the argument less the nearest multiple of pi/2 in three parts (Cody and Waite), then
-// polynomials for [-pi/4, pi/4] (the coefficients are Cephes' single-precision ones).
+// Computes sine and cosine. Subtracts the nearest multiple of pi/2 in three parts (Cody and Waite), then evaluates
+// polynomials for [-pi/4, pi/4] with the coefficients of Cephes' single-precision functions.
 struct SineCosine {
   V sine, cosine;
 };
 HWY_INLINE SineCosine sine_cosine(V v) {
   const DU du;
-  const V shift = number(0x1.8p23f);  // moves whole numbers to the last bits
+  const V shift = number(0x1.8p23f);  // adding it moves integers to the last bits
   const V shifted = fma(v, number(0x1.45f306p-1f), shift);
   const V quarters = hn::Sub(shifted, shift);
   const hn::Vec<DU> turn = hn::BitCast(du, shifted);

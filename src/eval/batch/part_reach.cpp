@@ -14,7 +14,8 @@ namespace {
 
 constexpr size_t most_lanes = 64;
 
-// Does a part of the body hold what slot 0 says? What differs from part to part is read, by its number.
+// Returns the program of slot 0 for any part of a body. Parameters that differ between parts are read as sources, by
+// their number.
 Program reach_of(const PartTable& table, uint32_t body) {
   const PartTable::Excerpt excerpt = table.reach(body);
   Program made;

@@ -1,4 +1,4 @@
-// Which of many parts can reach a box, many tests at once: with SIMD, each lane is a part.
+// Finds the parts that can reach a box with SIMD; each lane tests one part.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace ombre::eval {
 
-// For tables of batches, which outlive this. Not thread-safe.
+// A filter for the tables of batches, which must outlive it. Not thread-safe.
 class PartReach : public program::PartFilter {
  public:
   explicit PartReach(const KernelSet& kernels) : intervals_(kernels) {}
@@ -22,7 +22,7 @@ class PartReach : public program::PartFilter {
   void ask(const program::PartTable& table, uint32_t body, const Box& where);
 
   BoxIntervals intervals_;
-  std::map<std::pair<const program::PartTable*, uint32_t>, program::Program> questions_;  // by body
+  std::map<std::pair<const program::PartTable*, uint32_t>, program::Program> questions_;  // programs by table and body
   std::vector<uint32_t> bodies_, together_, reaching_;
   std::vector<Box> boxes_;
 };

@@ -1,4 +1,4 @@
-// Balls and blocks that reach boxes, against geometry.
+// Compares the filter with geometry for balls and blocks.
 #include "eval/batch/part_reach.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using program::PartTable;
 
 struct Part {
   Vec3 centre;
-  double size = 0;  // a radius, or half a side
+  double size = 0;  // radius of a ball, half the side of a block
   bool is_ball = true;
 };
 
@@ -56,7 +56,7 @@ class Parts {
   std::mt19937 random_{3};
 };
 
-// From the surface of a part to the nearest point of a box; negative where they meet.
+// Returns the distance from the surface of a part to the nearest point of a box, negative if they intersect.
 double gap(const Part& part, const Box& box) {
   double sum = 0, most = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -79,7 +79,7 @@ void Plan::add(const Statement& statement) {
       return;
     }
     case Statement::Kind::include:
-      return;  // the loader puts the file's statements in its place
+      return;  // the loader replaces it by the file's statements
     case Statement::Kind::group:
       for (const StatementPtr& inner : static_cast<const Group&>(statement).statements) add(*inner);
       return;

@@ -1,7 +1,7 @@
-// The tree that a script is parsed into; every part knows its place.
+// The syntax tree of a script. Every part knows its position.
 //
-// What could be written very long without nesting (sums, else-if chains) is a list here, not a
-// deep tree, so that walking a tree never needs more stack than the parser's nesting limit allows.
+// Constructs that can be long without nesting (sums, else-if chains) are lists, not deep trees, so that walking a tree
+// needs no more stack than the parser's limit of nesting allows.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace ombre::lang {
 
-// A name in a table of names: equal names are equal pointers.
+// A table of names in which equal names are equal pointers.
 using Symbol = const std::string*;
 
 class Names {
@@ -38,7 +38,7 @@ class Names {
 
 namespace ast {
 
-// A range of a source that its file keeps alive; cheap to copy.
+// A range of a source, which the file keeps alive. Cheap to copy.
 struct Span {
   const SourcePtr* source = nullptr;
   uint32_t begin = 0, end = 0;
@@ -116,14 +116,14 @@ struct Variable : Expr {
 
 struct Range : Expr {
   explicit Range(Span s) : Expr(Kind::range, s) {}
-  ExprPtr begin, step, end;  // no step: 1
+  ExprPtr begin, step, end;  // step 1 if absent
 };
 
 struct List : Expr {
   explicit List(Span s) : Expr(Kind::list, s) {}
   std::vector<ExprPtr> elements;
   bool is_tuple = false;
-  bool has_generators = false;  // the elements written are not the elements of the value
+  bool has_generators = false;  // the value may have more or fewer elements than are written
 };
 
 enum class Operator : uint8_t {
@@ -179,15 +179,15 @@ struct Power : Expr {
   ExprPtr exponent;
 };
 
-// a ? b : c ? d : e, with its branches in a row.
+// Conditionals a ? b : c ? d : e, with their branches in one list.
 struct Conditional : Expr {
   explicit Conditional(Span s) : Expr(Kind::conditional, s) {}
-  std::vector<std::pair<ExprPtr, ExprPtr>> branches;  // condition, value
+  std::vector<std::pair<ExprPtr, ExprPtr>> branches;  // condition and value
   ExprPtr otherwise;
 };
 
 struct Argument {
-  Name name;  // no symbol when positional
+  Name name;  // has no symbol if positional
   ExprPtr value;
 };
 
@@ -222,22 +222,22 @@ struct Function : Expr {
 enum class PrefixKind : uint8_t { let, assertion, echo };
 const char* spelling(PrefixKind kind);
 
-// let(...) value, assert(...) value, echo(...) value.
+// Prefixes of a value: let(...), assert(...) or echo(...).
 struct Prefix : Expr {
   Prefix(Span s, PrefixKind w) : Expr(Kind::prefix, s), which(w) {}
   PrefixKind which;
   std::vector<Argument> arguments;
-  ExprPtr value;  // may be absent, but for let
+  ExprPtr value;  // may be absent, except after let
 };
 
-// Inside of list brackets: for (a = ..., b = ...) element.
+// A loop in list brackets: for (a = ..., b = ...) element.
 struct GenerateFor : Expr {
   explicit GenerateFor(Span s) : Expr(Kind::generate_for, s) {}
   std::vector<Argument> loops;
   ExprPtr element;
 };
 
-// for (init; condition; next) element.
+// A loop in list brackets: for (init; condition; next) element.
 struct GenerateLoop : Expr {
   explicit GenerateLoop(Span s) : Expr(Kind::generate_loop, s) {}
   std::vector<Argument> init;
@@ -248,7 +248,7 @@ struct GenerateLoop : Expr {
 
 struct GenerateIf : Expr {
   explicit GenerateIf(Span s) : Expr(Kind::generate_if, s) {}
-  ExprPtr condition, element, otherwise;  // otherwise may be absent
+  ExprPtr condition, element, otherwise;  // `otherwise` may be absent
 };
 
 struct GenerateEach : Expr {
@@ -256,7 +256,7 @@ struct GenerateEach : Expr {
   ExprPtr element;
 };
 
-// The signs before a statement, of "*!#%", each at most once, as they were written.
+// The modifiers before a statement, from "*!#%", each at most once, in the order written.
 class Modifiers {
  public:
   void add(char modifier) {
@@ -301,17 +301,18 @@ struct Assign;
 struct FunctionDef;
 struct ModuleDef;
 
-// What of a scope's statements happens when: variables first, each at its first place with its
-// last value, then the calls. Braces that belong to nothing are no scope of their own.
+// The order in which a scope's statements are evaluated: first the variables, each at its first position with its last
+// value, then the calls. Braces that belong to no statement do not make a scope.
 struct Plan {
   std::vector<const Assign*> assignments;
   std::vector<const FunctionDef*> functions;
   std::vector<const ModuleDef*> modules;
   std::vector<const Statement*> actions;
-  std::vector<std::pair<const Assign*, const Assign*>> replaced;  // a value that never counts, and what replaced it
+  // Pairs of a value that is never used, and the one that replaces it.
+  std::vector<std::pair<const Assign*, const Assign*>> replaced;
 
   void add(const Statement& statement);
-  // The last definition of that name, or null.
+  // Returns the last definition with that name, or null.
   const FunctionDef* function(Symbol name) const;
   const ModuleDef* module(Symbol name) const;
   bool assigns(Symbol name) const;
@@ -320,7 +321,7 @@ struct Plan {
  private:
   void assign(const Assign& assignment);
 
-  std::unordered_map<Symbol, size_t> places_;  // of the assignments
+  std::unordered_map<Symbol, size_t> places_;  // positions in `assignments`
   std::unordered_map<Symbol, const FunctionDef*> functions_by_name_;
   std::unordered_map<Symbol, const ModuleDef*> modules_by_name_;
 };
@@ -359,35 +360,35 @@ struct Include : Statement {
   Span path_span;
 };
 
-// Braces that belong to nothing.
+// Braces that belong to no statement.
 struct Group : Statement {
   explicit Group(Span s) : Statement(Kind::group, s) {}
   std::vector<StatementPtr> statements;
 };
 
-// name(arguments) { children }; also for, let, assert and echo, which differ by kind.
+// A statement name(arguments) { children }. for, let, assert and echo are calls, too, of other kinds.
 struct CallStatement : Statement {
   CallStatement(Kind k, Name n) : Statement(k, n.span), name(n), whole(n.span) {}
   Name name;
-  Span whole;  // from the name to the closing parenthesis
+  Span whole;  // range from the name to the closing parenthesis
   std::vector<Argument> arguments;
   Block children;
 };
 
-// A call of which only the place is kept; it is read again when it is its turn (parser.h).
+// A call of which only the position is kept. It is read again when it is evaluated (parser.h).
 struct Deferred : Statement {
   explicit Deferred(const Statement& call) : Statement(Kind::deferred, call.span) { modifiers = call.modifiers; }
 };
 
 struct Condition : Statement {
   explicit Condition(Span s) : Statement(Kind::condition, s) {}
-  std::vector<std::pair<ExprPtr, Block>> branches;  // condition, statements
+  std::vector<std::pair<ExprPtr, Block>> branches;  // condition and statements
   Block otherwise;
   bool has_otherwise = false;
 };
 
 struct File {
-  std::unique_ptr<const SourcePtr> source;  // on the heap, since spans point at it
+  std::unique_ptr<const SourcePtr> source;  // allocated on the heap, since spans point to it
   std::shared_ptr<Names> names;
   std::vector<StatementPtr> statements;
 };

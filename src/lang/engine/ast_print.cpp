@@ -7,7 +7,7 @@ namespace {
 
 using namespace ast;
 
-// How tightly an expression holds together; an operand looser than its place needs parentheses.
+// Precedence levels. An operand with a lower level than its place requires needs parentheses.
 enum Tightness {
   loosest = 0,
   tight_conditional = 1,
@@ -197,7 +197,7 @@ class Printer {
       }
       case Expr::Kind::member: {
         const auto& member = static_cast<const Member&>(expr);
-        // "5.x" would read as a number that runs into a name.
+        // Puts a number in parentheses, since "5.x" would be read as a number followed by a name.
         print(*member.base, member.base->kind == Expr::Kind::number ? tight_postfix + 1 : tight_postfix);
         text += '.' + member.member.text();
         return;
@@ -309,7 +309,7 @@ class Printer {
         text += "if (";
         print(*choice.condition);
         text += ')';
-        // An inner "if" without "else" would take this one's.
+        // An inner "if" without "else" would take this "else".
         const bool needs_parentheses = choice.otherwise && (choice.element->kind >= Expr::Kind::generate_for ||
                                                             choice.element->kind == Expr::Kind::prefix);
         text += needs_parentheses ? " (" : " ";

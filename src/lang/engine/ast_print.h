@@ -1,4 +1,4 @@
-// Prints a script's tree as a script.
+// Prints a syntax tree as a script.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace ombre::lang {
 
-// The text reads back to the same tree: print(parse(print(f))) is print(f).
+// Returns a text that is parsed to the same tree: print(parse(print(f))) is print(f).
 std::string print(const ast::File& file);
-// One line, for messages.
+// Returns one line, for messages.
 std::string print(const ast::Expr& expression);
 
 }  // namespace ombre::lang

@@ -1,4 +1,4 @@
-// The functions that every script has.
+// The builtin functions of scripts.
 #pragma once
 
 #include <span>
@@ -9,14 +9,14 @@
 
 namespace ombre::lang {
 
-// A builtin's argument that is not what it takes.
+// Thrown for an argument that a builtin function does not accept.
 struct BadArgument {
-  size_t index;         // of the argument
-  std::string message;  // "abs() needs a number, found a string"
+  size_t index;         // number of the argument
+  std::string message;  // for example "abs() needs a number, found a string"
   Phrase hint;
 };
 
-// Arguments of one call, checked as they are read.
+// The arguments of one call, which are checked as they are read.
 class BuiltinCall {
  public:
   BuiltinCall(const char* name, std::vector<Value> arguments, Meter& m)
@@ -42,11 +42,11 @@ class BuiltinCall {
 struct Builtin {
   const char* name;
   std::vector<const char*> parameters;
-  size_t required;   // how many of them must be given
-  bool is_variadic;  // any number may follow
+  size_t required;   // number of required arguments
+  bool is_variadic;  // any number of further arguments may follow
   Value (*call)(const BuiltinCall& call);
 
-  std::string signature() const;  // "pow(base, exponent)"
+  std::string signature() const;  // for example "pow(base, exponent)"
 };
 
 std::span<const Builtin> math_builtins();

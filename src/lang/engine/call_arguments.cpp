@@ -1,11 +1,11 @@
-// Values on their way to a node: plain data with the places where they were written.
+// Conversion of values to arguments of nodes: plain data with source positions.
 #include "lang/engine/interpreter.h"
 
 namespace ombre::lang {
 
 namespace {
 
-// What a literal string says stands at a place of its own, wherever the value went since.
+// Returns the position of a literal string, even if the value was passed on through variables; else `otherwise`.
 SourceRange place_of(const Text& text, const SourceRange& otherwise) {
   return text.origin && text.origin->is_plain ? text.origin->inside().range() : otherwise;
 }

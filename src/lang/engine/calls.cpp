@@ -127,7 +127,7 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
 
 namespace {
 
-// A number or an object that the script calls by this name, as formulas may.
+// Returns the number or object in the script's variable of this name, which formulas may use.
 std::optional<Data> named_value(const std::string& name, const Scope& scope) {
   const Value* value = scope.find_text(name);
   if (value && value->number()) return Data(*value->number());
@@ -146,7 +146,7 @@ void Interpreter::node_arguments(const std::vector<ast::Argument>& arguments, co
     const Value value = eval(*argument.value, scope);
     const ast::Span& span = argument.value->span;
     if (argument.name.symbol && argument.name.is_special()) {
-      set_special(argument.name.symbol, value, specials_from);  // for the children
+      set_special(argument.name.symbol, value, specials_from);  // makes the variable visible to the children
       invocation.has_own_facets |= argument.name.symbol == facets_name_;
       continue;
     }
@@ -155,7 +155,7 @@ void Interpreter::node_arguments(const std::vector<ast::Argument>& arguments, co
       result.name = argument.name.text();
       result.name_where = argument.name.span.range();
     }
-    argument_bytes_ = bytes;  // evaluating the argument may have made other calls
+    argument_bytes_ = bytes;  // evaluating the argument may have overwritten it
     result.value = to_data(value, span.range(), span);
     bytes = argument_bytes_;
   }
@@ -181,7 +181,7 @@ void Interpreter::bind(const std::vector<ast::Parameter>& parameters, const std:
   }
   for (const ast::Parameter& parameter : parameters) {
     if (into->own(parameter.name.symbol)) continue;
-    // A special one that nobody gives keeps what it is outside.
+    // A special parameter without a value keeps that of the caller.
     if (parameter.name.is_special() && !parameter.value) continue;
     Value value;
     if (parameter.value) value = eval(*parameter.value, into);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double per_radian = 180 / std::numbers::pi;
 
-// Sine of an angle in [0, 90], exact where it is a fraction.
+// Returns the sine of an angle in [0, 90], exact where it is 0, 1/2 or 1.
 double quadrant_sine(double angle) {
   if (angle == 30) return 0.5;
   if (angle == 90) return 1;
@@ -18,7 +18,7 @@ double quadrant_sine(double angle) {
   return math::sin(angle / per_radian);
 }
 
-// Whole degrees come back as such where the function of them is exactly the argument.
+// Rounds an angle to a whole degree if the function of that is exactly the argument.
 template <class Function>
 double inverse(double angle, double argument, Function function) {
   const double whole = std::round(angle);

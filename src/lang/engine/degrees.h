@@ -1,9 +1,9 @@
-// Functions of angles in degrees, exact where the result is a fraction: sine(30) is 0.5.
+// Trigonometric functions in degrees, exact where the result is a simple fraction: sine(30) is 0.5.
 #pragma once
 
 namespace ombre::lang::degrees {
 
-// NaN of what is not finite.
+// All return NaN for arguments that are not finite.
 double sine(double angle);
 double cosine(double angle);
 double tangent(double angle);

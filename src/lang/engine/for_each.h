@@ -38,7 +38,7 @@ void Interpreter::for_each_scope(const ast::Argument& loop, const ScopePtr& scop
   const SpecialsMark mark(*this);
   ScopePtr inner = make_scope(scope);
   for_each(values, loop.value->span, "\"for\" needs a range, a list or a string", [&](const Value& value) {
-    // The scope serves the next pass too, unless something holds on to it.
+    // Reuses the scope for the next pass, unless a closure holds it.
     if (inner->use_count() > 1) inner = make_scope(scope);
     inner->clear();
     set_variable(loop.name, value, *inner, mark.size());

@@ -53,7 +53,7 @@ void Interpreter::generate_for(const ast::GenerateFor& loop, size_t variable, co
                  [&](const ScopePtr& inner) { generate_for(loop, variable + 1, inner, out); });
 }
 
-// Every pass has a scope of its own; what "next" sets is computed from the pass before.
+// Each pass has its own scope. The values of "next" are computed from the previous pass.
 void Interpreter::generate_loop(const ast::GenerateLoop& loop, const ScopePtr& scope, ListBuilder& out) {
   const SpecialsMark mark(*this);
   ScopePtr pass = make_scope(scope);

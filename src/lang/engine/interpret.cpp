@@ -18,7 +18,7 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
   for (const auto table : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
     for (const Builtin& builtin : table) builtins_[program.names->intern(builtin.name)] = &builtin;
   constants_[program.names->intern("PI")] = 3.14159265358979323846;
-  // What OpenSCAD's own special variables are before anyone sets them.
+  // Initial values of OpenSCAD's special variables.
   const auto special = [&](const char* name, Value value) {
     specials_.emplace_back(program.names->intern(name), std::move(value));
   };
@@ -29,7 +29,7 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
   special("$preview", false);
 }
 
-// A name that is to be set, and that the script does not have, is a slip of the pen.
+// Reports a name that should be set but does not occur in the script, which is probably misspelt.
 void Interpreter::report_missing(Severity severity, const std::string& name, const std::string& what,
                                  const Unit& main) {
   std::vector<std::string> names;
@@ -56,7 +56,7 @@ Interpreter::Nodes Interpreter::run() {
     const ScopePtr& scope = unit_scope(main);
     try {
       run_actions(main.plan, scope, nodes);
-    } catch (const Failure&) {  // of an assertion
+    } catch (const Failure&) {  // a failed assertion stops the script
     }
   } catch (const LimitReached& limit) {
     report({Severity::error, at_.range(), limit.message, limit.hint, Code::limit});
@@ -68,7 +68,7 @@ std::vector<Product> run(const SourcePtr& source, Vocabulary& vocabulary, const 
                          Diagnostics& diagnostics) {
   const size_t errors_before = diagnostics.error_count();
   const Program program = load(source, options, diagnostics);
-  // What could not be read would be missed everywhere else.
+  // A file that could not be read would cause errors everywhere else.
   if (diagnostics.error_count() > errors_before) return {};
   return Interpreter(program, vocabulary, options, diagnostics).run();
 }

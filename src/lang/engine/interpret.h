@@ -1,4 +1,4 @@
-// Runs a script: text in, nodes of a vocabulary out.
+// Runs a script: reads text and returns nodes of a vocabulary.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace ombre::lang {
 
-// Parses and evaluates; the top-level nodes in order. Mistakes become diagnostics, and what was
-// not affected by them is still evaluated, so that one run finds several.
+// Parses and evaluates a script, and returns its top-level nodes in order. Errors become diagnostics. Code that does
+// not depend on them is still evaluated, so that one run finds several.
 std::vector<Product> run(const SourcePtr& source, Vocabulary& vocabulary, const Options& options,
                          Diagnostics& diagnostics);
 

@@ -18,7 +18,7 @@ void expect_nodes(const Cases& cases, const Options& options = {}) {
   }
 }
 
-// The first line of what is said, behind "part.vcad:".
+// Compares the first line of the messages, without "part.vcad:".
 void expect_messages(const Cases& cases) {
   for (const auto& [text, expected] : cases) {
     const std::string message = first_message(text);
@@ -282,8 +282,8 @@ TEST(Interpret, StepsAndInstancesAreLimited) {
   EXPECT_NE(result.messages.find("the design makes more than 100 nodes"), std::string::npos);
 }
 
-// With the limits as they are these stop after millions of calls or nodes, which takes seconds, instead of 10^9 of
-// them.
+// Recursion that doubles at each level must stop. With the default limits it stops after millions of calls or nodes,
+// which takes seconds, instead of 10^9.
 TEST(Interpret, WhatDoublesAtEachLevelIsLimited) {
   Options options;
   options.limits.calls = 5000;
@@ -300,14 +300,14 @@ TEST(Interpret, WhatDoublesAtEachLevelIsLimited) {
   expect_limits(options, {{"for (i = [0:999]) for (j = [0:999]) cube(1);", "error: the design makes more than 5,000"}});
 }
 
-// Reading ahead or not.
+// Returns options with and without reading ahead.
 std::vector<Options> for_long_lists() {
   Options one, several;
   several.threads = 2;
   return {one, several};
 }
 
-// Long enough for calls to be read twice.
+// Returns enough calls that they are deferred.
 std::string numbered_cubes(int count) {
   std::string text;
   for (int n = 0; n < count; ++n) text += "cube(" + std::to_string(n) + ");\n";

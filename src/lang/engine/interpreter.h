@@ -25,12 +25,12 @@ class Interpreter {
   Nodes run();
 
  private:
-  // What is being evaluated cannot go on; its diagnostic was recorded.
+  // Thrown if evaluation of the current item cannot continue. A diagnostic was recorded before.
   struct Failure {};
 
   static constexpr int heavy = 2;  // levels that a call or a statement counts for
 
-  // One level of evaluation, for as long as it lives.
+  // Counts a level of evaluation for as long as it lives.
   class Level {
    public:
     Level(Interpreter& interpreter, const ast::Span& at, int weight = 1);
@@ -40,10 +40,10 @@ class Interpreter {
 
    private:
     Interpreter& interpreter_;
-    int weight_;  // by the stack that it takes: 5000 levels stay below 6 MB under AddressSanitizer
+    int weight_;  // proportional to its stack: 5000 levels stay below 6 MB under AddressSanitizer
   };
 
-  // Forgets the special variables that were set since.
+  // Removes the special variables that were set during its life.
   class SpecialsMark {
    public:
     explicit SpecialsMark(Interpreter& interpreter) : interpreter_(interpreter), size_(interpreter.specials_.size()) {}
@@ -57,14 +57,14 @@ class Interpreter {
     size_t size_;
   };
 
-  // A function to call: named, or a literal.
+  // A function to call, named or a literal.
   struct Callee {
     const std::vector<ast::Parameter>* parameters = nullptr;
     const ast::Expr* body = nullptr;
-    ScopePtr scope;  // where it was written
+    ScopePtr scope;  // the scope where it was defined
   };
 
-  // The reader of a list, while its actions are run.
+  // Makes `now` the current reader of deferred calls while the actions of a list run.
   class Reading {
    public:
     Reading(ReadAhead*& place, ReadAhead* now) : place_(place), before_(std::exchange(place, now)) {}
@@ -77,11 +77,11 @@ class Interpreter {
     ReadAhead* before_;
   };
 
-  // --- diagnostics.cpp
+  // Defined in interpreter_diagnostics.cpp.
   void report(Diagnostic diagnostic);
-  static constexpr size_t most_callers = 8;  // that an invocation names
-  // Texts are put together outside of the functions that call themselves, whose stack frames
-  // would hold every part of them.
+  static constexpr size_t most_callers = 8;  // number of callers that an invocation lists
+  // These functions assemble messages outside recursive functions, whose stack frames would otherwise hold all parts of
+  // them.
   [[noreturn]] void fail(const ast::Span& where, std::string_view message, const Phrase& hint = {});
   [[noreturn]] void fail(Code code, const ast::Span& where, std::string_view message, const Phrase& hint = {},
                          CodeValues values = {});
@@ -103,11 +103,11 @@ class Interpreter {
   [[noreturn]] void fail_unknown_function(const ast::Name& name, const Scope& scope);
   [[noreturn]] void fail_unknown_module(const ast::Name& name, const Scope& scope);
 
-  // --- statements.cpp
+  // Defined in interpreter_statements.cpp.
   const ScopePtr& unit_scope(const Unit& unit);
   void assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main);
   void report_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main);
-  // `ends`, where it is given, gets the size of `out` after each statement that makes solids, however many.
+  // If `ends` is given, it gets the size of `out` after each statement that makes solids.
   void run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_action(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
@@ -119,7 +119,7 @@ class Interpreter {
   void run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Nodes& out);
   void run_let(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
 
-  // --- calls.cpp
+  // Defined in calls.cpp.
   void call(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   void call_module(const ast::ModuleDef& module, const ScopePtr& home, const ast::CallStatement& statement,
                    const ScopePtr& scope, Nodes& out);
@@ -137,7 +137,7 @@ class Interpreter {
   void assert_true(const std::vector<ast::Argument>& arguments, const ast::Span& where, const ScopePtr& scope);
   void echo(const std::vector<ast::Argument>& arguments, const ScopePtr& scope);
 
-  // --- expressions.cpp
+  // Defined in interpreter_expressions.cpp.
   Value eval(const ast::Expr& expr, const ScopePtr& scope);
   Value eval_branching(const ast::Expr& expr, const ScopePtr& scope);
   Value eval_variable(const ast::Name& name, const Scope& scope);
@@ -154,7 +154,7 @@ class Interpreter {
   Value binary(ast::Operator op, const ast::Span& where, const Value& left, const Value& right);
   Value unary(ast::Operator op, const ast::Span& where, const Value& operand);
   bool holds(const ast::Expr& condition, const ScopePtr& scope);
-  // Evaluates calls, conditions and let; where one ends with another, in a loop instead of deeper.
+  // Evaluates calls, conditions and let. If one ends with another, continues in a loop instead of recursively.
   Value eval_tail(const ast::Expr& expr, const ScopePtr& scope);
   const ast::Expr* choose(const ast::Conditional& conditional, const ScopePtr& scope, Value& chosen);
   Value otherwise(const ast::Conditional& conditional, size_t first, const ScopePtr& scope);
@@ -171,7 +171,7 @@ class Interpreter {
   void bind_let(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t specials_from);
   double number(const ast::Expr& expr, const ScopePtr& scope, const char* what);
 
-  // --- generators.cpp
+  // Defined in generators.cpp.
   void generate(const ast::Expr& expr, const ScopePtr& scope, ListBuilder& out);
   void generate_for(const ast::GenerateFor& loop, size_t variable, const ScopePtr& scope, ListBuilder& out);
   void generate_loop(const ast::GenerateLoop& loop, const ScopePtr& scope, ListBuilder& out);
@@ -184,7 +184,7 @@ class Interpreter {
   void for_each_scope(const ast::Argument& loop, const ScopePtr& scope, const Body& body);
   void check_count(double count, const ast::Span& where, const char* what);
 
-  // --- arguments.cpp
+  // Defined in call_arguments.cpp.
   Data to_data(const Value& value, const SourceRange& where, const ast::Span& argument);
   Data list_to_data(const List& list, const SourceRange& where, const ast::Span& argument);
   Data range_to_data(const Range& range, const SourceRange& where, const ast::Span& argument);
@@ -205,20 +205,21 @@ class Interpreter {
   std::unordered_map<Symbol, Value> constants_;
   std::unordered_set<Symbol> no_constants_;
   std::unordered_map<Symbol, bool> known_nodes_;
-  std::unordered_map<Symbol, Value> overrides_;  // from the command line
+  std::unordered_map<Symbol, Value> overrides_;  // values of variables from the command line
   std::unordered_map<const Unit*, ScopePtr> unit_scopes_;
 
-  std::vector<std::pair<Symbol, Value>> specials_;       // of the calls being evaluated, innermost last
-  std::vector<const ast::CallStatement*> module_calls_;  // being evaluated, innermost last
+  // Special variables of the calls that are being evaluated, innermost last.
+  std::vector<std::pair<Symbol, Value>> specials_;
+  std::vector<const ast::CallStatement*> module_calls_;  // calls that are being evaluated, innermost last
   int depth_ = 0;
-  int node_depth_ = 0;           // calls of nodes whose children are being evaluated
-  ast::Span at_;                 // what is being evaluated
-  uint64_t argument_bytes_ = 0;  // of the call being put together
-  Nodes roots_;                  // of statements marked "!"
+  int node_depth_ = 0;           // number of calls of nodes whose children are being evaluated
+  ast::Span at_;                 // position of the current evaluation
+  uint64_t argument_bytes_ = 0;  // bytes in the arguments of the current call
+  Nodes roots_;                  // nodes of statements marked "!"
   bool has_roots_ = false;
-  ReadAhead* reader_ = nullptr;               // of the action begun last, if it has one
-  std::unordered_set<std::string> reported_;  // diagnostics that were given
-  size_t failures_ = 0;                       // of statements, reported or not
+  ReadAhead* reader_ = nullptr;               // reader of the latest action, or null
+  std::unordered_set<std::string> reported_;  // diagnostics that were reported
+  size_t failures_ = 0;                       // number of failed statements, reported or not
 };
 
 }  // namespace ombre::lang

@@ -1,4 +1,4 @@
-// How the interpreter tells what is wrong, once each.
+// Diagnostics of the interpreter. Each is reported once.
 #include <algorithm>
 
 #include "lang/engine/interpreter.h"
@@ -6,7 +6,7 @@
 namespace ombre::lang {
 namespace {
 
-constexpr size_t most_reported = 1000;  // different ones; a design with more has one cause, repeated
+constexpr size_t most_reported = 1000;  // different ones; in a larger design they have a common cause
 
 std::string text_at(const ast::Span& span) {
   return std::string((*span.source)->text().substr(span.begin, span.end - span.begin));
@@ -95,7 +95,7 @@ void Interpreter::fail_assertion(const ast::Span& condition) {
 void Interpreter::fail_unknown(Code code, const ast::Name& name, const char* what, std::vector<std::string> candidates,
                                const std::string& otherwise) {
   std::sort(candidates.begin(), candidates.end());
-  // Any other single letter would be close to a single letter.
+  // Suggests nothing for single letters, since all of them are similar.
   const std::string suggestion = name.text().size() > 1 ? did_you_mean(name.text(), candidates) : "";
   fail(code, name.span, "there is no " + std::string(what) + " \"" + name.text() + '"',
        suggestion.empty() ? otherwise : suggestion,

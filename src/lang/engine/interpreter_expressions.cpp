@@ -53,7 +53,7 @@ Value Interpreter::eval_branching(const Expr& expr, const ScopePtr& scope) {
   }
 }
 
-// The value of a name, or null; nothing is said.
+// Returns the value of a name, or null without a diagnostic.
 const Value* Interpreter::quiet_variable(Symbol name, const Scope& scope) {
   if (name->front() == '$')
     if (const Value* value = find_special(name)) return value;
@@ -131,11 +131,11 @@ Value Interpreter::eval_chain(const ast::Chain& chain, const ScopePtr& scope) {
 Value Interpreter::eval_logic(const ast::Chain& chain, const ScopePtr& scope) {
   const ast::Operator op = chain.links.front().op;
   const bool decisive = op == ast::Operator::logical_or;
-  Value varying;  // of the operands that are known only while the job runs
+  Value varying;  // combination of the operands that vary in space
   const auto is_decided_by = [&](const Expr& operand) {
     Value value = eval(operand, scope);
     if (!value.object()) return is_true(value) == decisive;
-    // Twice not: a truth value of any number.
+    // Negates twice, which turns any number into a truth value.
     value = unary(ast::Operator::logical_not, operand.span, unary(ast::Operator::logical_not, operand.span, value));
     varying = varying.is_undef() ? value : binary(op, operand.span, varying, value);
     return false;

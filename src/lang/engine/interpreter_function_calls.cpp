@@ -1,4 +1,4 @@
-// Calls in expressions, with what they may end in: conditions, let, further calls.
+// Calls in expressions, and the conditionals, let and further calls with which they may end.
 #include <algorithm>
 
 #include "base/system/assert.h"
@@ -43,7 +43,8 @@ Value Interpreter::eval_tail(const Expr& start, const ScopePtr& outer) {
   }
 }
 
-// The expression to evaluate, or null and the value that is chosen at each point.
+// Returns the expression to evaluate, or null if the condition varies in space; then `chosen` is set to a value that
+// selects at each point.
 const Expr* Interpreter::choose(const ast::Conditional& conditional, const ScopePtr& scope, Value& chosen) {
   for (size_t n = 0; n < conditional.branches.size(); ++n) {
     const auto& [condition, value] = conditional.branches[n];
@@ -58,7 +59,7 @@ const Expr* Interpreter::choose(const ast::Conditional& conditional, const Scope
   return conditional.otherwise.get();
 }
 
-// The value of a conditional from its branch `first` on.
+// Returns the value of a conditional, starting with branch `first`.
 Value Interpreter::otherwise(const ast::Conditional& conditional, size_t first, const ScopePtr& scope) {
   if (first == conditional.branches.size()) return eval(*conditional.otherwise, scope);
   const auto& [condition, value] = conditional.branches[first];
@@ -69,7 +70,7 @@ Value Interpreter::otherwise(const ast::Conditional& conditional, size_t first, 
   return choice(decision, yes, otherwise(conditional, first + 1, scope), condition->span);
 }
 
-// One of two values at each point; of lists, element by element.
+// Returns a value that selects one of two at each point, element by element for lists.
 Value Interpreter::choice(const Value& condition, const Value& yes, const Value& no, const ast::Span& where) {
   const List *a = yes.list(), *b = no.list();
   if (a && b && a->items.size() == b->items.size()) {
@@ -85,7 +86,7 @@ Value Interpreter::choice(const Value& condition, const Value& yes, const Value&
   return *made;
 }
 
-// What follows let, assert or echo, or null when nothing does.
+// Returns the expression after let, assert or echo, or null if there is none.
 const Expr* Interpreter::enter_prefix(const ast::Prefix& prefix, ScopePtr& scope, size_t specials_from) {
   switch (prefix.which) {
     case ast::PrefixKind::let:
@@ -102,7 +103,7 @@ const Expr* Interpreter::enter_prefix(const ast::Prefix& prefix, ScopePtr& scope
   return prefix.value.get();
 }
 
-// One after the other, so that each sees those before it.
+// Assigns the variables one after the other, so that each can use those before it.
 void Interpreter::bind_let(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t specials_from) {
   for (const ast::Argument& argument : arguments)
     set_variable(argument.name, eval(*argument.value, scope), *scope, specials_from);
@@ -130,7 +131,7 @@ bool Interpreter::find_function(Symbol name, const ScopePtr& scope, Callee& call
   return false;
 }
 
-// A builtin, or null and the callee, which is empty for a node that gives values.
+// Returns a builtin function, or null and sets `callee`, which stays empty for a node that gives values.
 const Builtin* Interpreter::resolve(const ast::Call& call, const ScopePtr& scope, Callee& callee) {
   if (call.callee->kind == Expr::Kind::variable) {
     const ast::Name& name = static_cast<const ast::Variable&>(*call.callee).name;
@@ -149,7 +150,7 @@ const Builtin* Interpreter::resolve(const ast::Call& call, const ScopePtr& scope
 
 Value Interpreter::call_builtin(const Builtin& builtin, const ast::Call& call, const ScopePtr& scope) {
   const std::string_view name = builtin.name;
-  // The one function that may ask about what does not exist.
+  // is_undef is the only function whose argument may be undefined.
   if (name == "is_undef" && call.arguments.size() == 1 && call.arguments[0].value->kind == Expr::Kind::variable) {
     const Value* value =
         quiet_variable(static_cast<const ast::Variable&>(*call.arguments[0].value).name.symbol, *scope);
@@ -168,7 +169,7 @@ Value Interpreter::call_builtin(const Builtin& builtin, const ast::Call& call, c
   }
 }
 
-// Takes numbers and objects as arguments, or one list of them.
+// Applies a function to numbers and objects, given as arguments or as one list.
 std::optional<Value> Interpreter::result_of_objects(std::string_view function, const std::vector<Value>& arguments) {
   const List* list = arguments.size() == 1 ? arguments[0].list() : nullptr;
   const std::span<const Value> operands = list ? std::span(list->items) : std::span(arguments);

@@ -9,7 +9,7 @@ using ast::Statement;
 
 namespace {
 
-// Statements that only say or check something, and what "%" and "!" take elsewhere, stand for no solid.
+// Returns false for statements that make no solid here: echo and assert without children, and those with "%" or "!".
 bool makes_solids(const Statement& statement) {
   if (statement.has('%') || statement.has('!')) return false;
   if (statement.kind != Statement::Kind::echo && statement.kind != Statement::Kind::assertion) return true;
@@ -71,7 +71,7 @@ void Interpreter::assign(const ast::Plan& plan, const ScopePtr& scope, bool is_m
     Value value = Broken{};
     try {
       value = eval(*assignment->value, scope);
-    } catch (const Failure&) {  // what reads it later fails without a word
+    } catch (const Failure&) {  // code that reads the variable later fails without a diagnostic
     }
     set_variable(assignment->name, std::move(value), *scope, specials_from);
   }
@@ -95,7 +95,7 @@ void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Node
   }
 }
 
-// A mistake in a statement does not stop those after it; a failed assertion does, as they rely on it.
+// Runs a statement. A failure does not stop the statements after it, except for an assertion, on which they rely.
 void Interpreter::run_action(const Statement& statement, const ScopePtr& scope, Nodes& out) {
   try {
     execute(statement, scope, out);
@@ -144,7 +144,7 @@ void Interpreter::dispatch(const Statement& statement, const ScopePtr& scope, No
   }
 }
 
-// Nothing that evaluation keeps points into the statement: values that remember literals end with it.
+// Runs a deferred call. Values must not point into the statement after it, since it is freed.
 void Interpreter::run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Nodes& out) {
   if (const Statement* known = reader_ ? reader_->call(statement) : nullptr) return dispatch(*known, scope, out);
   const ast::StatementPtr call = read(statement, *program_.names);
@@ -157,7 +157,7 @@ void Interpreter::run_condition(const ast::Condition& statement, const ScopePtr&
   run_block(statement.otherwise, scope, out);
 }
 
-// A loop over its variables from `variable` on.
+// Runs a loop over its variables, starting with number `variable`.
 void Interpreter::run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Nodes& out) {
   if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
   const Level level(*this, statement.whole, heavy);

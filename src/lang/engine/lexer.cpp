@@ -66,7 +66,7 @@ std::optional<TokenKind> single_sign(char c) {
   }
 }
 
-// Reads one string's escapes.
+// Decodes the escapes of one string.
 class Unescaper {
  public:
   Unescaper(const SourcePtr& source, const Token& token, Dialect dialect, Diagnostics& diagnostics)
@@ -131,11 +131,11 @@ class Unescaper {
       default:
         break;
     }
-    if (dialect_ == Dialect::openscad) {  // such a backslash is as if it were not there
+    if (dialect_ == Dialect::openscad) {  // OpenSCAD ignores such a backslash
       at_ = begin + 1;
       return;
     }
-    // Designs written without escapes in mind (paths, formulas) keep what they say.
+    // Keeps the backslash, for designs whose paths and formulas were written without escapes in mind.
     diagnostics_.warning(part(begin, begin + 1), "this backslash starts no escape and stands for itself",
                          "write \\\\ for a backslash");
     result_.text += '\\';
@@ -262,7 +262,7 @@ void Lexer::path(size_t begin, size_t open, bool is_use) {
   put(is_use ? TokenKind::use_path : TokenKind::include_path, begin);
 }
 
-// Whichever is longer counts: 2d is a name, 2.5 and 2e3 are numbers, 0x1F is one in base 16.
+// Decides by the longer match: 2d is a name, 2.5 and 2e3 are numbers, 0x1F is a hexadecimal number.
 bool Lexer::name_from_digit() {
   size_t end = at_;
   while (end < text_.size() && is_name_part(text_[end])) ++end;
@@ -271,7 +271,7 @@ bool Lexer::name_from_digit() {
                               word.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos;
   const bool is_decimal = word.find_first_not_of("0123456789") == std::string_view::npos;
   const size_t letter = word.find_first_not_of("0123456789");
-  const size_t sign = at_ + letter + 1;  // of an exponent, if it has one
+  const size_t sign = at_ + letter + 1;  // position of the exponent's sign, if there is one
   const auto digit_at = [&](size_t place) { return place < text_.size() && is_digit(text_[place]); };
   const bool has_signed_exponent = letter + 1 == word.size() && sign < text_.size() &&
                                    (text_[sign] == '+' || text_[sign] == '-') && digit_at(sign + 1);
@@ -348,7 +348,7 @@ void Lexer::sign() {
   put(*kind, begin);
 }
 
-// Operators on the bits of numbers.
+// Reads operators on bits.
 bool Lexer::bit_sign() {
   const std::string_view rest = text_.substr(at_, 2);
   TokenKind kind = TokenKind::end;
@@ -371,7 +371,7 @@ bool Lexer::bit_sign() {
   return true;
 }
 
-// A row of strange bytes is one mistake.
+// Reports consecutive invalid bytes as one error.
 void Lexer::stray() {
   const size_t begin = at_;
   const size_t size = code_point_size(text_, at_);

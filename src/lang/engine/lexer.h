@@ -1,4 +1,4 @@
-// Cuts a script's text into tokens.
+// Divides a script's text into tokens.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class TokenKind : uint8_t {
   number,
   string,
   include_path,
-  use_path,  // include <...>, use <...>, as one token
+  use_path,  // include <...> and use <...> are single tokens
   left_paren,
   right_paren,
   left_bracket,
@@ -58,14 +58,15 @@ struct Token {
   uint32_t begin = 0, end = 0;
 };
 
-// Reads a text from a place on, token by token.
+// Reads the tokens of a text, starting at a given position.
 class Lexer {
  public:
   Lexer(const SourcePtr& source, uint32_t begin, Dialect dialect, Diagnostics& diagnostics)
       : source_(source), text_(source->text()), dialect_(dialect), diagnostics_(diagnostics), at_(begin) {}
 
-  Token next();  // the end, again and again, where the text ends
-  // A string or comment ran to the end of the text: what then seems missing is no news.
+  Token next();  // returns the end token repeatedly at the end of the text
+  // True if a string or comment was not closed. Errors about missing tokens at the end of the text then follow from
+  // this.
   bool is_cut_short() const { return is_cut_short_; }
 
  private:
@@ -93,7 +94,8 @@ class Lexer {
   bool is_cut_short_ = false;
 };
 
-// The tokens ahead of a reader, read when they are looked at: a file has far more than are needed at a time.
+// A queue of tokens ahead of the parser. Tokens are read when they are needed, since a file has far more than are
+// needed at once.
 class Tokens {
  public:
   Tokens(const SourcePtr& source, uint32_t begin, Dialect dialect, Diagnostics& diagnostics)
@@ -104,22 +106,22 @@ class Tokens {
     return list_[first_ + count];
   }
   void take();
-  uint32_t last_end() const { return last_end_; }  // of the token that was taken last
+  uint32_t last_end() const { return last_end_; }  // end of the last token that was taken
   bool is_cut_short() const { return lexer_.is_cut_short(); }
 
  private:
   Lexer lexer_;
   std::vector<Token> list_;
-  size_t first_ = 0;  // in the list; those before it were taken
+  size_t first_ = 0;  // index in list_; earlier tokens were taken
   uint32_t last_end_;
 };
 
 struct StringValue {
   std::string text;
-  bool is_plain = true;  // without escapes
+  bool is_plain = true;  // has no escapes
 };
 
-// What a string token, quotes included, says.
+// Returns the value of a string token; the token includes the quotes.
 StringValue read_string(const SourcePtr& source, const Token& token, Dialect dialect, Diagnostics& diagnostics);
 
 }  // namespace ombre::lang

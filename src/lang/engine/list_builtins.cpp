@@ -14,7 +14,7 @@ Value len(const BuiltinCall& call) {
   return static_cast<double>(count_code_points(call.text(0)));
 }
 
-// Lists are joined, other values added.
+// Joins lists, and appends other values.
 Value concat(const BuiltinCall& call) {
   ListBuilder result(call.meter);
   for (const Value& argument : call.all()) {
@@ -29,7 +29,7 @@ Value concat(const BuiltinCall& call) {
   return result.finish();
 }
 
-// Linear between the keys, constant outside of them.
+// Interpolates linearly between the keys; constant beyond them.
 Value lookup(const BuiltinCall& call) {
   const double key = call.number(0);
   const List& table = call.list(1);
@@ -51,7 +51,7 @@ Value lookup(const BuiltinCall& call) {
   return value_below * (1 - part) + value_above * part;
 }
 
-// The places in a list, or characters of a string, where something stands.
+// Finds the positions of values in a list, or of characters in a string.
 class Search {
  public:
   explicit Search(const BuiltinCall& call) : call_(call) {
@@ -75,7 +75,8 @@ class Search {
   }
 
  private:
-  // With one place each, the places stand in a row; a listed value that is nowhere leaves [].
+  // If one position per value is wanted, positions are written without inner lists. A listed value that is not found
+  // gives [].
   void add(const Value& wanted, bool is_listed, ListBuilder& result) {
     const std::vector<double> found = places(wanted);
     if (most_ == 1 && !found.empty()) return result.push(found.front());
@@ -120,7 +121,7 @@ class Search {
 
   const BuiltinCall& call_;
   double most_, column_;
-  std::vector<Value> characters_;  // of the string to search in, if it is one
+  std::vector<Value> characters_;  // characters of the string that is searched; empty for a list
 };
 
 Value search(const BuiltinCall& call) { return Search(call).run(); }

@@ -50,7 +50,7 @@ class Loader {
     return result;
   }
 
-  // Adds a file's statements to the unit, and those of the files that it includes in their places.
+  // Adds a file's statements to the unit, with the statements of included files in their places.
   void splice(const SourcePtr& source, Unit& into) {
     open_.push_back(normal(source->name()));
     program_.files.push_back(parse_deferred(source, program_.names, dialect_, diagnostics_));
@@ -105,7 +105,7 @@ class Loader {
     return false;
   }
 
-  // ", through a.vcad and b.vcad" of the files between.
+  // Returns the files between, for a message: ", through a.vcad and b.vcad".
   std::string way_round(const std::string& path) const {
     std::string names;
     for (auto at = std::find(open_.begin(), open_.end(), path) + 1; at != open_.end(); ++at)
@@ -113,7 +113,8 @@ class Loader {
     return names;
   }
 
-  // Beside the file that asks first, then beside the one that it links to, then from the working directory.
+  // Searches beside the including file, then beside the file that it links to, in the working directory, and in the
+  // libraries.
   SourcePtr find(const ast::Include& include) {
     if (include.path.empty()) {
       diagnostics_.error(Code::syntax, include.span.range(), "there is no path between < and >");
@@ -142,7 +143,7 @@ class Loader {
   const std::vector<std::string>& libraries_;
   Diagnostics& diagnostics_;
   Program program_;
-  std::vector<std::string> open_;  // the files being read, outermost first
+  std::vector<std::string> open_;  // files that are being read, outermost first
   std::map<std::string, const Unit*> used_;
   bool was_reported_ = false;
 };

@@ -1,4 +1,4 @@
-// Brings a script and the files that it includes and uses together.
+// Loads a script with the files that it includes and uses.
 #pragma once
 
 #include <deque>
@@ -14,12 +14,12 @@
 
 namespace ombre::lang {
 
-// A file with what it includes in its place; it is evaluated in one scope.
+// A file with its included files, which is evaluated in one scope.
 struct Unit {
   std::string path;
   ast::Plan plan;
   std::vector<const Unit*> uses;  // files whose functions and modules it may call
-  bool has_words = false;         // it says `use <ombre>` (OpenSCAD scripts)
+  bool has_words = false;         // true if it contains `use <ombre>` (OpenSCAD scripts)
 };
 
 struct Program {

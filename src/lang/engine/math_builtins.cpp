@@ -1,4 +1,4 @@
-// Builtin functions of numbers, and of what kind a value is.
+// Builtin functions of numbers, and those that test the type of a value.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -65,7 +65,7 @@ double exponential(double x) { return math::exp(x); }
 double root(double x) { return std::sqrt(x); }
 double power(double x, double y) { return math::pow(x, y); }
 
-// log(x) is decimal, log(base, x) of any base.
+// log(x) has base 10; log(base, x) has any base.
 Value logarithm(const BuiltinCall& call) {
   if (call.size() == 1) return math::log10(call.number(0));
   return math::log(call.number(1)) / math::log(call.number(0));
@@ -73,7 +73,7 @@ Value logarithm(const BuiltinCall& call) {
 
 Value clamp(const BuiltinCall& call) { return std::min(std::max(call.number(1), call.number(0)), call.number(2)); }
 
-// Of several numbers, or of one list of numbers.
+// Returns the extreme of several numbers, or of one list of numbers.
 template <bool is_max>
 Value extreme(const BuiltinCall& call) {
   const bool is_list = call.size() == 1 && call[0].list();
@@ -115,7 +115,7 @@ Value cross(const BuiltinCall& call) {
   return result.finish();
 }
 
-// SplitMix64: small, and the same everywhere.
+// The SplitMix64 generator, which is small and gives the same numbers everywhere.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}
@@ -130,7 +130,7 @@ class Random {
   uint64_t state_;
 };
 
-// Without a seed it is 0: the same design gives the same part.
+// Without a seed the seed is 0, so that a design always gives the same part.
 Value rands(const BuiltinCall& call) {
   const double low = call.number(0), high = call.number(1), count = call.number(2);
   if (!std::isfinite(low) || !std::isfinite(high)) call.expected(0, "finite bounds");
@@ -153,7 +153,7 @@ Value is_string(const BuiltinCall& call) { return call[0].text() != nullptr; }
 Value is_list(const BuiltinCall& call) { return call[0].list() != nullptr; }
 Value is_function(const BuiltinCall& call) { return call[0].closure() != nullptr; }
 
-// Of the language, as OpenSCAD counts it.
+// Returns the version of the language, as OpenSCAD counts it.
 Value version(const BuiltinCall& call) {
   ListBuilder result(call.meter);
   for (const double part : {2021.0, 1.0, 0.0}) result.push(part);

@@ -1,4 +1,4 @@
-// Counts what a script uses, and ends it at the limits.
+// Counts the resources that a script uses, and stops it at the limits.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace ombre::lang {
 
-// Ends the whole evaluation; becomes a diagnostic at the place then being evaluated.
+// Thrown to stop the whole evaluation. It becomes a diagnostic at the current position.
 struct LimitReached {
   std::string message, hint;
 };
@@ -42,7 +42,7 @@ class Meter {
     check_text(0);
   }
   void release_text(uint64_t bytes) { text_ -= bytes; }
-  // Before a string of that size is put together.
+  // Called before a string of that size is built.
   void check_text(uint64_t bytes) const {
     if (text_ + bytes > limits_.text_bytes)
       throw LimitReached{

@@ -27,7 +27,7 @@ double number_of(Operator op, double a, double b) {
   }
 }
 
-// Element by element, as far as both go.
+// Applies the operator element by element, up to the end of the shorter list.
 Value zip(Operator op, const List& a, const List& b, Meter& meter) {
   ListBuilder result(meter);
   const size_t size = std::min(a.items.size(), b.items.size());
@@ -50,7 +50,7 @@ Value with_each(Operator op, const Value& left, const List& list, Meter& meter) 
   return result.finish();
 }
 
-// Dot product, and products with matrices; rows of `b` are summed with the weights `a`.
+// Computes dot products and products with matrices. For a vector `a`, rows of `b` are summed with weights `a`.
 Value product(const Value& left, const Value& right, Meter& meter) {
   const List &a = *left.list(), &b = *right.list();
   if (a.items.empty() || b.items.empty()) mismatch(left, right);

@@ -1,4 +1,4 @@
-// What operators do to values.
+// Operators on values.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace ombre::lang {
 
-// Two values that an operator does not take; of nested lists, the innermost ones.
+// Descriptions of two values that an operator does not accept. For nested lists these are the innermost values.
 struct Mismatch {
-  std::string left, right;  // right is empty for an operator with one side
+  std::string left, right;  // `right` is empty for a unary operator
 };
 
-// All but "&&" and "||", which do not evaluate both sides. Throws Mismatch.
+// Applies any operator except "&&" and "||", which do not evaluate both sides. Throws Mismatch.
 Value apply(ast::Operator op, const Value& left, const Value& right, Meter& meter);
 Value apply(ast::Operator op, const Value& operand, Meter& meter);
 

@@ -1,4 +1,4 @@
-// The half of the parser that reads expressions.
+// The part of the parser that reads expressions.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -39,7 +39,7 @@ constexpr std::array<BinaryOperator, 17> binary_operators = {{{TokenKind::or_or,
 constexpr int tightest = 8;
 
 const BinaryOperator* binary_operator(TokenKind token) {
-  // Between values stands mostly what is none of them.
+  // Most tokens after a value are no operators, so they are excluded first.
   if (token < TokenKind::bar) return nullptr;
   const auto* found = std::find_if(binary_operators.begin(), binary_operators.end(),
                                    [token](const BinaryOperator& op) { return op.token == token; });
@@ -91,7 +91,7 @@ ExprPtr Parser::conditional() {
   return result;
 }
 
-// Operators of `precedence` and those that bind tighter.
+// Reads operators of `precedence` and of tighter ones.
 ExprPtr Parser::chain(int precedence) {
   ExprPtr value = unary();
   for (int level = tightest; level >= precedence && binary_operator(kind()); --level)
@@ -99,7 +99,7 @@ ExprPtr Parser::chain(int precedence) {
   return value;
 }
 
-// What operators of `precedence` append to the first operand.
+// Reads the operators of `precedence` that follow the first operand.
 ExprPtr Parser::links(int precedence, ExprPtr first) {
   std::unique_ptr<Chain> result;
   for (const BinaryOperator* op = binary_operator(kind()); op && op->precedence == precedence;
@@ -124,7 +124,7 @@ ExprPtr Parser::unary() {
   return std::make_unique<Unary>(since(begin), *op, std::move(operand));
 }
 
-// Binds tighter than a sign before it, and groups to the right: -2^2 is -4, 2^3^2 is 2^9.
+// Powers bind tighter than a sign before them, and associate to the right: -2^2 is -4, 2^3^2 is 2^9.
 ExprPtr Parser::power() {
   ExprPtr base = postfix();
   if (!at(TokenKind::caret)) return base;
@@ -212,7 +212,7 @@ ExprPtr Parser::string() {
   return std::make_unique<String>(where, std::move(value.text), value.is_plain);
 }
 
-// (a) groups, (a, b) is a vector.
+// Reads (a), which groups, or (a, b), which is a vector.
 ExprPtr Parser::parenthesised() {
   const uint32_t begin = token().begin;
   take();
@@ -239,7 +239,7 @@ ExprPtr Parser::parenthesised() {
   return tuple;
 }
 
-// A list, or a range.
+// Reads a list or a range.
 ExprPtr Parser::bracketed() {
   const uint32_t begin = token().begin;
   take();
@@ -275,7 +275,7 @@ bool Parser::at_generator(size_t ahead) {
   return at_word("for", ahead) || at_word("each", ahead) || at_word("if", ahead);
 }
 
-// (for ...), also behind let(...): only what follows tells it from a grouped value.
+// True at (for ...), also after let(...); what follows distinguishes it from a value in parentheses.
 bool Parser::at_parenthesised_generator() {
   if (!at(TokenKind::left_paren)) return false;
   size_t ahead = 1;
@@ -290,7 +290,7 @@ bool Parser::at_parenthesised_generator() {
   return at_generator(ahead);
 }
 
-// Of a list: a value, or what generates several.
+// Reads an element of a list: a value, or a generator of several values.
 ExprPtr Parser::element() {
   if (at_generator()) return generator();
   if (at_word("let")) return prefix(PrefixKind::let, true);
@@ -412,7 +412,7 @@ void Parser::arguments_until(TokenKind close, std::vector<Argument>& into) {
   }
 }
 
-// Of for and let, which give values to names.
+// Reads the arguments of for and let, which assign values to names.
 void Parser::named_arguments(std::vector<Argument>& into, const char* owner, TokenKind close) {
   arguments_until(close, into);
   for (const Argument& argument : into)

@@ -1,4 +1,4 @@
-// The parser's insides, shared by its two halves: statements and expressions.
+// The parser class, shared by its two parts for statements and expressions.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace ombre::lang {
 
-// Ends the statement being read; its diagnostic was recorded.
+// Thrown to abandon the current statement after a diagnostic was recorded.
 struct SyntaxError {};
 
 class Parser {
  public:
-  // Reads from `begin` on; tells of wrong tokens in `lexical`, of everything else in `diagnostics`.
+  // Starts reading at `begin`. Errors in tokens are added to `lexical`, all others to `diagnostics`.
   Parser(const SourcePtr* source, uint32_t begin, Dialect dialect, Names& names, Diagnostics& lexical,
          Diagnostics& diagnostics)
       : source_(source),
@@ -28,13 +28,13 @@ class Parser {
         tokens_(*source, begin, dialect, lexical),
         diagnostics_(diagnostics) {}
 
-  // Of long lists of statements, keeps where the calls stand and not what they say.
+  // In long lists of statements, keeps only the positions of calls.
   void defer_calls() { defers_ = true; }
   std::vector<ast::StatementPtr> file();
   ast::StatementPtr statement();
 
  private:
-  // One level of nesting, for as long as it lives.
+  // Counts a level of nesting for as long as it lives.
   class Level {
    public:
     explicit Level(Parser& parser);
@@ -46,7 +46,7 @@ class Parser {
     Parser& parser_;
   };
 
-  // What is read may be evaluated many times, for as long as it lives.
+  // Marks code that may be evaluated many times, for as long as it lives.
   class Repeated {
    public:
     explicit Repeated(Parser& parser, bool is_repeated = true) : parser_(parser), count_(is_repeated ? 1 : 0) {
@@ -61,13 +61,13 @@ class Parser {
     int count_;
   };
 
-  // --- tokens
+  // Functions that read tokens.
   Token token(size_t ahead = 0) { return tokens_.ahead(ahead); }
   TokenKind kind(size_t ahead = 0) { return token(ahead).kind; }
   std::string_view text(const Token& token) const { return text_.substr(token.begin, token.end - token.begin); }
   bool at(TokenKind wanted) { return kind() == wanted; }
   bool at_word(std::string_view word, size_t ahead = 0);
-  bool is_name(size_t ahead = 0);  // a name that is no reserved word
+  bool is_name(size_t ahead = 0);  // a name that is not a reserved word
   bool accept(TokenKind wanted);
   void take() {
     if (kind() != TokenKind::end) tokens_.take();
@@ -82,7 +82,7 @@ class Parser {
   ast::Name name(const char* what);
   ast::Name name_at(ast::Span where, std::string_view text);
 
-  // --- statements
+  // Functions that read statements.
   void statements(std::vector<ast::StatementPtr>& into, bool inside_braces);
   void resynchronise();
   void defer(ast::StatementPtr& statement) const;
@@ -103,7 +103,7 @@ class Parser {
   bool at_last_of_braces() { return dialect_ == Dialect::vcad && at(TokenKind::right_brace); }
   static ast::Statement::Kind call_kind(std::string_view name);
 
-  // --- expressions
+  // Functions that read expressions.
   ast::ExprPtr expression();
   ast::ExprPtr conditional();
   ast::ExprPtr chain(int precedence);
@@ -124,7 +124,7 @@ class Parser {
   bool at_generator(size_t ahead = 0);
   bool at_parenthesised_generator();
   bool at_expression_end();
-  void arguments(std::vector<ast::Argument>& into);  // with both parentheses
+  void arguments(std::vector<ast::Argument>& into);  // including both parentheses
   void arguments_until(TokenKind close, std::vector<ast::Argument>& into);
   void named_arguments(std::vector<ast::Argument>& into, const char* owner, TokenKind close);
   void parameters(std::vector<ast::Parameter>& into);
@@ -137,7 +137,7 @@ class Parser {
   Diagnostics& diagnostics_;
   int depth_ = 0;
   bool defers_ = false;
-  int repeats_ = 0;  // loops and modules around
+  int repeats_ = 0;  // number of enclosing loops and modules
 };
 
 }  // namespace ombre::lang

@@ -1,4 +1,4 @@
-// The half of the parser that reads statements.
+// The part of the parser that reads statements.
 #include "lang/engine/parser.h"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ constexpr std::array<std::string_view, 14> reserved = {"module", "function", "if
                                                        "let",    "assert",   "echo",    "each", "true",
                                                        "false",  "undef",    "include", "use"};
 
-constexpr size_t most_kept = 1000;  // statements of one list, before calls are deferred
+constexpr size_t most_kept = 1000;  // statements of one list that are kept before calls are deferred
 
 bool is_reserved(std::string_view word) { return std::find(reserved.begin(), reserved.end(), word) != reserved.end(); }
 
-// Text from the script, short enough for a message.
+// Returns text from the script, short enough for a message.
 std::string quoted(std::string_view text) {
   const size_t line = text.find_first_of("\r\n");
   size_t size = std::min<size_t>({text.size(), line, 30});
@@ -31,7 +31,7 @@ std::string quoted(std::string_view text) {
 
 }  // namespace
 
-// --- tokens
+// Functions that read tokens.
 
 Parser::Level::Level(Parser& parser) : parser_(parser) {
   if (parser_.depth_ >= deepest_nesting)
@@ -56,7 +56,7 @@ bool Parser::accept(TokenKind wanted) {
 std::string Parser::found() { return at(TokenKind::end) ? "the end of the file" : quoted(text(token())); }
 
 void Parser::fail(Span where, std::string message, Phrase hint) {
-  // After an unclosed string or comment the file only seems to end here.
+  // An error at the end of the text follows from an unclosed string or comment.
   const bool is_consequence = tokens_.is_cut_short() && at(TokenKind::end);
   if (!is_consequence) diagnostics_.error(Code::syntax, where.range(), std::move(message), std::move(hint));
   throw SyntaxError{};
@@ -66,7 +66,7 @@ void Parser::fail_here(const std::string& expected, Phrase hint) {
   fail(span(token()), "expected " + expected + ", found " + found(), std::move(hint));
 }
 
-// What is missing is missing after the last token, which may stand lines before the next.
+// Reports a missing token just after the last token, which may be lines before the next one.
 void Parser::expect(TokenKind wanted, const char* what) {
   if (accept(wanted)) return;
   fail({source_, last_end(), last_end() + 1}, "expected \"" + std::string(what) + "\", found " + found());
@@ -84,7 +84,7 @@ Name Parser::name(const char* what) {
 
 Name Parser::name_at(Span where, std::string_view text) { return {names_.intern(text), where}; }
 
-// --- statements
+// Functions that read statements.
 
 std::vector<StatementPtr> Parser::file() {
   std::vector<StatementPtr> result;
@@ -111,14 +111,14 @@ void Parser::statements(std::vector<StatementPtr>& into, bool inside_braces) {
   }
 }
 
-// A design may be a list of a million calls, and its tree many times as large as its text. Calls that are
-// evaluated once are read again instead, one by one; what repeats them keeps them.
+// Defers a call. A design may be a list of a million calls, whose tree would be many times as large as its text. Calls
+// that are evaluated once are therefore read again one by one; calls in loops and modules are kept.
 void Parser::defer(StatementPtr& statement) const {
   if (!defers_ || repeats_ > 0 || statement->kind != Statement::Kind::call) return;
   statement = std::make_unique<Deferred>(*statement);
 }
 
-// Goes on after the next ";" or "}" at this level; braces that open on the way are skipped whole.
+// Continues after the next ";" or "}" at this level, and skips braces that open on the way.
 void Parser::resynchronise() {
   int open = 0;
   for (; !at(TokenKind::end); take()) {
@@ -134,7 +134,7 @@ StatementPtr Parser::statement() {
   if (at(TokenKind::include_path) || at(TokenKind::use_path)) return include();
   if (at(TokenKind::left_brace)) return group();
   if (at_word("module")) return module_definition();
-  // "function(" is the node of that name.
+  // "function(" calls the node of that name.
   if (at_word("function") && kind(1) != TokenKind::left_paren) return function_definition();
   if (is_name() && kind(1) == TokenKind::assign) return assignment();
   return instantiation();
@@ -244,7 +244,8 @@ Statement::Kind Parser::call_kind(std::string_view name) {
   return Statement::Kind::call;
 }
 
-// F-grade is one name where a call begins: its parts stand together, before "(" or "{".
+// Returns the number of tokens of a name with hyphens, such as F-grade, where a call begins: its parts are adjacent and
+// precede "(" or "{".
 size_t Parser::hyphenated_tokens() {
   size_t count = 1;
   if (dialect_ == Dialect::openscad) return count;
@@ -285,14 +286,14 @@ StatementPtr Parser::call(Modifiers modifiers) {
   }
   result->whole = since(callee.span.begin);
   const Repeated repeated(*this, result->kind == Statement::Kind::loop);
-  // The last statement before "}" may lack its ";".
+  // The last statement before "}" may omit its ";".
   if (!accept(TokenKind::semicolon) && !at_last_of_braces())
     block(result->children, "\";\" or the children of the call");
   result->span = since(callee.span.begin);
   return result;
 }
 
-// Braces, or a single call.
+// Reads braces or a single call.
 void Parser::block(Block& into, const char* owner) {
   if (at(TokenKind::left_brace)) return braces(into);
   if (accept(TokenKind::semicolon)) return;
@@ -322,7 +323,7 @@ void Parser::end_of_statement(const char* after) {
   if (accept(TokenKind::semicolon) || at_last_of_braces()) return;
   const Span where{source_, last_end(), last_end() + 1};
   std::string message = "expected \";\" after this " + std::string(after) + ", found " + found();
-  // A new line begins a new statement, which is read as usual.
+  // A new line starts a new statement, which is parsed as usual.
   const std::string_view between = text_.substr(last_end(), token().begin - last_end());
   const bool is_new_line = between.find_first_of(line_ends) != std::string_view::npos;
   if (!is_new_line || at(TokenKind::end)) fail(where, std::move(message));
@@ -331,7 +332,7 @@ void Parser::end_of_statement(const char* after) {
 
 void warn_of_replaced(const Plan& plan, Diagnostics& diagnostics) {
   for (const auto& [earlier, later] : plan.replaced) {
-    if (earlier->span.source != later->span.source) continue;  // setting what was included is common
+    if (earlier->span.source != later->span.source) continue;  // replacing values of included files is common
     const int line = (*earlier->span.source)->place(earlier->span.begin).line;
     diagnostics.warning(later->name.span.range(),
                         '"' + later->name.text() + "\" has a value already from line " + std::to_string(line),

@@ -22,7 +22,7 @@ Vec3 point_argument(const BuiltinCall& call, size_t i, const Value& value, const
 
 std::vector<Vec3> points_argument(const BuiltinCall& call) {
   const List& list = call.list(0);
-  call.meter.spend(16 * list.items.size());  // what is made of them takes longer than reading them
+  call.meter.spend(16 * list.items.size());  // the functions take longer than reading the points
   std::vector<Vec3> points;
   points.reserve(list.items.size());
   for (const Value& item : list.items) points.push_back(point_argument(call, 0, item, "a list of points"));

@@ -17,7 +17,7 @@ bool is_deferred(const ast::Statement* action) { return action->kind == ast::Sta
 }  // namespace
 
 std::unique_ptr<ReadAhead> ReadAhead::start(const Actions& actions, Names& names) {
-  if (actions.size() < least_deferred) return nullptr;  // of which there are very many
+  if (actions.size() < least_deferred) return nullptr;  // the usual case
   const auto deferred = static_cast<size_t>(std::count_if(actions.begin(), actions.end(), is_deferred));
   if (deferred < least_deferred) return nullptr;
   return std::unique_ptr<ReadAhead>(new ReadAhead(actions, names));

@@ -1,4 +1,4 @@
-// Deferred calls read on a thread of its own, some of them before they are evaluated.
+// Reads deferred calls on a separate thread, ahead of their evaluation.
 #pragma once
 
 #include <memory>
@@ -11,19 +11,19 @@ namespace ombre::lang {
 
 class ReadAhead {
  public:
-  // Null where so few of the actions are deferred that a thread would not pay. Both must outlive it; their names are
-  // in the table since the file was parsed, so that nothing is added to it.
+  // Returns null if too few of the actions are deferred for a thread to pay. Both arguments must outlive the reader.
+  // All names are in the table since the file was parsed, so the thread does not change it.
   static std::unique_ptr<ReadAhead> start(const std::vector<const ast::Statement*>& actions, Names& names);
 
-  // Actions are gone to one after the other, from the first.
+  // Moves to an action. Actions are visited one after the other.
   void go_to(size_t action);
-  // What the action gone to says; null if the statement is another one.
+  // Returns the call of the current action, or null if it is another statement.
   const ast::Statement* call(const ast::Deferred& statement) const {
     return &statement == actions_[action_] ? batch_[action_ % per_batch].get() : nullptr;
   }
 
  private:
-  using Batch = std::vector<ast::StatementPtr>;  // null for those that are not deferred
+  using Batch = std::vector<ast::StatementPtr>;  // null for statements that are not deferred
 
   static constexpr size_t per_batch = 256;
 
@@ -31,7 +31,7 @@ class ReadAhead {
 
   const std::vector<const ast::Statement*>& actions_;
   size_t action_ = 0;
-  Batch batch_;  // with the action
+  Batch batch_;  // contains the current action
   Ahead<Batch> batches_;
 };
 

@@ -1,4 +1,4 @@
-// How a script is run.
+// Options for running a script.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace ombre::lang {
 
-// From the command line: takes the place of the top-level variable of that name.
+// A definition from the command line, which replaces the top-level variable of that name.
 struct Definition {
   std::string name;
   Data value;
@@ -23,13 +23,14 @@ struct Options {
   std::vector<Definition> definitions;
   std::vector<std::string> needed;  // variables that the script must have, since they are set later
   Limits limits;
-  int threads = 1;                               // with more than one, long lists are read ahead of their evaluation
-  const StopFlag* stop = nullptr;                // checked now and then; Cancelled is thrown
-  std::function<void(const std::string&)> echo;  // one line without its end; may be empty
-  // What `include` and `use` read: nothing where there is no such file. Empty for the real files.
+  int threads = 1;                 // with more than one thread, long lists are read ahead of their evaluation
+  const StopFlag* stop = nullptr;  // checked regularly; Cancelled is thrown if it is set
+  std::function<void(const std::string&)> echo;  // receives one line without its line ending; may be empty
+  // Returns the content of a file for `include` and `use`, or nothing if there is no such file. If empty, the file
+  // system is used.
   std::function<std::optional<std::string>(const std::string& path)> read_file;
   Dialect dialect = Dialect::vcad;
-  std::vector<std::string> libraries;  // folders where `include` and `use` look last
+  std::vector<std::string> libraries;  // folders that `include` and `use` search last
 };
 
 }  // namespace ombre::lang

@@ -18,7 +18,7 @@ void Scope::set(Symbol name, Value value) {
 }
 
 void CapturedScopes::add(const ScopePtr& scope) {
-  // The whole way up: what is above lives as long.
+  // Captures all parents, too, since they live as long.
   for (const ScopePtr* at = &scope; *at && !(*at)->is_captured(); at = &(*at)->parent()) {
     (*at)->keep_alive();
     scopes_.push_back(*at);
@@ -31,7 +31,7 @@ void CapturedScopes::add(const ScopePtr& scope) {
                        "write a named function instead"};
 }
 
-// Since what a dropped scope held is owned here as well, nothing falls in long rows.
+// Parents of a dropped scope are owned here as well, so long chains are not destroyed recursively.
 void CapturedScopes::drop_unused() {
   const auto is_unused = [](const ScopePtr& scope) { return scope->use_count() == 1; };
   scopes_.erase(std::remove_if(scopes_.begin(), scopes_.end(), is_unused), scopes_.end());
@@ -39,7 +39,7 @@ void CapturedScopes::drop_unused() {
 
 CapturedScopes::~CapturedScopes() {
   for (const ScopePtr& scope : scopes_) scope->clear();
-  // Parents were added after their children, and outlive them here.
+  // Parents were added after their children, so they are destroyed after them.
   for (ScopePtr& scope : scopes_) scope = ScopePtr();
 }
 

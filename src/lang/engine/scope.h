@@ -1,4 +1,4 @@
-// The variables, functions and modules that are visible at a place.
+// The variables, functions and modules that are visible at a position.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace ombre::lang {
 
 class Scope;
 
-// Counts references without atomics: a script runs on one thread.
+// A reference-counted pointer without atomics, since a script runs on one thread.
 class ScopePtr {
  public:
   ScopePtr() = default;
@@ -36,10 +36,10 @@ class ScopePtr {
 
 struct Unit;
 
-// What a module was called with to be its children.
+// The children of a module call.
 struct Children {
   const ast::Block* block = nullptr;
-  ScopePtr scope;  // where the call stands
+  ScopePtr scope;  // the scope of the call
 };
 
 class Scope {
@@ -50,7 +50,7 @@ class Scope {
   const ScopePtr& parent() const { return parent_; }
   const ast::Plan* plan() const { return plan_; }
 
-  // The variable of this scope alone, or null.
+  // Returns the variable of this scope, or null.
   const Value* own(Symbol name) const {
     if (!index_.empty()) {
       const auto found = index_.find(name);
@@ -61,14 +61,14 @@ class Scope {
     return nullptr;
   }
 
-  // The variable of the innermost scope that has it, or null.
+  // Returns the variable of the innermost scope that has it, or null.
   const Value* find(Symbol name) const {
     for (const Scope* scope = this; scope; scope = scope->parent_.get())
       if (const Value* value = scope->own(name)) return value;
     return nullptr;
   }
 
-  // The same by the name's text. The table of names is left alone, since a thread that reads ahead may add to it.
+  // Finds a variable by the text of its name, without the table of names, to which a thread that reads ahead may add.
   const Value* find_text(std::string_view name) const {
     for (const Scope* scope = this; scope; scope = scope->parent_.get())
       for (const auto& [symbol, value] : scope->variables_)
@@ -78,7 +78,7 @@ class Scope {
 
   void reserve(size_t count) { variables_.reserve(count); }
   void set(Symbol name, Value value);
-  // Forgets the variables, for another pass of a loop.
+  // Removes the variables, for another pass of a loop.
   void clear() {
     variables_.clear();
     index_.clear();
@@ -96,12 +96,12 @@ class Scope {
 
  private:
   friend class ScopePtr;
-  static constexpr size_t index_from = 12;  // variables; fewer are found faster one by one
+  static constexpr size_t index_from = 12;  // number of variables; fewer are found faster by linear search
 
   ScopePtr parent_;
   const ast::Plan* plan_;
-  const Children* children_;    // of the module call around; alive while its statements run
-  const Unit* unit_ = nullptr;  // of a file's outermost scope
+  const Children* children_;    // children of the enclosing module call; valid while its statements run
+  const Unit* unit_ = nullptr;  // set for a file's outermost scope
   std::vector<std::pair<Symbol, Value>> variables_;
   std::unordered_map<Symbol, size_t> index_;
   int use_count_ = 0;
@@ -121,14 +121,14 @@ inline ScopePtr make_scope(ScopePtr parent, const ast::Plan* plan = nullptr) {
   return ScopePtr(new Scope(std::move(parent), plan));
 }
 
-// A function as a value: the literal, and the scope it was written in.
+// A function as a value: the literal, and the scope in which it was written.
 struct Closure {
   const ast::Function* function;
   ScopePtr scope;
 };
 
-// Scopes that closures hold on to. Closures and scopes may hold each other, in rings and in long
-// rows; so all of them are owned here too, and emptied one by one.
+// The scopes that closures capture. Closures and scopes may refer to each other in rings and long chains, so all of
+// them are also owned here and cleared one by one.
 class CapturedScopes {
  public:
   explicit CapturedScopes(const Limits& limits) : limits_(limits) {}

@@ -1,4 +1,4 @@
-// A vocabulary for tests: its nodes are texts, of the calls that made them.
+// A vocabulary for tests. Its nodes are the texts of the calls that made them.
 #pragma once
 
 #include <memory>
@@ -67,7 +67,7 @@ class TestVocabulary : public Vocabulary {
                                   "function", "root", "frep",      "show",   "strut", "broken"};
 };
 
-// What a script gives, and what is said about it.
+// The nodes that a script makes, its messages and its echoes.
 struct Result {
   std::string nodes, messages, echoes;
   std::vector<Invocation> calls;
@@ -86,13 +86,13 @@ inline Result run_script(const std::string& text, Options options = {}) {
   return result;
 }
 
-// The text of an expression's value.
+// Returns the text of an expression's value.
 inline std::string value_of(const std::string& expression) {
   const Result result = run_script("echo(" + expression + ");");
   return result.messages.empty() ? result.echoes.substr(0, result.echoes.size() - 1) : result.messages;
 }
 
-// The first line of what is said.
+// Returns the first line of the messages.
 inline std::string first_message(const std::string& text, const Options& options = {}) {
   const std::string messages = run_script(text, options).messages;
   return messages.substr(0, messages.find('\n'));

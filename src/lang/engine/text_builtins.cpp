@@ -22,7 +22,7 @@ void append_character(std::string& text, double code, const BuiltinCall& call) {
   if (is_code_point(code)) append_code_point(text, static_cast<uint32_t>(code));
 }
 
-// Numbers, lists and ranges of code points; what is no character is left out.
+// Converts numbers, lists and ranges of code points to text. Invalid code points are left out.
 Value chr(const BuiltinCall& call) {
   std::string text;
   for (size_t i = 0; i < call.size(); ++i) {

@@ -21,7 +21,7 @@ List::List(std::vector<Value> i, const ast::List* o, Meter& m)
 
 Value ListBuilder::finish(const ast::List* origin) {
   auto list = std::make_shared<const List>(std::move(items_), origin, meter_);
-  items_.clear();  // the elements now count with the list
+  items_.clear();  // the elements are now counted with the list
   if (list->weight > meter_.limits().elements) meter_.too_many_elements();
   if (list->depth > meter_.limits().list_depth)
     throw LimitReached{"lists nest deeper than " + std::to_string(meter_.limits().list_depth) + " levels",

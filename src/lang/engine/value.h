@@ -1,4 +1,4 @@
-// What expressions evaluate to.
+// Values of expressions.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct Range;
 struct Closure;
 class Object;
 struct Undef {};
-// Of a variable whose assignment failed and was reported: reading it fails silently.
+// The value of a variable whose assignment failed and was reported. Reading it fails without a diagnostic.
 struct Broken {};
 
 using TextPtr = std::shared_ptr<const Text>;
@@ -62,29 +62,29 @@ class Value {
   std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, ObjectPtr, Broken> value_;
 };
 
-// Something that only a vocabulary understands, such as a number that varies in space.
+// A value that only a vocabulary understands, such as a number that varies in space.
 class Object {
  public:
   virtual ~Object() = default;
-  virtual std::string describe() const = 0;  // "a value that varies in space"
-  virtual std::string text() const = 0;      // as echo writes it
-  virtual Data data() const = 0;             // as a parameter of a node
-  // Nothing where it has no such part; `names` is then given those that it has.
+  virtual std::string describe() const = 0;  // description for messages: "a value that varies in space"
+  virtual std::string text() const = 0;      // text that echo prints
+  virtual Data data() const = 0;             // data for a parameter of a node
+  // Returns a part by name. If there is none, returns nothing and sets `names` to the names of all parts.
   virtual std::optional<Value> part(const std::string& name, std::string& names, Meter& meter) const = 0;
-  // What an operator or a builtin function makes of operands, by its name in scripts ("?:" of a condition and two
-  // others). Nothing where that has no meaning.
+  // Applies an operator or builtin function, given by its name in scripts ("?:" for a condition with two values).
+  // Returns nothing if it is not defined for the operands.
   virtual std::optional<Value> apply(std::string_view function, std::span<const Value> operands,
                                      Meter& meter) const = 0;
 };
 
-// The first of the values that is an object, or null.
+// Returns the first of the values that is an object, or null.
 const Object* first_object(std::span<const Value> values);
-bool holds_object(const Value& value);  // itself, or somewhere in a list
-// What to write in the place of a value that was found where it cannot be used.
+bool holds_object(const Value& value);  // the value itself, or an element of a list
+// Suggests what to write in place of a value that cannot be used.
 std::string_view hint_for(const Value& found);
 
 struct Text {
-  static constexpr uint64_t overhead = 32;  // counted for each string, so that many short ones are bounded too
+  static constexpr uint64_t overhead = 32;  // added for each string, so that the number of short ones is limited, too
 
   Text(std::string t, const ast::String* o, Meter& m) : text(std::move(t)), origin(o), meter(m) {
     meter.claim_text(text.size() + overhead);
@@ -94,32 +94,32 @@ struct Text {
   Text& operator=(const Text&) = delete;
 
   std::string text;
-  const ast::String* origin;  // the literal, if it is one
+  const ast::String* origin;  // the literal, or null
   Meter& meter;
 };
 
 struct List {
-  List(std::vector<Value> i, const ast::List* o, Meter& m);  // its elements were claimed from the meter
+  List(std::vector<Value> i, const ast::List* o, Meter& m);  // its elements were counted by the meter before
   ~List() { meter.release_elements(items.size()); }
   List(const List&) = delete;
   List& operator=(const List&) = delete;
 
   std::vector<Value> items;
-  const ast::List* origin;  // the literal whose elements these are, one by one, if there is one
-  uint64_t weight;          // elements, counted through the nesting; shared ones each time
-  int depth;                // 1 for a list without lists in it
+  const ast::List* origin;  // the literal whose elements are those of the list, one by one, or null
+  uint64_t weight;          // number of elements, nested ones included; shared ones are counted each time
+  int depth;                // 1 for a list without inner lists
   Meter& meter;
 };
 
 struct Range {
   double begin, step, end;
 
-  // Elements; a range whose end lies within rounding of an element has it.
+  // Returns the number of elements. The end counts as an element if it is within rounding of one.
   double count() const;
   double at(double index) const { return begin + index * step; }
 };
 
-// Collects a list's elements, within the limits.
+// Collects the elements of a list within the limits.
 class ListBuilder {
  public:
   explicit ListBuilder(Meter& meter) : meter_(meter) {}
@@ -143,9 +143,9 @@ Value make_text(std::string text, Meter& meter);
 
 bool is_true(const Value& value);
 bool equal(const Value& a, const Value& b, Meter& meter);
-// "a number", "a list of 3": for messages.
+// Returns a description for messages: "a number", "a list of 3".
 std::string describe(const Value& value);
-// As str() and echo() write it. Numbers have up to 15 digits; `quoted` is for strings inside of lists.
+// Appends the text that str() and echo() print. Numbers have up to 15 digits. `quoted` is set for strings in lists.
 void append_text(std::string& text, const Value& value, bool quoted, Meter& meter);
 std::string number_text(double number);
 

@@ -1,4 +1,4 @@
-// Operators and builtin functions, against OpenSCAD's documentation and mathematics.
+// Compares operators and builtin functions with OpenSCAD's documentation and with mathematics.
 #include <gtest/gtest.h>
 
 #include "lang/engine/test_vocabulary.h"
@@ -12,7 +12,7 @@ void expect_values(const Cases& cases) {
   for (const auto& [expression, expected] : cases) EXPECT_EQ(value_of(expression), expected) << expression;
 }
 
-// The message, without its place.
+// Compares messages without their positions.
 void expect_errors(const Cases& cases) {
   for (const auto& [expression, expected] : cases) {
     const std::string message = first_message("echo(" + expression + ");");

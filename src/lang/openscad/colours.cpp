@@ -13,7 +13,7 @@ struct NamedColour {
   uint32_t rgb;
 };
 
-// In alphabetical order.
+// Colours by name, in alphabetical order.
 constexpr std::array<NamedColour, 148> named_colours = {{
     {"aliceblue", 0xf0f8ff},
     {"antiquewhite", 0xfaebd7},
@@ -181,7 +181,7 @@ std::optional<uint32_t> hexadecimal(std::string_view digits) {
   return value;
 }
 
-// One digit for each channel counts twice: #f00 is #ff0000.
+// A colour with one digit per channel repeats each digit: #f00 is #ff0000.
 std::optional<solids::Colour> from_digits(std::string_view digits) {
   std::string full(digits);
   if (digits.size() == 3 || digits.size() == 4) {

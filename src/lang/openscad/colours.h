@@ -1,4 +1,4 @@
-// Names of colours, and colours as #rgb, #rgba, #rrggbb and #rrggbbaa.
+// Colours by name and as #rgb, #rgba, #rrggbb and #rrggbbaa.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,7 @@
 
 namespace ombre::lang::openscad {
 
-// Nothing where the text names no colour. Names are those of CSS (W3C, CSS Color Module Level 4), without regard to
-// case.
+// Returns nothing if the text is not a colour. Names are those of CSS (W3C, CSS Color Module Level 4); case is ignored.
 std::optional<solids::Colour> colour_of(const std::string& text);
 
 }  // namespace ombre::lang::openscad

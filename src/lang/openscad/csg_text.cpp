@@ -37,12 +37,12 @@ std::string indices_text(const std::vector<std::vector<size_t>>& lists) {
   });
 }
 
-// A text without letters has no script.
+// True if the text has letters, and therefore a script.
 bool has_letters(const std::string& text) {
   return std::ranges::any_of(text, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
 }
 
-// ISO 15924 writes "Latn".
+// Capitalises the tag as ISO 15924 does: "Latn".
 std::string script_tag(std::string tag) {
   for (size_t i = 0; i < tag.size(); ++i) {
     if (i == 0 && tag[i] >= 'a' && tag[i] <= 'z') tag[i] = static_cast<char>(tag[i] - 'a' + 'A');
@@ -51,7 +51,7 @@ std::string script_tag(std::string tag) {
   return tag;
 }
 
-// The name of an operation and its arguments: "cube(size = [1, 1, 1], center = false)".
+// Writes the name of an operation and its arguments: "cube(size = [1, 1, 1], center = false)".
 class Head {
  public:
   Head(const std::string& folder, CsgForm form) : folder_(folder), is_exact_(form == CsgForm::exact) {}
@@ -161,7 +161,7 @@ class Head {
            ", convexity = " + std::to_string(projection.convexity) + ')';
   }
   std::string operator()(const solids::SetColour& colour) const {
-    // Negative parts are not set.
+    // A negative channel means that only the opacity is set.
     if (is_exact_ && colour.colour[0] < 0) return "color(alpha = " + stream(colour.colour[3]) + ')';
     return "color(" + vector(colour.colour) + ')';
   }
@@ -186,7 +186,7 @@ class Head {
   }
   std::string stream(double number) const { return digits(number, stream_text); }
   std::string number(double number) const { return digits(number, number_text); }
-  // OpenSCAD writes texts as they are, quotes and all.
+  // OpenSCAD writes texts without escaping quotes.
   std::string quoted(const std::string& text) const { return is_exact_ ? literal(text) : '"' + text + '"'; }
 
   template <class Sequence>
@@ -234,7 +234,7 @@ class TreePrinter {
   bool has_words = false;
 
  private:
-  // As the last argument of the call that was written.
+  // Adds `semantics` as the last argument of the call that was just written.
   void add_semantics(solids::Semantics semantics) {
     if (semantics == solids::Semantics::standard) return;
     text.pop_back();

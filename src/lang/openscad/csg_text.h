@@ -1,4 +1,4 @@
-// Trees as OpenSCAD writes them: .csg files, which OpenSCAD and Ombre read as scripts.
+// Writes trees as .csg files, which OpenSCAD and Ombre read as scripts.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 namespace ombre::lang::openscad {
 
 enum class CsgForm : uint8_t {
-  openscad,  // as OpenSCAD prints it, with six digits
-  exact      // all digits, and what OpenSCAD leaves out or does not know: read again, it is the same tree
+  openscad,  // six digits, as OpenSCAD prints it
+  exact      // all digits, and everything that OpenSCAD omits or does not know; reads back to the same tree
 };
 
-// Paths of imported files are written as they lead from `folder`. The root's group is left out unless it is marked or
-// is not a group. Solids of Ombre's words are calls, after `use <ombre>`.
+// Paths of imported files are written relative to `folder`. The root's group is left out unless it is marked or is not
+// a group. Solids of Ombre's words are written as calls, after `use <ombre>`.
 std::string csg_text(const solids::Tree& root, const std::string& folder, CsgForm form = CsgForm::openscad);
 
 }  // namespace ombre::lang::openscad

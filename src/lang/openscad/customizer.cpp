@@ -13,12 +13,12 @@ namespace {
 using ast::Expr;
 
 struct Comment {
-  size_t begin, end;  // with their signs
-  std::string text;   // without
+  size_t begin, end;  // including the comment signs
+  std::string text;   // text without the comment signs
   bool is_block;
 };
 
-// Comments, and the first brace outside of them and of strings.
+// The comments of a script, and the first brace outside comments and strings.
 struct Outline {
   std::vector<Comment> comments;
   size_t first_brace = std::string::npos;
@@ -46,7 +46,7 @@ Outline outline_of(std::string_view text) {
   return outline;
 }
 
-// Plain values: numbers, texts, truth values, vectors of numbers.
+// Returns the value of an expression if it is plain: a number, text, truth value or vector of numbers.
 std::optional<Data> plain_value(const Expr& expr) {
   if (expr.kind == Expr::Kind::number) return Data(static_cast<const ast::Number&>(expr).value);
   if (expr.kind == Expr::Kind::boolean) return Data(static_cast<const ast::Boolean&>(expr).value);
@@ -89,7 +89,7 @@ Data choice_value(const std::string& text, bool is_text) {
   return Data(text);
 }
 
-// [a, b], [1:small, 2:large]
+// Reads choices: [a, b] or [1:small, 2:large].
 void read_choices(std::string_view inside, Parameter& parameter) {
   const bool is_text = parameter.value.string() != nullptr;
   for (const std::string& item : parts_of(inside, ',')) {
@@ -101,7 +101,7 @@ void read_choices(std::string_view inside, Parameter& parameter) {
   parameter.kind = Parameter::Kind::choice;
 }
 
-// [most], [least:most], [least:step:most]
+// Reads a range: [most], [least:most] or [least:step:most].
 bool read_range(std::string_view inside, Parameter& parameter) {
   std::vector<double> numbers;
   for (const std::string& part : parts_of(inside, ':')) {
@@ -116,7 +116,7 @@ bool read_range(std::string_view inside, Parameter& parameter) {
   return true;
 }
 
-// The comment behind a value.
+// Interprets the comment after a value.
 void read_widget(const std::string& comment, Parameter& parameter) {
   if (parameter.value.boolean()) return;
   if (comment.size() > 1 && comment.front() == '[' && comment.back() == ']') {

@@ -1,5 +1,5 @@
-// Parameters of a script: its top-level variables with plain values, and what comments say about them. The form is that
-// of OpenSCAD's customizer: "/* [Section] */" before, "// description" above, "// [0:10]" behind.
+// The parameters of a script: its top-level variables with plain values, described by comments in the form of
+// OpenSCAD's customizer: "/* [Section] */" before, "// description" above, "// [0:10]" after.
 #pragma once
 
 #include <optional>
@@ -16,24 +16,24 @@ struct Parameter {
   enum class Kind : uint8_t { number, boolean, text, vector, choice };
 
   std::string name, description;
-  std::string section;  // empty: none was named; "Hidden" is for parameters that users should not see
+  std::string section;  // empty if there is none; "Hidden" marks parameters that users should not see
   Kind kind = Kind::number;
-  Data value;                                         // the script's own, and where it stands
-  std::optional<double> least, step, most;            // of numbers, of each number of a vector
-  std::optional<size_t> longest;                      // characters of a text
-  std::vector<std::pair<Data, std::string>> choices;  // values and what to call them
+  Data value;                                         // the script's value, with its position
+  std::optional<double> least, step, most;            // limits of a number, or of each number of a vector
+  std::optional<size_t> longest;                      // greatest number of characters of a text
+  std::vector<std::pair<Data, std::string>> choices;  // values and their labels
 };
 
-// In the order of the script. Parameters end at the first "{", where modules begin.
+// Returns the parameters in the order of the script. They end at the first "{", where modules begin.
 std::vector<Parameter> parameters_of(const SourcePtr& source);
 
-// "name", "kind" and so on, for programs.
+// Returns the members "name", "kind" and so on, for programs.
 Data to_data(const Parameter& parameter);
 
-// Definitions (`name=value`, as `-D` takes them) of a set in a file of parameter sets:
-// {"parameterSets": {"small": {"size": "10", ...}}}. Values of texts stand there without quotes, so the script's
-// parameters say how each is read; names that the script does not have are warnings. Nothing, and a diagnostic, where
-// there is no such set.
+// Returns definitions (`name=value`, as for `-D`) from a named set in a file of parameter sets: {"parameterSets":
+// {"small": {"size": "10", ...}}}. Texts have no quotes in the file, so the script's parameters determine how values
+// are read. Names that the script does not have give warnings. Returns nothing and adds a diagnostic if there is no
+// such set.
 std::optional<std::vector<std::string>> parameter_set(const SourcePtr& file, const std::string& name,
                                                       const std::vector<Parameter>& parameters,
                                                       Diagnostics& diagnostics);

@@ -1,4 +1,4 @@
-// Values of another program as assignments of a script.
+// Values of another program as assignments in a script.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace ombre::lang::openscad {
 
-// `name=value`, as `-D` takes it. Nothing for a value that scripts do not have, such as a solid, and for what is no
-// name of a variable.
+// Returns `name=value`, as for `-D`. Returns nothing for a value that scripts do not have, such as a solid, and for an
+// invalid name.
 std::optional<std::string> definition_of(const std::string& name, const Data& value);
 
-// Whether the name stands in the text outside of comments and strings.
+// True if the name occurs in the text outside comments and strings.
 bool mentions(const SourcePtr& script, std::string_view name);
 
 }  // namespace ombre::lang::openscad

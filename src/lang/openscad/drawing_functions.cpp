@@ -8,7 +8,7 @@
 namespace ombre::lang::openscad {
 namespace {
 
-// Arguments have names; by position they come in this order.
+// Positional arguments come in this order.
 solids::MeasureChoice choice_of(const FunctionCall& call) {
   constexpr std::array<std::string_view, 5> order{"file", "layer", "name", "origin", "scale"};
   solids::MeasureChoice choice;

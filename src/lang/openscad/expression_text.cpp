@@ -1,4 +1,4 @@
-// Expressions and statements as OpenSCAD prints them: functions as values, failed assertions, .ast files.
+// Prints expressions and statements as OpenSCAD does, for functions as values, failed assertions and .ast files.
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
@@ -80,7 +80,7 @@ class SyntaxPrinter {
  private:
   void tabs(int indent) { text.append(static_cast<size_t>(indent), '\t'); }
 
-  // Expressions with calls or loops in them.
+  // Prints expressions that contain calls or loops.
   void compound(const Expr& expr) {
     switch (expr.kind) {
       case Expr::Kind::call: {

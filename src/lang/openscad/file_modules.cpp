@@ -1,4 +1,4 @@
-// Geometry from files.
+// Modules that read geometry from files.
 #include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
 #include "lang/openscad/vectors.h"
@@ -34,7 +34,7 @@ TreePtr import_file(ModuleCall& call) {
   return call.node(std::move(result));
 }
 
-// import_stl and the like, of old scripts.
+// Imports a file for import_stl and similar modules of old scripts.
 TreePtr import_old(ModuleCall& call) {
   call.deprecate_here("The " + call.name() + "() module will be removed in future releases. Use import() instead.");
   return import_file(call);

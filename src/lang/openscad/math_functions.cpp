@@ -39,7 +39,7 @@ Value of_two(const Call& call) {
 
 double power(double x, double y) { return math::pow(x, y); }
 
-// Base 10, or the first of two arguments.
+// Returns the logarithm with base 10, or with the first of two arguments as base.
 Value logarithm(const Call& call) {
   if (call.size() != 1 && call.size() != 2) return call.wrong_count();
   const double *x = call[0].number(), *y = call.size() == 2 ? call[1].number() : x;
@@ -48,7 +48,7 @@ Value logarithm(const Call& call) {
   return math::log(*y) / math::log(*x);
 }
 
-// Of the elements of one vector, whatever they are, or of several numbers.
+// Returns the extreme of the elements of one vector, of any type, or of several numbers.
 template <bool is_greatest>
 Value extreme(const Call& call) {
   if (call.size() == 0) return call.wrong_count();
@@ -111,7 +111,7 @@ Value cross(const Call& call) {
   return cross_of_three(call);
 }
 
-// From 0 to below 1: 64 bits of two numbers of the generator, as C++'s std::generate_canonical makes them.
+// Returns a number in [0, 1), made of two 32-bit numbers of the generator as C++'s std::generate_canonical does.
 double draw(std::mt19937& random) {
   const auto low = static_cast<double>(random()), high = static_cast<double>(random());
   return std::min((low + high * 0x1p32) * 0x1p-64, std::nextafter(1.0, 0.0));

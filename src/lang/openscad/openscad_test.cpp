@@ -1,5 +1,5 @@
-// OpenSCAD scripts: what is expected here was said by OpenSCAD 2021.01, or follows from the language's documentation.
-// Whole scripts are compared with it in tests/run_openscad.py.
+// Tests of OpenSCAD scripts. Expected results come from OpenSCAD 2021.01 or its documentation. tests/run_openscad.py
+// compares whole scripts.
 #include <gtest/gtest.h>
 
 #include "lang/openscad/csg_text.h"
@@ -23,7 +23,7 @@ Said run_text(const std::string& text, Options options = {}) {
 
 std::string value_of(const std::string& expression) { return run_text("echo(" + expression + ");").lines; }
 
-// As the text of the tree is read again, it is the same tree: numbers, texts, semantics.
+// The text of a tree must be read back to the same tree: numbers, texts, semantics.
 TEST(Openscad, ExactTreesAreReadAgainAsTheyWere) {
   const std::string script =
       "$fn = 7.5; difference(semantics = \"strict\") { rotate([0.1, 20, 1/3]) sphere(1/3);"
@@ -66,7 +66,7 @@ TEST(Openscad, PrintsSixDigits) {
   EXPECT_EQ(number_text(1.0 / 3), "0.333333");
   EXPECT_EQ(number_text(0.00001), "0.00001");
   EXPECT_EQ(number_text(0.000001), "1e-6");
-  EXPECT_EQ(number_text(123456.5), "123457");  // a tie, away from zero
+  EXPECT_EQ(number_text(123456.5), "123457");  // a tie, rounded away from zero
   EXPECT_EQ(number_text(999999.5), "1e+6");
   EXPECT_EQ(number_text(-1e-7), "-1e-7");
   EXPECT_EQ(number_text(-0.0), "0");
@@ -80,7 +80,7 @@ TEST(Openscad, OperatorsWithoutMeaningGiveUndefAndAWarning) {
   EXPECT_EQ(value_of("[6 | 1, 6 & 3, 1 << 4, 16 >> 2, ~0, 0xFF]"), "ECHO: [7, 2, 16, 4, -1, 255]\n");
 }
 
-// std::mt19937's numbers, two for each.
+// Each result uses two numbers of std::mt19937.
 TEST(Openscad, RandomNumbersAreThoseOfTheMersenneTwister) {
   EXPECT_EQ(value_of("rands(0, 1, 3, 42)"), "ECHO: [0.796543, 0.183435, 0.779691]\n");
 }

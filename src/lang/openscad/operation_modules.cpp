@@ -49,7 +49,7 @@ TreePtr projection(ModuleCall& call) {
   return call.with_children(solids::Projection{call.flag("cut", false), whole(call.number("convexity", 0))});
 }
 
-// Older scripts name a file instead of a child: its area is extruded.
+// Extrudes the area in a file, which older scripts name instead of a child.
 TreePtr extruded_file(ModuleCall& call, solids::Operation operation) {
   const std::string name = call.name().starts_with("dxf_") ? call.name().substr(4) : call.name();
   call.deprecate("Support for reading files in " + name +
@@ -99,7 +99,7 @@ TreePtr rotate_extrude(ModuleCall& call) {
   return call.with_children(result);
 }
 
-// Names of old scripts.
+// Modules of old scripts.
 TreePtr dxf_linear_extrude(ModuleCall& call) {
   call.deprecate_here(
       "The dxf_linear_extrude() module will be removed in future releases. Use linear_extrude() instead.");

@@ -58,13 +58,13 @@ class Finder {
     found_.clear();
   }
 
-  // A main file may replace what it included.
+  // Reports an overwritten variable. The main file may replace variables that it included.
   void report(const ast::Assign& earlier, const ast::Assign& later) {
     const SourceText &before = **earlier.span.source, &after = **later.span.source;
     const bool was_main = before.name() == main_, is_main = after.name() == main_;
     if (is_main && (!was_main || later.span.begin >= definitions_from_)) return;
     if (!was_main && before.name() != after.name()) return;
-    if (before.name() == after.name() && earlier.span.begin == later.span.begin) return;  // a file included twice
+    if (before.name() == after.name() && earlier.span.begin == later.span.begin) return;  // the file was included twice
     const std::string of = is_main ? "" : " of \"" + shown_path(before.name(), folder_of(main_)) + '"';
     messages_.push_back({Message::Kind::warning,
                          later.name.text() + " was assigned on line " +

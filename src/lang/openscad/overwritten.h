@@ -1,4 +1,4 @@
-// Variables that get several values in one scope, where the last one counts.
+// Finds variables that get several values in one scope, of which the last counts.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace ombre::lang::openscad {
 
-// Messages in the order of the text. What stands in the main file from byte `definitions_from` on came from the command
-// line, and may replace a value without a word.
+// Returns messages in the order of the text. Assignments in the main file from byte `definitions_from` on come from the
+// command line, and replace values without a message.
 std::vector<Message> overwritten(const Program& program, uint32_t definitions_from);
 
 }  // namespace ombre::lang::openscad

@@ -1,4 +1,4 @@
-// Ranges as OpenSCAD counts them.
+// Numbers of elements of ranges, as OpenSCAD counts them.
 #pragma once
 
 #include <cmath>
@@ -7,9 +7,9 @@
 
 namespace ombre::lang::openscad {
 
-// A range of so many elements is not gone through.
+// Loops over ranges with this many elements or more are not executed.
 inline constexpr double most_range_elements = 1'000'000;
-// The count of a range without end.
+// The number of elements of an endless range.
 inline constexpr double endless = 4'294'967'295;
 
 inline double element_count(const Range& range) {

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t stack_bytes = 512u << 20;  // reserved, not used: pages come as the evaluation goes deeper
+constexpr size_t stack_bytes = 512u << 20;  // reserved address space; pages are allocated as the evaluation gets deeper
 
-// Runs `work` on a thread with a deep stack, and passes on what it throws.
+// Runs `work` on a thread with a deep stack, and rethrows its exceptions.
 template <class Work>
 void with_deep_stack(const Work& work) {
   struct Task {
@@ -48,7 +48,7 @@ void with_deep_stack(const Work& work) {
   if (task.failure) std::rethrow_exception(task.failure);
 }
 
-// The script with the definitions of the command line after it, where they count as its last assignments.
+// Appends the definitions of the command line to the script, so that they are its last assignments.
 SourcePtr with_definitions(const SourcePtr& source, const std::vector<std::string>& definitions) {
   if (definitions.empty()) return source;
   std::string text(source->text());
@@ -61,8 +61,9 @@ bool is_unterminated(const Diagnostic& diagnostic) {
          diagnostic.message.starts_with("the comment is not closed");
 }
 
-// The line of the token that a mistake was found at: what is missing before it is missed there. OpenSCAD ends a script
-// with a line of its own, and an empty one; what is open beyond a statement is missed on the last of them.
+// Returns the line that OpenSCAD reports for a syntax error: that of the token at which it was found. A missing token
+// is reported at the next one. OpenSCAD appends a line and an empty line to a script; unclosed constructs are reported
+// on the last one.
 int line_of(const Diagnostic& diagnostic) {
   const SourceRange& where = diagnostic.where;
   const std::string_view text = where.source->text();
@@ -108,7 +109,7 @@ lang::Options engine_options(const Options& options) {
   return result;
 }
 
-// The parsed script, or nothing where its text is wrong.
+// Returns the parsed script, or nothing if its text is wrong.
 std::optional<Program> load_script(const SourcePtr& source, const Options& options, const lang::Options& engine,
                                    Messages& messages) {
   Diagnostics found;
@@ -120,7 +121,7 @@ std::optional<Program> load_script(const SourcePtr& source, const Options& optio
   return program;
 }
 
-// Whether the script chooses its own view.
+// True if the script sets its own view.
 bool sets_view(const Program& program) {
   const ast::Plan& plan = program.units.front().plan;
   return std::ranges::any_of(std::array{"$vpr", "$vpt", "$vpd", "$vpf"}, [&](const char* name) {

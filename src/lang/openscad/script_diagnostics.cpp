@@ -5,7 +5,7 @@
 namespace ombre::lang::openscad {
 namespace {
 
-// The line of a message about the script itself, else the call.
+// Returns the line of a message about the script itself, or the call for other messages.
 SourceRange place_of(const Message& message, const SourcePtr& script, const SourceRange& call) {
   if (message.line < 1 || message.file.empty()) return call;
   const std::string& name = script->name();
@@ -26,7 +26,7 @@ void add_diagnostics(const Messages& messages, const SourcePtr& script, const So
   diagnostics.add_all(messages.details);
   for (const Message& message : messages.list()) {
     const SourceRange where = place_of(message, script, otherwise);
-    // Of other files, the line says which.
+    // The text of a message about another file names the line.
     const std::string text = where == otherwise && !message.file.empty() ? to_line(message) : message.text;
     if (message.kind == Kind::error && !messages.details.has_errors())
       diagnostics.error(message.code, where, text);

@@ -67,7 +67,7 @@ solids::TreePtr Evaluator::run() {
   return nullptr;
 }
 
-// In the order of the text's nesting: a parent before its children. The first one counts.
+// Collects the marked trees, parents before their children. The first one counts.
 void Evaluator::find_roots(const solids::TreePtr& tree, std::vector<solids::TreePtr>& found) const {
   if (std::ranges::find(roots_, tree.get()) != roots_.end()) found.push_back(tree);
   for (const solids::TreePtr& child : tree->children) find_roots(child, found);
@@ -78,7 +78,7 @@ void Evaluator::warn_of_roots(const solids::Tree& second) {
   warn("More than one Root Modifier (!)", {where.source ? &where.source : nullptr, where.begin, where.end});
 }
 
-// --- messages
+// Functions that report messages.
 
 std::string shown_path(const std::string& path, const std::string& folder) {
   namespace fs = std::filesystem;
@@ -130,7 +130,7 @@ void Evaluator::trace(const std::string& name, const ast::Span& where) {
   messages_.add({Message::Kind::trace, "called by '" + name + '\'', std::move(file), line});
 }
 
-// --- special variables
+// Functions for special variables.
 
 void Evaluator::set_special(Symbol name, Value value, size_t from) {
   for (size_t i = from; i < specials_.size(); ++i) {
@@ -159,7 +159,7 @@ double Evaluator::special_number(Symbol name) const {
   return value && value->number() ? *value->number() : 0;
 }
 
-// --- calls of builtin modules
+// Functions for calls of builtin modules.
 
 std::shared_ptr<solids::Tree> Evaluator::tree(solids::Operation operation, const ast::Span& where) {
   meter_.count_instance();

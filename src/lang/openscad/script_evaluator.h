@@ -1,5 +1,5 @@
-// Evaluates a parsed OpenSCAD script: expressions give values, statements give trees of solids. What has no meaning
-// gives undef and a warning; only a failed assertion, endless recursion and the limits end the evaluation.
+// Evaluates a parsed OpenSCAD script: expressions give values, statements give trees of solids. Undefined operations
+// give undef and a warning. Only a failed assertion, endless recursion and the limits stop the evaluation.
 #pragma once
 
 #include <random>
@@ -18,33 +18,34 @@ namespace ombre::lang::openscad {
 
 class Evaluator;
 
-// How messages name a file: by its path from a folder, mostly that of the main file; empty is the working directory.
+// Returns the path of a file relative to a folder, usually that of the main file, as messages show it. An empty folder
+// is the working directory.
 std::string shown_path(const std::string& path, const std::string& folder);
 std::string folder_of(const std::string& path);
 
 using Trees = std::vector<solids::TreePtr>;
 
-// One call of a builtin module, its arguments evaluated.
+// One call of a builtin module with evaluated arguments.
 class ModuleCall {
  public:
   ModuleCall(Evaluator& evaluator, const ast::CallStatement& statement, const ScopePtr& scope)
       : evaluator_(evaluator), statement_(statement), scope_(scope) {}
 
   std::string name() const { return statement_.name.text(); }
-  bool has(std::string_view parameter) const;  // given, and not undef
+  bool has(std::string_view parameter) const;  // true if the argument is given and not undef
   const Value& operator[](std::string_view parameter) const;
   std::optional<double> number(std::string_view parameter) const;
   double number(std::string_view parameter, double otherwise) const { return number(parameter).value_or(otherwise); }
   bool flag(std::string_view parameter, bool otherwise) const;
   std::string text(std::string_view parameter, const std::string& otherwise = "") const;
-  std::string shown(std::string_view parameter) const;  // as messages write it
+  std::string shown(std::string_view parameter) const;  // value as messages show it
   void warn(const std::string& text) const;
   void deprecate(const std::string& text) const;
   void deprecate_here(const std::string& text) const;
   void note(const std::string& text) const;
 
-  solids::Fragments fragments() const;          // $fn, $fa and $fs there
-  solids::Fragments checked_fragments() const;  // with least values of $fa and $fs
+  solids::Fragments fragments() const;          // fragments from $fn, $fa and $fs at the call
+  solids::Fragments checked_fragments() const;  // enforces the least values of $fa and $fs
   std::string complete_path(const std::string& path) const;
   const Trees& children();
   std::shared_ptr<solids::Tree> node(solids::Operation operation) const;
@@ -58,16 +59,17 @@ class ModuleCall {
   const ScopePtr& scope_;
   std::vector<std::pair<std::string_view, Value>> values_;
   std::optional<Trees> children_;
-  std::optional<solids::Semantics> semantics_;  // of the argument `semantics`
+  std::optional<solids::Semantics> semantics_;  // value of the argument `semantics`
 };
 
-// A module of the language: the parameters that may be given without a name, those that need one, and what it makes.
+// A builtin module: the parameters that may be positional, those that must be named, and the function that makes its
+// tree.
 struct Module {
   const char* name;
   std::vector<std::string_view> positional, named;
   solids::TreePtr (*make)(ModuleCall& call);
-  bool takes_anything = false;  // arguments are not looked at
-  bool is_operation = false;    // on children, which `semantics` may be said of
+  bool takes_anything = false;  // arguments are not checked
+  bool is_operation = false;    // an operation on children, which accepts `semantics`
   bool warns_of_children = false;
 };
 
@@ -80,15 +82,16 @@ std::vector<Module> file_modules();
 class Evaluator {
  public:
   Evaluator(const Program& program, const Options& options, Messages& messages);
-  // The group of all, or what "!" marks; null after an error.
+  // Returns the group of all nodes, or the node marked "!"; null after an error.
   solids::TreePtr run();
 
  private:
   friend class ModuleCall;
 
-  static constexpr int spare_levels = 200;  // of those allowed, kept for what a last call still evaluates
+  // Levels that are reserved for what the last allowed call still evaluates.
+  static constexpr int spare_levels = 200;
 
-  // The evaluation ends; its message was given.
+  // Thrown to stop the evaluation after a message was added.
   struct Stopped {};
 
   class Level {
@@ -102,7 +105,7 @@ class Evaluator {
     Evaluator& evaluator_;
   };
 
-  // Forgets the special variables that were set since.
+  // Removes the special variables that were set during its life.
   class SpecialsMark {
    public:
     explicit SpecialsMark(Evaluator& evaluator) : evaluator_(evaluator), size_(evaluator.specials_.size()) {}
@@ -116,15 +119,15 @@ class Evaluator {
     size_t size_;
   };
 
-  // A function to call, and the scope in which it was written.
+  // A function to call, and the scope in which it was defined.
   struct Callee {
     const std::vector<ast::Parameter>* parameters = nullptr;
     const ast::Expr* body = nullptr;
     ScopePtr scope;
-    const Unit* used = nullptr;  // the file that `use` named, if the function is of one
+    const Unit* used = nullptr;  // the file that defines the function, if it is one of `use`
   };
 
-  // --- messages
+  // Functions that report messages.
   void say(Message::Kind kind, std::string text, const ast::Span& where, Code code = Code::script);
   void warn(std::string text, const ast::Span& where);
   void warn_all(Problems& problems, const ast::Span& where);
@@ -132,7 +135,7 @@ class Evaluator {
   void trace(const std::string& name, const ast::Span& where);
   std::pair<std::string, int> place(const ast::Span& where);
 
-  // --- statements.cpp
+  // Defined in script_statements.cpp.
   const ScopePtr& unit_scope(const Unit& unit);
   void assign(const ast::Plan& plan, const ScopePtr& scope);
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Trees& out);
@@ -157,7 +160,7 @@ class Evaluator {
   void find_roots(const solids::TreePtr& tree, std::vector<solids::TreePtr>& found) const;
   void warn_of_roots(const solids::Tree& second);
 
-  // --- word_calls.cpp
+  // Defined in word_calls.cpp.
   void check_words();
   bool has_words(const Scope& scope) const;
   bool makes_solid(const ast::Name& name, const Scope& scope) const;
@@ -171,7 +174,7 @@ class Evaluator {
   std::optional<Value> of_objects(std::string_view function, const std::vector<Value>& arguments);
   Value choice(const ast::Conditional& conditional, size_t branch, const Value& condition, const ScopePtr& scope);
 
-  // --- expressions.cpp
+  // Defined in script_expressions.cpp.
   Value eval(const ast::Expr& expr, const ScopePtr& scope);
   Value eval_compound(const ast::Expr& expr, const ScopePtr& scope);
   Value eval_variable(const ast::Name& name, const Scope& scope);
@@ -184,7 +187,7 @@ class Evaluator {
   Value operate(ast::Operator op, const Value& left, const Value& right, const ast::Span& where);
   Value at_index(const Value& base, double index);
 
-  // --- function_calls.cpp
+  // Defined in script_function_calls.cpp.
   Value eval_tail(const ast::Expr& expr, const ScopePtr& scope);
   const ast::Expr* enter_prefix(const ast::Prefix& prefix, ScopePtr& scope, size_t specials_from);
   bool find_function(const ast::Call& call, const ScopePtr& scope, Callee& callee);
@@ -197,7 +200,7 @@ class Evaluator {
   void assert_true(const std::vector<ast::Argument>& arguments, const ast::Span& where, const ScopePtr& scope);
   void echo(const std::vector<ast::Argument>& arguments, const ScopePtr& scope);
 
-  // --- generators.cpp
+  // Defined in script_generators.cpp.
   void generate(const ast::Expr& expr, const ScopePtr& scope, ListBuilder& out);
   void generate_for(const ast::GenerateFor& loop, size_t variable, const ScopePtr& scope, ListBuilder& out);
   void generate_loop(const ast::GenerateLoop& loop, const ScopePtr& scope, ListBuilder& out);
@@ -229,12 +232,13 @@ class Evaluator {
   std::unordered_map<const Unit*, std::vector<std::pair<Symbol, Value>>> unit_specials_;
   std::unordered_map<const SourcePtr*, std::string> shown_files_;
 
-  std::vector<std::pair<Symbol, Value>> specials_;  // of the calls being evaluated, innermost last
-  std::vector<std::string> module_names_;           // of the modules being evaluated, outermost first
-  std::vector<const solids::Tree*> roots_;          // marked with "!"
-  ast::Span at_;                                    // what is being evaluated
+  // Special variables of the calls that are being evaluated, innermost last.
+  std::vector<std::pair<Symbol, Value>> specials_;
+  std::vector<std::string> module_names_;   // names of the modules that are being evaluated, outermost first
+  std::vector<const solids::Tree*> roots_;  // marked with "!"
+  ast::Span at_;                            // position of the current evaluation
   int depth_ = 0, nested_statements_ = 0;
-  int traced_ = 0;  // calls around an error that were reported
+  int traced_ = 0;  // number of calls around an error that were reported
 };
 
 template <class Body>
@@ -244,7 +248,7 @@ void Evaluator::for_each_scope(const ast::Argument& loop, const ScopePtr& scope,
   const SpecialsMark mark(*this);
   ScopePtr inner = make_scope(scope);
   for_each(values, where, [&](const Value& value) {
-    // The scope serves the next pass too, unless something holds on to it.
+    // Reuses the scope for the next pass, unless a closure holds it.
     if (inner->use_count() > 1) inner = make_scope(scope);
     inner->clear();
     if (loop.name.symbol) set_variable(loop.name, value, *inner, mark.size());

@@ -66,7 +66,7 @@ Value Evaluator::eval_compound(const Expr& expr, const ScopePtr& scope) {
   }
 }
 
-// The value of a name, or null; nothing is said.
+// Returns the value of a name, or null without a message.
 const Value* Evaluator::find_variable(Symbol name, const Scope& scope) const {
   if (name->front() == '$')
     if (const Value* value = find_special(name)) return value;
@@ -113,7 +113,7 @@ Value Evaluator::eval_list(const ast::List& list, const ScopePtr& scope) {
 }
 
 Value Evaluator::operate(ast::Operator op, const Value& left, const Value& right, const ast::Span& where) {
-  if (left.number() && right.number()) {  // the most frequent ones need no detour
+  if (left.number() && right.number()) {  // a shortcut for the most frequent operators
     const double a = *left.number(), b = *right.number();
     if (op == ast::Operator::add) return a + b;
     if (op == ast::Operator::subtract) return a - b;

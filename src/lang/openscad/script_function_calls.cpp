@@ -1,4 +1,4 @@
-// Calls in expressions, with what they may end in: conditions, let, further calls.
+// Calls in expressions, and the conditionals, let and further calls with which they may end.
 #include <algorithm>
 
 #include "lang/openscad/script_evaluator.h"
@@ -17,12 +17,12 @@ std::string callee_name(const ast::Call& call) {
 
 }  // namespace
 
-// A function that ends with a call goes on in this loop, and takes no depth.
+// Evaluates an expression. A function that ends with a call continues in this loop and needs no further depth.
 Value Evaluator::eval_tail(const Expr& start, const ScopePtr& outer) {
   const Expr* expr = &start;
   ScopePtr scope = outer;
   const SpecialsMark mark(*this);
-  // Calls that were gone into, and the last one's body: a function that goes on with itself counts once.
+  // The calls that were entered, and the body of the last one. A function that calls itself at its end counts once.
   const ast::Call* first = nullptr;
   std::vector<const ast::Call*> others;
   const Expr* body = nullptr;
@@ -76,7 +76,7 @@ Value Evaluator::eval_tail(const Expr& start, const ScopePtr& outer) {
   }
 }
 
-// What follows let, assert or echo, or null when nothing does.
+// Returns the expression after let, assert or echo, or null if there is none.
 const Expr* Evaluator::enter_prefix(const ast::Prefix& prefix, ScopePtr& scope, size_t specials_from) {
   switch (prefix.which) {
     case ast::PrefixKind::let:
@@ -93,7 +93,7 @@ const Expr* Evaluator::enter_prefix(const ast::Prefix& prefix, ScopePtr& scope, 
   return prefix.value.get();
 }
 
-// One after the other, so that each sees those before it. A second one of the same name does not count.
+// Assigns the variables one after the other, so that each can use those before it. A repeated name is ignored.
 void Evaluator::bind_let(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t specials_from) {
   for (size_t n = 0; n < arguments.size(); ++n) {
     const ast::Name& name = arguments[n].name;
@@ -158,7 +158,7 @@ Value Evaluator::call_builtin(const ast::Call& call, const ScopePtr& scope) {
     warn("Ignoring unknown function '" + name.text() + '\'', call.span);
     return {};
   }
-  // The one function that may ask about what does not exist.
+  // is_undef is the only function whose argument may be undefined.
   if (name.text() == "is_undef" && call.arguments.size() == 1 &&
       call.arguments[0].value->kind == Expr::Kind::variable) {
     const Value* value = find_variable(static_cast<const ast::Variable&>(*call.arguments[0].value).name.symbol, *scope);
@@ -180,7 +180,7 @@ void Evaluator::bind(const std::vector<ast::Parameter>& parameters, const std::v
                      const ScopePtr& caller, const ScopePtr& home, const ScopePtr& into, const ast::Span& where,
                      size_t specials_from) {
   into->reserve(parameters.size());
-  std::vector<Symbol> specials;  // set at the end: neither arguments nor default values see them
+  std::vector<Symbol> specials;  // set at the end, so that arguments and defaults do not see them
   size_t position = 0;
   bool has_too_many = false;
   for (const ast::Argument& argument : arguments) {

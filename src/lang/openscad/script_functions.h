@@ -11,19 +11,19 @@
 
 namespace ombre::lang::openscad {
 
-// One call. Of most functions arguments count by their order, whatever their names.
+// One call. Most functions identify arguments by their order and ignore names.
 struct FunctionCall {
   std::string_view name;
   std::vector<Value> arguments;
   Meter& meter;
   Problems& problems;
-  const std::vector<std::string>& modules;  // names of the modules being evaluated, outermost first
-  std::mt19937& random;                     // for rands() without a seed
+  const std::vector<std::string>& modules;  // names of the modules that are being evaluated, outermost first
+  std::mt19937& random;                     // generator of rands() without a seed
   const ast::Call& written;
 
   size_t size() const { return arguments.size(); }
   const Value& operator[](size_t i) const { return arguments[i]; }
-  // Undef, with a warning.
+  // Adds a warning and returns undef.
   Value fail(std::string text) const {
     problems.push_back(std::move(text));
     return {};
@@ -34,7 +34,7 @@ struct FunctionCall {
 
 using Function = Value (*)(const FunctionCall& call);
 
-// A path that a script gives, from the folder of the file where it stands.
+// Returns the path that a script names, relative to the folder of the file in which it is written.
 std::string path_beside(const ast::Span& where, const std::string& path);
 
 struct NamedFunction {

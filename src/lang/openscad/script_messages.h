@@ -1,4 +1,4 @@
-// What OpenSCAD says while it runs a script, in its wording: users and their tools read these lines.
+// Messages of a running script in OpenSCAD's wording, since users and tools read these lines.
 #pragma once
 
 #include <array>
@@ -17,40 +17,40 @@ struct Message {
   enum class Kind : uint8_t { echo, warning, deprecated, error, trace, note };
   Kind kind = Kind::echo;
   std::string text;
-  std::string file;  // empty: nowhere in particular
+  std::string file;  // empty if the message has no position
   int line = 0;
-  Code code = Code::script;  // of an error
+  Code code = Code::script;  // code of an error
 
   bool operator==(const Message&) const = default;
 };
 
-// "WARNING: text in file F, line N".
+// Returns "WARNING: text in file F, line N".
 std::string to_line(const Message& message);
 
-// Keeps the messages of one run in their order. A message that is equal to each of the five before it (echoes aside) is
-// left out, as is a repeated one about an old form: OpenSCAD does so.
+// Keeps the messages of one run in order. As in OpenSCAD, a message that equals each of the last five (except echoes)
+// is dropped, and so is a repeated one about a deprecated form.
 class Messages {
  public:
-  // Each message is also given to `sink` at once, unless it is empty.
+  // Each message is also passed to `sink`, unless that is empty.
   explicit Messages(std::function<void(const Message&)> sink = {}) : sink_(std::move(sink)) {}
 
   void add(Message message);
   const std::vector<Message>& list() const { return list_; }
   size_t warning_count() const { return warnings_; }
   size_t error_count() const { return errors_; }
-  // All lines, each with its end: what `-o file.echo` holds.
+  // Returns all lines with their line endings, the content of `-o file.echo`.
   std::string text() const;
 
-  // What is wrong in the text of the script, or in a call of Ombre's words, in more words than OpenSCAD has for it.
+  // Syntax errors of the script, and errors in calls of Ombre's words, in more detail than OpenSCAD reports them.
   Diagnostics details;
 
  private:
-  static constexpr size_t most = 1'000'000;  // messages kept; a script that says more is stopped by its limits
+  static constexpr size_t most = 1'000'000;  // messages that are kept; a script with more is stopped by its limits
 
   std::function<void(const Message&)> sink_;
   std::vector<Message> list_;
   std::array<Message, 5> latest_;
-  std::unordered_set<std::string> deprecated_;  // lines that were said
+  std::unordered_set<std::string> deprecated_;  // lines that were already reported
   size_t next_ = 0;
   size_t warnings_ = 0, errors_ = 0;
 };

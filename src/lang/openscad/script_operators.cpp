@@ -57,7 +57,7 @@ class Computation {
     return {};
   }
 
-  // Elements without a meaning become undef without a word.
+  // Applies `f` to each element. Undefined results become undef without a warning.
   template <class F>
   Value of_each(const List& list, const F& f) {
     ListBuilder result(meter_);
@@ -237,7 +237,7 @@ class Computation {
     return undefined(op, left, right);
   }
 
-  // As words are ordered: by the first elements that differ, else the shorter one first.
+  // Compares vectors lexicographically: by the first elements that differ, else by length.
   Value of_vectors(Operator op, const List& a, const List& b) {
     const size_t size = std::min(a.items.size(), b.items.size());
     for (size_t i = 0; i < size; ++i) {

@@ -1,4 +1,4 @@
-// What operators do to values in OpenSCAD: where they have no meaning they give undef, and a warning says so.
+// Operators on values in OpenSCAD. Undefined operations return undef and add a warning.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace ombre::lang::openscad {
 
-using Problems = std::vector<std::string>;  // texts of warnings, whose place the caller knows
+using Problems = std::vector<std::string>;  // texts of warnings; the caller adds the position
 
-// All but "&&" and "||", which do not evaluate both sides.
+// Applies any operator except "&&" and "||", which do not evaluate both sides.
 Value binary(ast::Operator op, const Value& left, const Value& right, Meter& meter, Problems& problems);
 Value unary(ast::Operator op, const Value& operand, Meter& meter, Problems& problems);
 bool truth(const Value& value);

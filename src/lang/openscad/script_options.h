@@ -1,4 +1,4 @@
-// How an OpenSCAD script is run.
+// Options for running an OpenSCAD script.
 #pragma once
 
 #include <array>
@@ -13,28 +13,30 @@
 
 namespace ombre::lang::openscad {
 
-// The view in which `$vpr`, `$vpt`, `$vpd` and `$vpf` are what scripts read: degrees, mm, mm, degrees.
+// The view that scripts read from `$vpr`, `$vpt`, `$vpd` and `$vpf`, in degrees, mm, mm and degrees.
 struct View {
   std::array<double, 3> rotation{0, 0, 0}, target{0, 0, 0};
   double distance = 500, field = 22.5;
 };
 
 struct Options {
-  // `-D name=expression`; each takes the place of the top-level variable of that name. The text is read as script.
+  // Definitions `-D name=expression`, each of which replaces the top-level variable of that name. They are parsed as
+  // script text.
   std::vector<std::string> definitions;
-  // Folders where `include` and `use` look after the folder of the file that asks.
+  // Folders that `include` and `use` search after the folder of the including file.
   std::vector<std::string> libraries;
   Limits limits = openscad_limits();
-  const StopFlag* stop = nullptr;  // checked now and then; Cancelled is thrown
-  // What `include` and `use` read: nothing where there is no such file. Empty for the real files.
+  const StopFlag* stop = nullptr;  // checked regularly; Cancelled is thrown if it is set
+  // Returns the content of a file for `include` and `use`, or nothing if there is no such file. If empty, the file
+  // system is used.
   std::function<std::optional<std::string>(const std::string& path)> read_file;
   View view;
   double time = 0;                 // $t
-  bool is_preview = true;          // $preview: true, as OpenSCAD has it without `--render`
+  bool is_preview = true;          // $preview: true as in OpenSCAD without `--render`
   bool stops_at_warnings = false;  // --hardwarnings
-  Words* words = nullptr;          // what `use <ombre>` brings; null: there `use <ombre>` is an error
+  Words* words = nullptr;          // the words of `use <ombre>`; if null, `use <ombre>` is an error
 
-  // Scripts may call functions inside each other some 10,000 times; the evaluation has a stack of its own for that.
+  // Functions may be nested about 10,000 deep, for which the evaluation has its own stack.
   static Limits openscad_limits();
 };
 

@@ -16,7 +16,7 @@ const ScopePtr& Evaluator::unit_scope(const Unit& unit) {
   const size_t before = specials_.size();
   assign(unit.plan, scope);
   if (&unit == &program_.units.front()) return scope;
-  // Special variables of a file that is used hold inside of its functions and modules.
+  // Keeps the special variables of a used file for its functions and modules.
   const auto first = specials_.begin() + static_cast<std::ptrdiff_t>(before);
   unit_specials_[&unit].assign(first, specials_.end());
   specials_.resize(before);
@@ -92,7 +92,7 @@ TreePtr Evaluator::dispatch(const Statement& statement, const ScopePtr& scope) {
   }
 }
 
-// An "else if" is a condition of its own inside of "else".
+// Runs a condition. An "else if" is a separate condition within "else".
 TreePtr Evaluator::run_condition(const ast::Condition& statement, size_t branch, const ScopePtr& scope) {
   const auto result = tree(solids::Group{}, statement.span);
   const auto& [condition, block] = statement.branches[branch];
@@ -114,7 +114,7 @@ TreePtr Evaluator::run_loops(const CallStatement& statement, solids::Operation o
   return result;
 }
 
-// A loop over its variables from `variable` on.
+// Runs a loop over its variables, starting with number `variable`.
 void Evaluator::run_loop(const CallStatement& statement, size_t variable, const ScopePtr& scope, Trees& out) {
   if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
   for_each_scope(statement.arguments[variable], scope, statement.span,
@@ -164,7 +164,7 @@ TreePtr Evaluator::run_call(const CallStatement& statement, const ScopePtr& scop
 
 TreePtr Evaluator::run_module(const ast::ModuleDef& module, const ScopePtr& home, const Unit* used,
                               const CallStatement& statement, const ScopePtr& scope) {
-  constexpr int levels_of_statement = 8;  // trees are as deep as statements, and others go through them
+  constexpr int levels_of_statement = 8;  // trees are as deep as statements, and other code walks them recursively
   if (depth_ > options_.limits.depth - spare_levels || nested_statements_ > options_.limits.depth / levels_of_statement)
     stop("Recursion detected calling module '" + statement.name.text() + '\'', statement.span);
   meter_.count_call();
@@ -190,7 +190,7 @@ TreePtr Evaluator::run_module(const ast::ModuleDef& module, const ScopePtr& home
   return result;
 }
 
-// Nothing, and a warning, for what is no number of a child.
+// Returns nothing and adds a warning unless the value is the number of a child.
 std::optional<size_t> Evaluator::chosen_child(const Value& index, size_t count) {
   const double* number = index.number();
   if (!number) return std::nullopt;
@@ -206,7 +206,8 @@ std::optional<size_t> Evaluator::chosen_child(const Value& index, size_t count) 
   return std::nullopt;
 }
 
-// children() is a group of all, children(i) that child itself, children([...]) a group of several.
+// Runs children(), which makes a group of all children, children(i), which returns that child, or children([...]),
+// which makes a group of several.
 TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& scope) {
   const bool is_old = statement.name.symbol == child_name_;
   if (is_old)
@@ -229,7 +230,7 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
     return nullptr;
   }
   const SpecialsMark mark(*this);
-  ScopePtr inner;  // with the variables of the children, which are computed once
+  ScopePtr inner;  // scope of the children, whose variables are computed once
   const auto run_child = [&](const Value& each) {
     const auto chosen = chosen_child(each, plan.actions.size());
     if (!chosen) return;

@@ -19,11 +19,11 @@ TreePtr cube(ModuleCall& call) {
                 ", ...) parameter to a number or a vec3 of numbers");
   }
   result.centred = call.flag("center", false);
-  (void)call.checked_fragments();  // says what is wrong with them
+  (void)call.checked_fragments();  // adds warnings about them
   return call.node(result);
 }
 
-// `r`, or half of `d`.
+// Returns `r`, or half of `d`.
 std::optional<double> radius(const ModuleCall& call, std::string_view r, std::string_view d) {
   const auto diameter = call.number(d);
   if (!diameter) return call.number(r);
@@ -54,7 +54,7 @@ TreePtr cylinder(ModuleCall& call) {
   return call.node(result);
 }
 
-// Indices of points; what is none is left out.
+// Reads lists of point indices, and leaves out invalid ones.
 std::vector<std::vector<size_t>> index_lists(const Value& value) {
   std::vector<std::vector<size_t>> lists;
   if (!value.list()) return lists;
@@ -120,7 +120,7 @@ TreePtr polygon(ModuleCall& call) {
   return call.node(std::move(result));
 }
 
-// The first letter decides.
+// Only the first letter counts.
 std::string direction_of(const std::string& name) {
   for (const char* direction : {"ltr", "rtl", "ttb", "btt"})
     if (!name.empty() && std::tolower(static_cast<unsigned char>(name[0])) == direction[0]) return direction;

@@ -51,14 +51,14 @@ TreePtr mirror(ModuleCall& call) {
   return transformed(call, map);
 }
 
-// What rounding leaves of zeros and ones.
+// Rounds to an integer if the difference is within rounding errors, which turns near zeros and ones into exact ones.
 double tidy(double entry) {
   constexpr double rounding = 4e-16;
   const double nearest = std::round(entry);
   return std::abs(entry - nearest) < rounding ? nearest : entry;
 }
 
-// About x, then y, then z, by degrees.
+// Returns a rotation about x, then y, then z, by degrees.
 Affine turned(Vec3 by) {
   const double sx = degrees::sine(by.x), cx = degrees::cosine(by.x), sy = degrees::sine(by.y),
                cy = degrees::cosine(by.y), sz = degrees::sine(by.z), cz = degrees::cosine(by.z);
@@ -68,7 +68,7 @@ Affine turned(Vec3 by) {
   return map;
 }
 
-// Rodrigues' formula.
+// Uses Rodrigues' formula.
 Affine turned_about(Vec3 axis, double angle) {
   const double size = length(axis);
   if (!(size > 0) || !std::isfinite(size) || !std::isfinite(angle)) return {};
@@ -81,7 +81,7 @@ Affine turned_about(Vec3 axis, double angle) {
   return map;
 }
 
-// Angles of a vector: what is no number counts as 0, with a warning.
+// Returns the rotation for a vector of angles. An angle that is not a number counts as 0, with a warning.
 Affine turned_by_vector(const ModuleCall& call) {
   const std::vector<Value>& items = call["a"].list()->items;
   Vec3 by;
@@ -163,7 +163,7 @@ TreePtr color(ModuleCall& call) {
   return call.with_children(result);
 }
 
-// A name is a string that is not empty, or a number.
+// Returns the name, which must be a non-empty string or a number.
 std::string given_name(ModuleCall& call) {
   const Value& name = call["name"];
   if (name.number()) return number_text(*name.number());

@@ -72,7 +72,7 @@ Value concat(const Call& call) {
   return result.finish();
 }
 
-// Linear between the keys, constant outside of them; rows that are no pairs of numbers are left out.
+// Interpolates linearly between the keys; constant beyond them. Rows that are not pairs of numbers are left out.
 Value lookup(const Call& call) {
   if (call.size() != 2) return call.wrong_count();
   const double* key = call[0].number();
@@ -99,7 +99,7 @@ Value lookup(const Call& call) {
   return *below->items[1].number() * (1 - part) + *above->items[1].number() * part;
 }
 
-// Places in a vector or string where something stands.
+// Finds the positions of values in a vector or string.
 class Search {
  public:
   explicit Search(const Call& call)
@@ -139,7 +139,7 @@ class Search {
     return has_it ? &list->items[static_cast<size_t>(column_)] : nullptr;
   }
 
-  // One place as a number, several as a vector.
+  // Adds one position as a number, several as a vector.
   void push(const std::vector<double>& places, bool is_empty_kept, ListBuilder& result) const {
     if (most_ == 1 && !places.empty()) return result.push(places.front());
     if (most_ == 1 && !is_empty_kept) return;
@@ -186,7 +186,7 @@ class Search {
     return result.finish();
   }
 
-  // Each character against the first one of a column's strings. A row without that column ends the search.
+  // Compares each character with the first one of the strings in a column. A row without that column ends the search.
   Value of_rows(const std::string& wanted) const {
     ListBuilder result(call_.meter);
     for (const std::string& character : characters(wanted)) {
@@ -245,7 +245,7 @@ Value is_function(const Call& call) {
   return test_of(call, [](const Value& value) { return value.closure() != nullptr; });
 }
 
-// Of the language that is followed.
+// The version of OpenSCAD whose language is implemented.
 constexpr std::array<double, 3> release{2021, 1, 0};
 
 Value version(const Call& call) {
@@ -254,7 +254,7 @@ Value version(const Call& call) {
   return result.finish();
 }
 
-// 20190500 of [2019, 5]
+// Returns for example 20190500 for [2019, 5].
 Value version_num(const Call& call) {
   std::array<double, 3> parts = release;
   if (call.size() > 0) {

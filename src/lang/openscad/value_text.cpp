@@ -11,13 +11,13 @@
 namespace ombre::lang::openscad {
 namespace {
 
-// Of "1.23457e-05": digits without the point, and the exponent of the first.
+// The parts of a number such as "1.23457e-05": digits without the decimal point, and the exponent of the first digit.
 struct Decimal {
   std::string digits;
   int exponent = 0;
 };
 
-// Ties are rounded away from zero: 123456.5 is 123457.
+// Rounds to six digits, ties away from zero: 123456.5 is 123457.
 Decimal six_digits(double number) {
   std::array<char, 64> buffer;
   std::snprintf(buffer.data(), buffer.size(), "%.24e", number);
@@ -42,7 +42,7 @@ Decimal six_digits(double number) {
 }
 
 std::string positive_text(double number) {
-  constexpr int least = -5, most = 5;  // exponents that are written out
+  constexpr int least = -5, most = 5;  // exponents for which numbers are written in decimal
   const auto [digits, exponent] = six_digits(number);
   if (exponent > most || exponent < least) {
     const std::string mantissa = digits.size() > 1 ? digits.substr(0, 1) + '.' + digits.substr(1) : digits;

@@ -11,7 +11,7 @@
 
 namespace ombre::lang::openscad {
 
-// Exactly `count` numbers in a vector, else nothing.
+// Returns the numbers of a vector with exactly `count` numbers, else nothing.
 template <size_t count>
 std::optional<std::array<double, count>> numbers(const Value& value) {
   const List* list = value.list();
@@ -24,14 +24,14 @@ std::optional<std::array<double, count>> numbers(const Value& value) {
   return result;
 }
 
-// Of two or three numbers.
+// Reads a vector of two or three numbers.
 inline std::optional<Vec3> vector3(const Value& value, double third) {
   if (const auto three = numbers<3>(value)) return Vec3{(*three)[0], (*three)[1], (*three)[2]};
   if (const auto two = numbers<2>(value)) return Vec3{(*two)[0], (*two)[1], third};
   return std::nullopt;
 }
 
-// Sets the parts of three numbers up to the first that is none. Returns whether all were set.
+// Sets the components of a vector up to the first that is not a number. Returns true if all three were set.
 inline bool set_parts(const Value& value, Vec3& parts) {
   const List* list = value.list();
   if (!list || list->items.size() != 3) return false;
@@ -43,12 +43,12 @@ inline bool set_parts(const Value& value, Vec3& parts) {
   return true;
 }
 
-// Two values that are no two numbers: OpenSCAD takes no notice of them.
+// True for a vector of two elements that are not both numbers, which OpenSCAD ignores.
 inline bool is_wrong_pair(const Value& value) {
   return value.list() && value.list()->items.size() == 2 && !numbers<2>(value);
 }
 
-// A parameter such as `convexity`; what is too large for it is the greatest.
+// Converts a parameter such as `convexity` to an integer. Large values are clamped.
 inline int whole(double number) {
   constexpr double most = 1e9;
   return std::isnan(number) ? 0 : static_cast<int>(std::max(-most, std::min(most, number)));

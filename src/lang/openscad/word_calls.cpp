@@ -13,14 +13,14 @@ std::string word_of(const ast::Name& name) {
   return text.starts_with(word_prefix) ? text.substr(word_prefix.size()) : text;
 }
 
-// A number or a value in space that the script calls by this name, as formulas may.
+// Returns the number or varying value in the script's variable of this name, which formulas may use.
 std::optional<Data> value_called(const std::string& name, const Scope& scope) {
   const Value* value = scope.find_text(name);
   if (value && value->number()) return Data(*value->number());
   return value && value->object() ? std::optional(value->object()->data()) : std::nullopt;
 }
 
-// What a literal string says stands at a place of its own, wherever the value went since.
+// Returns the position of a literal string, even if the value was passed on through variables; else `otherwise`.
 SourceRange literal_place(const Text& text, const SourceRange& otherwise) {
   return text.origin && text.origin->is_plain ? text.origin->inside().range() : otherwise;
 }
@@ -47,7 +47,7 @@ bool Evaluator::gives_value(const ast::Name& name, const Scope& scope) const {
   return has_words(scope) && options_.words->gives_value(word_of(name));
 }
 
-// Arguments as the vocabulary reads them; `written` gets them as .csg files write them.
+// Converts arguments for the vocabulary. `written` is set to their text in .csg files.
 Invocation Evaluator::word_call(const ast::Name& name, const ast::Span& whole,
                                 const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
                                 std::string& written) {
@@ -108,7 +108,7 @@ Value Evaluator::value_of_word(const ast::Call& call, const ScopePtr& scope) {
   return value ? std::move(*value) : Value();
 }
 
-// An error ends the evaluation.
+// Adds messages. An error stops the evaluation.
 void Evaluator::report_words(const Diagnostics& found, const ast::Span& where) {
   const auto place_of = [&](const Diagnostic& diagnostic) {
     const bool is_here = where.source && diagnostic.where.source == *where.source;
@@ -125,7 +125,7 @@ void Evaluator::report_words(const Diagnostics& found, const ast::Span& where) {
     if (diagnostic.severity == Severity::error) stop(diagnostic.message, place_of(diagnostic));
 }
 
-// Values on their way to a word: plain data with the places where they were written.
+// Converts a value to an argument of a word: plain data with source positions.
 Data Evaluator::data_of(const Value& value, const SourceRange& where, const ast::Span& argument) {
   meter_.spend();
   if (const double* number = value.number()) return {*number, where};
@@ -150,7 +150,7 @@ Data Evaluator::data_of(const Value& value, const SourceRange& where, const ast:
   return {std::move(items), where};
 }
 
-// What an operator or a function makes of values that vary in space; nothing where none of them does.
+// Applies an operator or function to values that vary in space. Returns nothing if no operand does.
 std::optional<Value> Evaluator::of_objects(std::string_view function, const std::vector<Value>& arguments) {
   const List* list = arguments.size() == 1 ? arguments[0].list() : nullptr;
   const bool takes_list = function == "min" || function == "max" || function == "norm";
@@ -160,7 +160,7 @@ std::optional<Value> Evaluator::of_objects(std::string_view function, const std:
   return object ? object->apply(function, operands, meter_) : std::nullopt;
 }
 
-// One of the values of a conditional at each point, from its branch `branch` on.
+// Returns a value that selects the branches of a conditional at each point, starting with number `branch`.
 Value Evaluator::choice(const ast::Conditional& conditional, size_t branch, const Value& condition,
                         const ScopePtr& scope) {
   const auto otherwise = [&](size_t next) -> Value {

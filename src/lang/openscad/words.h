@@ -1,4 +1,4 @@
-// Words that OpenSCAD does not have: scripts that say `use <ombre>` may call them.
+// Ombre's additional modules and functions ("words"), which scripts with `use <ombre>` may call.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace ombre::lang::openscad {
 
-// Before a word that OpenSCAD has too: ombre_union.
+// Prefix of words whose names exist in OpenSCAD, too: ombre_union.
 inline constexpr std::string_view word_prefix = "ombre_";
 
 class Words {
@@ -20,12 +20,12 @@ class Words {
   virtual ~Words() = default;
   virtual bool makes_solid(std::string_view word) const = 0;
   virtual bool gives_value(std::string_view word) const = 0;
-  virtual std::vector<std::string> names() const = 0;  // for suggestions
-  // What the word makes of the trees that stand in its braces, one for each statement: what solids::Word holds.
-  // `call.children` is empty. Null, and diagnostics, where something is wrong.
+  virtual std::vector<std::string> names() const = 0;  // all names, for suggestions
+  // Makes the content of a solids::Word from the trees in the call's braces, one for each statement. `call.children` is
+  // empty. Returns null and adds diagnostics if something is wrong.
   virtual std::shared_ptr<const void> make(Invocation call, const std::vector<solids::TreePtr>& children,
                                            Diagnostics& diagnostics) = 0;
-  // What the word gives in an expression; nothing, and diagnostics, where it is wrong.
+  // Returns the value of the word in an expression. Returns nothing and adds diagnostics if it is wrong.
   virtual std::optional<Value> value(Invocation call, Diagnostics& diagnostics, Meter& meter) = 0;
 };
 

@@ -12,20 +12,20 @@ using design::NodeType;
 
 namespace {
 
-constexpr size_t most_in_table = 3 << 14;  // fills three quarters of its slots
+constexpr size_t most_in_table = 3 << 14;  // three quarters of the slots are in use then
 
 template <class T>
 void append_bytes(std::string& key, const T& value) {
   key.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Names a node's output by its node.
+// Returns an identity that is equal for outputs of the same node.
 uintptr_t identity(const HostObject& object) {
   const auto* output = dynamic_cast<const design::NodeObject*>(&object);
   return output ? reinterpret_cast<uintptr_t>(output->node().get()) : reinterpret_cast<uintptr_t>(&object);
 }
 
-// Bytes that are the same for equal values only.
+// Appends bytes that are equal only for equal values.
 void append_value(std::string& key, const Data& data) {
   key += static_cast<char>(data.value.index());
   if (const bool* b = data.boolean()) key += *b ? '1' : '0';

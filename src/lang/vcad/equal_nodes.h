@@ -1,4 +1,4 @@
-// Equal nodes of a design become one.
+// Merges equal nodes of a design.
 #pragma once
 
 #include <cstdint>
@@ -10,30 +10,30 @@
 
 namespace ombre::lang {
 
-// Remembers some ten thousands, the latest: more would cost as much memory as the nodes themselves.
+// Remembers the latest tens of thousands of nodes. Remembering more would take as much memory as the nodes themselves.
 class EqualNodes {
  public:
-  // Of the remembered nodes with this one's type, parameters and inputs the one that was given first.
+  // Returns the first remembered node with the same type, parameters and inputs, or the given node if there is none.
   design::NodePtr first(design::NodePtr node);
 
  private:
   struct Slot {
     Hash hash;
-    design::NodePtr node;  // null: free
+    design::NodePtr node;  // null if free
   };
   struct Table {
-    std::vector<Slot> slots;  // each at its hash, or after it
+    std::vector<Slot> slots;  // each node is in the slot of its hash or after it
     size_t count = 0;
 
     design::NodePtr find(const Hash& hash) const;
     void add(const Hash& hash, design::NodePtr node);
-    // The slot with that hash, or the free one that it would get.
+    // Returns the slot with that hash, or the free one where it belongs.
     size_t place(const Hash& hash) const;
     void widen();
   };
 
   Table latest_, older_;
-  std::string key_;  // of the node that is looked for
+  std::string key_;  // key of the node that is sought
 };
 
 }  // namespace ombre::lang

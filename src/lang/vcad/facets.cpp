@@ -11,11 +11,11 @@ using design::NodePtr;
 using design::NodeType;
 using design::Reader;
 
-constexpr double least_round = 30;  // sides of a circle that is meant to be round
+constexpr double least_round = 30;  // number of sides from which a circle counts as round
 
 constexpr std::string_view always_round[] = {"ellipsoid", "torus", "strut", "revolve", "tube", "text"};
 
-// A corner of a polygon around the z axis, the first of which lies on +x.
+// Returns a corner of a polygon around the z axis, whose first corner lies on +x.
 Vec3 on_circle(double radius, double degrees) { return Affine::rotation({0, 0, 1}, degrees)({radius, 0, 0}); }
 
 void add_ring(DataList& points, int sides, double radius, double z) {
@@ -25,7 +25,7 @@ void add_ring(DataList& points, int sides, double radius, double z) {
   }
 }
 
-// Its rings lie half a step from the poles, as OpenSCAD has them.
+// Returns the points of a ball whose rings lie half a step from the poles, as in OpenSCAD.
 DataList ball_points(int sides, double radius) {
   DataList points;
   const int rings = (sides + 1) / 2;
@@ -57,7 +57,7 @@ class Faceter {
   Faceter(const design::Node& round, int sides, const design::Registry& registry, const Reader& reader)
       : round_(round), sides_(sides), registry_(registry), reader_(reader) {}
 
-  // Null where a length is a formula.
+  // Returns null if a length is a formula.
   NodePtr run() const {
     const std::string& name = round_.type().name;
     if (name == "cylinder") return prism(number("radius"), number("height"));
@@ -66,7 +66,7 @@ class Faceter {
   }
 
  private:
-  using Length = std::optional<double>;  // nothing: it is a formula
+  using Length = std::optional<double>;  // nothing if it is a formula
 
   NodePtr prism(Length radius, Length height) const {
     if (!radius || !height) return nullptr;

@@ -1,4 +1,4 @@
-// What $fn asks of round solids.
+// Facets of round solids, as set by $fn.
 #pragma once
 
 #include "design/registry.h"
@@ -6,8 +6,8 @@
 
 namespace ombre::lang {
 
-// The prism, pyramid or ball of flat faces that OpenSCAD makes where $fn is small, in place of a round solid. With many
-// facets a round solid is meant, and the node stays as it is. A warning where $fn cannot do what it asks for.
+// Replaces a round solid by the prism, pyramid or ball with flat faces that OpenSCAD makes for a small $fn. With many
+// facets the node is returned unchanged, since a round solid is meant. Warns if $fn has no effect on the solid.
 design::NodePtr with_facets(design::NodePtr round, const Invocation& call, const design::Registry& registry,
                             const design::Reader& reader);
 

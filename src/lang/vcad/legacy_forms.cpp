@@ -45,7 +45,7 @@ constexpr std::string_view vector_nodes[] = {"rectprism", "ellipsoid",  "transla
 bool is_number(const Data& data) { return data.number() || (design::is_value(data) && !design::is_mixture(data)); }
 bool is_number_like(const Data& data) { return is_number(data) || data.string(); }
 
-// The parameter that three numbers in a row make.
+// Returns the parameter that three leading numbers stand for.
 std::string first_parameter(const design::NodeType& type) { return type.parameters[0].name; }
 
 size_t positional_count(const std::vector<Argument>& arguments) {
@@ -60,7 +60,7 @@ Argument vector_argument(const std::string& name, const Argument& a, const Argum
   return {name, {}, Data(DataList{a.value, b.value, c.value}, where)};
 }
 
-// translate(1, 2, 3), rectprism(1, 2, 3, "red"), rotate(0, 0, 90): three leading numbers are one vector.
+// Joins three leading numbers to one vector: translate(1, 2, 3), rectprism(1, 2, 3, "red"), rotate(0, 0, 90).
 void gather_leading_numbers(const design::NodeType& type, std::vector<Argument>& arguments) {
   if (std::find(std::begin(vector_nodes), std::end(vector_nodes), type.name) == std::end(vector_nodes)) return;
   if (positional_count(arguments) < 3) return;
@@ -70,7 +70,7 @@ void gather_leading_numbers(const design::NodeType& type, std::vector<Argument>&
   arguments.erase(arguments.begin() + 1, arguments.begin() + 3);
 }
 
-// translate(x=5, z=1), rotate(pitch=30, roll=90): components by name.
+// Joins named components to a vector: translate(x=5, z=1), rotate(pitch=30, roll=90).
 void gather_named_components(const design::NodeType& type, std::vector<Argument>& arguments) {
   const bool turns = type.name == "rotate";
   if (!turns && type.name != "translate" && type.name != "scale") return;
@@ -94,7 +94,7 @@ void gather_named_components(const design::NodeType& type, std::vector<Argument>
   arguments.push_back(std::move(vector));
 }
 
-// strut(length, radius, "mat"): from the origin along +x.
+// Names the arguments of strut(length, radius, "mat"), a strut from the origin along +x.
 void spell_out_short_strut(std::vector<Argument>& arguments) {
   const size_t count = positional_count(arguments);
   if (count < 2 || !arguments[0].value.number() || !is_number_like(arguments[1].value)) return;
@@ -105,7 +105,7 @@ void spell_out_short_strut(std::vector<Argument>& arguments) {
   if (count > 2) arguments[2].name = "material";
 }
 
-// function((min), (max), "expr", "mat")
+// Names the arguments of function((min), (max), "expr", "mat").
 void spell_out_bounded_function(std::vector<Argument>& arguments) {
   const size_t count = positional_count(arguments);
   if (count < 3 || !arguments[0].value.list() || !arguments[1].value.list()) return;
@@ -126,7 +126,7 @@ std::vector<Argument> modern_arguments(const design::NodeType& type, std::vector
   gather_named_components(type, arguments);
   if (type.name == "strut") spell_out_short_strut(arguments);
   if (type.name == "function") spell_out_bounded_function(arguments);
-  // scale(2): the same on each axis.
+  // Replaces the number in scale(2) by a vector.
   if (type.name == "scale" && arguments.size() == 1 && arguments[0].value.number())
     arguments[0].value = Data(DataList(3, arguments[0].value), arguments[0].value.where);
   for (Argument& argument : arguments) {

@@ -1,4 +1,4 @@
-// Spellings and positional forms of older .vcad files, brought to names and parameters of the registry.
+// Converts spellings and positional forms of older .vcad files to names and parameters of the registry.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace ombre::lang {
 
-// The registry's name of a node under any of its spellings.
+// Returns the registry's name of a node for any of its spellings.
 std::string_view node_name(std::string_view spelling);
 
-// Arguments with their names filled in or changed: numbers gathered to vectors, short names spelt out.
-// What is no legacy form is left as it is.
+// Returns arguments in the current form: names are filled in, numbers are joined to vectors, and short names are
+// replaced. Other arguments stay as they are.
 std::vector<Argument> modern_arguments(const design::NodeType& type, std::vector<Argument> arguments);
 
 }  // namespace ombre::lang

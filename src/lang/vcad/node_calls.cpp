@@ -15,7 +15,7 @@ using design::Reader;
 
 namespace {
 
-// The number of the parameter for arguments that no other has the name of; -1 where there is none.
+// Returns the number of the parameter that collects arguments with unknown names, or -1 if there is none.
 int variables_of(const NodeType& type) {
   for (size_t n = 0; n < type.parameters.size(); ++n)
     if (type.parameters[n].kind == design::variables_kind) return static_cast<int>(n);

@@ -1,4 +1,4 @@
-// From calls with arguments, by position or name and in older forms too, to nodes.
+// Makes nodes from calls, whose arguments may be positional, named or in older forms.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace ombre::lang {
 
-// A parameter for every argument. Nothing, and diagnostics, when one has none.
+// Assigns a parameter to every argument. Returns nothing and adds diagnostics if one has none.
 std::optional<std::vector<design::NamedValue>> bound_arguments(const design::NodeType& type,
                                                                std::vector<Argument> arguments,
                                                                const design::Reader& reader);
 
-// The union of several nodes, or the only one.
+// Returns the union of several nodes, or the only one.
 design::NodePtr joined(std::vector<design::NodePtr> nodes, const design::Registry& registry,
                        const design::Reader& reader);
 
-// make_node, where several inputs are joined for a node that takes one.
+// Calls make_node after joining the inputs if the node takes only one.
 design::NodePtr make_called(const design::NodeType& type, const std::vector<design::NamedValue>& values,
                             std::vector<design::NodePtr> inputs, const design::Registry& registry,
                             const design::Reader& reader);

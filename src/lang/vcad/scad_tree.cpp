@@ -41,7 +41,7 @@ design::Rgba rgba_of(const solids::Colour& colour) {
   return bytes;
 }
 
-// The name of the call at that place: "hull".
+// Returns the name of the call at that position: "hull".
 std::string called_name(const SourceRange& where) {
   if (!where.source) return "this";
   std::string name;
@@ -59,7 +59,8 @@ bool matches(const std::string& a, const std::string& b, Semantics semantics) {
   return semantics == Semantics::permissive || a == b;
 }
 
-// Each part once, in the order of the solids; all are one where parts keep nothing apart.
+// Returns the names of parts, each once, in the order of the solids. With permissive semantics, all solids belong to
+// the first part.
 std::vector<std::string> parts_of(const WordSolids& all, Semantics semantics) {
   std::vector<std::string> parts;
   for (const WordSolid& solid : all)
@@ -108,7 +109,7 @@ WordSolids ScadTreeReader::by_part(const WordSolids& solids, const SourceRange& 
   return result;
 }
 
-// Neighbours without words are one leaf.
+// Adjacent trees without words become one leaf.
 WordSolids ScadTreeReader::group(const std::vector<TreePtr>& trees) {
   WordSolids all;
   std::vector<TreePtr> plain;
@@ -147,7 +148,7 @@ WordSolids ScadTreeReader::leaf(const std::vector<TreePtr>& trees) {
   request.material = {&materials_.first()};
   const auto made = loader_->source(request, at);
   if (!made) return {};
-  Diagnostics repeated;  // what is to be said of the text was said with the first request
+  Diagnostics repeated;  // messages about the text were reported with the first request
   const Reader again{materials_, repeated, loader_, at.where, "scad", ""};
   WordSolids solids;
   for (const std::string& part : made->part_names) {
@@ -181,7 +182,7 @@ WordSolids ScadTreeReader::solids_of(const TreePtr& pointer) {
   if (const auto* material = std::get_if<solids::SetMaterial>(&tree.operation))
     return with(tree, "material", "materials", Data(material->name));
   if (const auto* colour = std::get_if<solids::SetColour>(&tree.operation)) {
-    if (colour->colour[0] < 0) return group(tree.children);  // an opacity alone
+    if (colour->colour[0] < 0) return group(tree.children);  // sets only the opacity
     return with(tree, "material", "materials",
                 Data(design::nearest_material(rgba_of(colour->colour), materials_).name));
   }
@@ -215,7 +216,7 @@ WordSolids ScadTreeReader::united(const Tree& tree) {
   return node ? WordSolids{{all.front().part, node}} : WordSolids{};
 }
 
-// Each part of the first child, less all that follows.
+// Subtracts all following children from each part of the first child.
 WordSolids ScadTreeReader::difference(const Tree& tree) {
   const auto first = std::ranges::find_if(tree.children, [](const TreePtr& child) { return !child->background; });
   if (first == tree.children.end()) return {};
@@ -230,7 +231,7 @@ WordSolids ScadTreeReader::difference(const Tree& tree) {
   return solids;
 }
 
-// Of each part, what all children have in common that have the part.
+// Intersects, for each part, all children that have that part.
 WordSolids ScadTreeReader::intersection(const Tree& tree) {
   std::vector<WordSolids> children;
   WordSolids all;

@@ -1,4 +1,4 @@
-// From trees of OpenSCAD scripts to nodes of a design.
+// Converts trees of OpenSCAD scripts to nodes of a design.
 #pragma once
 
 #include <map>
@@ -11,18 +11,18 @@
 
 namespace ombre::lang {
 
-// Reads trees in which words stand. What stands above a word becomes nodes; what has no words below becomes a leaf,
-// which computes it as polyhedra.
+// Reads trees that contain words. Operations above a word become nodes. A subtree without words becomes a leaf, which
+// is computed as polyhedra.
 class ScadTreeReader {
  public:
-  // `script` is the main file's path; all must outlive this.
+  // `script` is the path of the main file. All arguments must outlive this object.
   ScadTreeReader(const design::Registry& registry, const design::MaterialTable& materials, design::SourceLoader* loader,
                  const std::string& script, Diagnostics& diagnostics)
       : registry_(registry), materials_(materials), loader_(loader), script_(script), diagnostics_(diagnostics) {}
 
-  // The trees as one group: what has the same part is one solid. Diagnostics where an operation needs polyhedra.
+  // Returns the solids of a group, one for each part. Adds diagnostics if an operation needs polyhedra.
   WordSolids group(const std::vector<solids::TreePtr>& trees);
-  // The union of solids; null where there is none.
+  // Returns the union of the solids, or null if there are none.
   design::NodePtr joined(const WordSolids& solids, const SourceRange& where);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 using design::NodePtr;
 using design::NodeType;
 
-// Parts are those of the language.
+// True for solids except `part`; parts are made by the script language itself.
 bool is_own_word(const NodeType& type) { return type.is_solid() && type.name != "part"; }
 
 void give_children(Invocation& call, const std::vector<NodePtr>& children) {

@@ -1,4 +1,4 @@
-// The .vcad vocabulary as words of OpenSCAD scripts, which say `use <ombre>`.
+// The nodes of .vcad as words of OpenSCAD scripts with `use <ombre>`.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,12 @@
 
 namespace ombre::lang {
 
-// A word of one solid works on each part of its children; of several, it gives the part of the first. Above a word,
-// groups and transforms keep parts apart, and booleans work on what has the same part.
+// A word that takes one solid is applied to each part of its children. The result of a word that takes several belongs
+// to the part of the first. Above a word, groups and transforms keep parts separate, and booleans combine solids of the
+// same part.
 class ScadWords final : public openscad::Words {
  public:
-  // All must outlive the words. `script` is the main file's path.
+  // `script` is the path of the main file. All arguments must outlive this object.
   ScadWords(const design::Registry& registry, const design::MaterialTable& materials, design::SourceLoader* loader,
             std::string script);
 
@@ -28,7 +29,7 @@ class ScadWords final : public openscad::Words {
                                    Diagnostics& diagnostics) override;
   std::optional<Value> value(Invocation call, Diagnostics& diagnostics, Meter& meter) override;
 
-  // The design that a script's whole tree makes; nothing, and a diagnostic, when there is none.
+  // Returns the design that a script's whole tree makes. Returns nothing and adds a diagnostic if there is none.
   std::optional<design::Design> finish(const solids::TreePtr& tree, const SourceRange& whole, Diagnostics& diagnostics);
 
  private:

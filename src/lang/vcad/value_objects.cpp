@@ -13,9 +13,9 @@ using design::ValueType;
 using expr::Binary;
 using expr::Expression;
 
-// Longer formulas become nodes, so that a part that is used often is written once.
+// Longer formulas are turned into nodes, so that a part that is used repeatedly is stored once.
 constexpr size_t longest_formula = 64;
-constexpr uint64_t object_bytes = 1024;  // counted for each, so that many are bounded
+constexpr uint64_t object_bytes = 1024;  // counted for each object, so that their number is limited
 
 class ValueObject final : public Object {
  public:
@@ -40,8 +40,8 @@ class ValueObject final : public Object {
   Value of(Expression expression, Meter& meter) const;
   std::optional<Value> mixed(std::span<const Value> operands, Meter& meter) const;
 
-  NodePtr node_;                      // null: a formula of several
-  std::optional<Expression> number_;  // none where the node's first output is not a number
+  NodePtr node_;                      // null for a formula of several nodes
+  std::optional<Expression> number_;  // nothing if the node's first output is not a number
   const ValueMaker& maker_;
   Meter& meter_;
 };
@@ -97,7 +97,7 @@ Value ValueObject::of(Expression expression, Meter& meter) const {
   return ObjectPtr(std::make_shared<ValueObject>(nullptr, std::move(expression), maker_, meter));
 }
 
-// Takes numbers, truth values and objects that are numbers.
+// Converts numbers, truth values and objects that are numbers.
 std::optional<std::vector<Expression>> expressions_of(std::span<const Value> operands) {
   std::vector<Expression> list;
   for (const Value& operand : operands) {
@@ -127,7 +127,7 @@ constexpr OperatorName operator_names[] = {
     {"&&", Binary::logical_and}, {"||", Binary::logical_or},    {"pow", Binary::power},
 };
 
-// Functions of scripts and those of formulas that mean the same.
+// Functions of scripts and the functions of formulas with the same meaning.
 struct FunctionName {
   std::string_view name;
   const char* formula;
@@ -138,7 +138,7 @@ constexpr FunctionName function_names[] = {
     {"log", "log10"}, {"exp", "exp"},  {"sqrt", "sqrt"},   {"min", "min"},   {"max", "max"},     {"clamp", "clamp"},
 };
 
-// Scripts have angles in degrees, formulas in radians.
+// Angles are in degrees in scripts, and in radians in formulas.
 constexpr std::string_view takes_angle[] = {"sin", "cos", "tan"}, gives_angle[] = {"asin", "acos", "atan", "atan2"};
 
 bool is_among(std::string_view name, std::span<const std::string_view> names) {
@@ -180,7 +180,7 @@ std::optional<Value> ValueObject::apply(std::string_view function, std::span<con
   return made ? std::optional(of(std::move(*made), meter)) : std::nullopt;
 }
 
-// condition ? material : material
+// Evaluates condition ? material : material.
 std::optional<Value> ValueObject::mixed(std::span<const Value> operands, Meter& meter) const {
   const design::NodeType& type = *maker_.registry.find("mix");
   const auto data_of = [&](const Value& value) -> std::optional<Data> {
@@ -200,7 +200,7 @@ std::optional<Value> ValueObject::mixed(std::span<const Value> operands, Meter& 
   return node ? std::optional(value_of(node, maker_, meter)) : std::nullopt;
 }
 
-// A solid that values are measured on, or that is a part of another.
+// A solid on which values are measured, or which is part of another solid.
 class SolidObject final : public Object {
  public:
   SolidObject(NodePtr node, Meter& meter) : node_(std::move(node)), meter_(meter) { meter_.claim_text(object_bytes); }

@@ -1,4 +1,4 @@
-// Values that vary in space, as objects of the script language: formulas of outputs of nodes.
+// Values that vary in space as objects of the script language: formulas of outputs of nodes.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,15 @@
 
 namespace ombre::lang {
 
-// What values are made with; it outlives them.
+// The context in which values are made. It must outlive them.
 struct ValueMaker {
   const design::Registry& registry;
   const design::MaterialTable& materials;
 };
 
-// What a call of a value node gives: its first output, which stands for it, and the others as parts.
+// Returns the value of a call of a value node: its first output, with the other outputs as parts.
 Value value_of(const design::NodePtr& node, const ValueMaker& maker, Meter& meter);
-// What a call of a solid gives in an expression.
+// Returns the value of a call of a solid in an expression.
 Value solid_value(const design::NodePtr& node, Meter& meter);
 
 }  // namespace ombre::lang

@@ -25,7 +25,8 @@ NodePtr solid_of(const Data& data) {
 
 bool is_solid(const Data& data) { return solid_of(data) != nullptr; }
 
-// The solids among the arguments, alone or in lists, which are the call's children: translate([1, 2, 3], sphere(5)).
+// Removes the solids from the arguments, alone or in lists, and returns them as children of the call: translate([1, 2,
+// 3], sphere(5)).
 std::vector<NodePtr> take_solids(std::vector<Argument>& arguments) {
   std::vector<NodePtr> solids;
   std::erase_if(arguments, [&](const Argument& argument) {
@@ -42,7 +43,7 @@ std::vector<NodePtr> take_solids(std::vector<Argument>& arguments) {
   return solids;
 }
 
-// Everything that this vocabulary makes is a node.
+// Casts products to nodes, which are all that this vocabulary makes.
 std::vector<NodePtr> nodes_of(std::vector<Product> products) {
   std::vector<NodePtr> nodes;
   nodes.reserve(products.size());
@@ -50,7 +51,7 @@ std::vector<NodePtr> nodes_of(std::vector<Product> products) {
   return nodes;
 }
 
-// Makes these solids children that stand before those in the braces, each like a statement of its own.
+// Inserts solids as children before those in the braces, each as a separate statement.
 void put_first(const std::vector<NodePtr>& solids, Invocation& call) {
   if (solids.empty()) return;
   call.children.insert(call.children.begin(), solids.begin(), solids.end());
@@ -60,7 +61,7 @@ void put_first(const std::vector<NodePtr>& solids, Invocation& call) {
   call.group_ends = std::move(ends);
 }
 
-// Does each statement of the braces give one solid?
+// True if each statement in the braces gives one solid.
 bool has_single_children(const Invocation& call) {
   if (call.group_ends.size() != call.children.size()) return false;
   for (size_t n = 0; n < call.group_ends.size(); ++n)
@@ -151,7 +152,8 @@ NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Dia
   return known_.first(with_facets(std::move(node), call, registry_, reader));
 }
 
-// Loops, modules and conditions may give nothing; who writes nothing at all may have forgotten it.
+// Makes an empty solid. Loops, modules and conditions may give nothing, but empty braces give a warning, since
+// something may have been forgotten.
 NodePtr VcadVocabulary::nothing_inside(const NodeType& type, const Invocation& call, Diagnostics& diagnostics) {
   if (call.braces == Invocation::Braces::empty)
     diagnostics.warning(call.whole, type.name + " has nothing inside its braces, and makes nothing",
@@ -159,7 +161,8 @@ NodePtr VcadVocabulary::nothing_inside(const NodeType& type, const Invocation& c
   return design::make_nothing(type, call.whole);
 }
 
-// As OpenSCAD has it: difference() { for (...) ...; sphere(5); } takes the ball out of all that the loop makes.
+// Joins the solids of each statement, as in OpenSCAD: difference() { for (...) ...; sphere(5); } subtracts the ball
+// from everything that the loop makes.
 std::vector<NodePtr> VcadVocabulary::groups(const NodeType& type, const Invocation& call,
                                             const std::vector<NodePtr>& children, const Reader& reader) {
   std::vector<NodePtr> result;
@@ -225,7 +228,7 @@ NodePtr VcadVocabulary::make_root(Invocation& call, Diagnostics& diagnostics) {
 std::optional<design::Design> VcadVocabulary::finish(std::vector<Product> products, const SourceRange& whole,
                                                      Diagnostics& diagnostics) {
   const std::vector<NodePtr> top_level = nodes_of(std::move(products));
-  known_ = {};  // none is added any more, and the table is large
+  known_ = {};  // no more nodes are added, and the table is large
   if (diagnostics.has_errors()) return std::nullopt;
   if (root_where_) {
     for (const NodePtr& beside : top_level)

@@ -1,4 +1,4 @@
-// The .vcad vocabulary: calls of a script -> nodes of a design, the forms of older files included.
+// The .vcad vocabulary, which makes nodes of a design from calls of a script, including older forms.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace ombre::lang {
 
 class VcadVocabulary : public Vocabulary {
  public:
-  // All three must outlive the vocabulary; without a loader, meshes are errors.
+  // All three arguments must outlive the vocabulary. Without a loader, meshes are errors.
   VcadVocabulary(const design::Registry& registry, const design::MaterialTable& materials,
                  design::SourceLoader* loader);
 
@@ -26,7 +26,7 @@ class VcadVocabulary : public Vocabulary {
   std::vector<std::string> value_names() const override { return registry_.value_names(); }
   std::optional<Value> value(Invocation call, Diagnostics& diagnostics, Meter& meter) override;
 
-  // The design that the top-level nodes make; nothing, and a diagnostic, when there is none.
+  // Returns the design that the top-level nodes make. Returns nothing and adds a diagnostic if there is none.
   std::optional<design::Design> finish(std::vector<Product> top_level, const SourceRange& whole,
                                        Diagnostics& diagnostics);
 

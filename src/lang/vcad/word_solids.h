@@ -1,4 +1,4 @@
-// Solids of an OpenSCAD script that uses the words of .vcad.
+// Solids of an OpenSCAD script that uses words of .vcad.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace ombre::lang {
 
-// Solids of a script: those of polyhedra are leaves of the design graph.
+// A solid of a script. Polyhedra are leaves of the design graph.
 struct WordSolid {
-  std::string part;  // empty: none
+  std::string part;  // empty if it belongs to no part
   design::NodePtr node;
 };
 using WordSolids = std::vector<WordSolid>;

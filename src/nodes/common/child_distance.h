@@ -1,5 +1,5 @@
-// What expressions know of a node's input: d, its signed distance, and t, the place along its struts; warnings where
-// distances are none.
+// Variables of expressions that refer to a node's input: d, its signed distance, and t, the position along its struts.
+// Warns if the input has no distances.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace ombre::nodes {
 
-// Keeps references to both arguments.
+// Returns the input's variables. Keeps references to both arguments.
 inline expr::Variables child_variables(const design::Inputs& in, const program::Point& p) {
   return [&in, &p](std::string_view name) -> std::optional<program::Field> {
     if (name == "d") return in.distance(0, p);
@@ -20,7 +20,7 @@ inline expr::Variables child_variables(const design::Inputs& in, const program::
   };
 }
 
-// `user` names what needs a distance: "offset".
+// Warns if the input has no distance in mm. `user` is what needs it, such as "offset".
 inline void warn_of_implicit_distance(const design::Reader& reader, const design::Node& input,
                                       const std::string& user = "\"d\"") {
   if (!input.metric().is_implicit()) return;
@@ -29,7 +29,7 @@ inline void warn_of_implicit_distance(const design::Reader& reader, const design
                              "the result may not be in mm; redistance gives it distances");
 }
 
-// False, and a diagnostic, when the numbers use what the input does not know.
+// Returns false and adds a diagnostic if the numbers use variables that the input does not have.
 inline bool check_child_variables(const design::Reader& reader, const design::Node& input,
                                   std::span<const design::Number> numbers) {
   const auto use = [&](std::string_view name) {

@@ -1,4 +1,4 @@
-// Stages that filter a solid's voxels: their materials, their attributes, and whether they are inside.
+// Stages that filter a solid's voxels: materials, attributes, and the inside.
 #pragma once
 
 #include <functional>
@@ -8,29 +8,31 @@
 
 namespace ombre::nodes {
 
-// What of a solid is filtered, and in which cells.
+// The values of a solid that are filtered, and the size of the cells.
 struct FilterUse {
   bool materials = true;
-  bool count_void = false;              // what is outside of the solid counts as void, else not at all
-  std::vector<std::string> attributes;  // numbers
+  bool count_void = false;              // counts the outside of the solid as void; else it does not count
+  std::vector<std::string> attributes;  // names of attributes that are numbers
   std::optional<Vec3> cell_mm;
 };
 
-// Channels: sum_channel() of each material, weighted sums of its fractions; "share", the weighted sum of voxels inside;
-// and each attribute's weighted sum over the voxels inside.
+// Makes a stage of weighted sums. Its channels are sum_channel() of each material, with sums of its fractions; "share",
+// the sum over voxels inside; and for each attribute the sum over voxels inside.
 design::StagePtr make_linear_stage(const design::NodePtr& solid, const FilterUse& use, const std::string& key,
                                    std::function<LinearFilter(Vec3 cell_mm)> filter);
 
-// In the box around each voxel, the material with most of it counts as 1 and others as 0; among equals the voxel's own,
-// then the first in the table.
+// Makes a stage in which the most frequent material in the box around each voxel has fraction 1 and all others 0. In a
+// tie the voxel's own material wins, then the first in the table.
 design::StagePtr make_majority_stage(const design::NodePtr& solid, const FilterUse& use, const design::Counts3& size);
-// The middle one of each attribute's values at the voxels inside in the box around each voxel; of an even number, the
-// lower of the two. "share" is 1 where some voxel of the box is inside.
+// Makes a stage of medians: the middle one of each attribute's values at the voxels inside, in the box around each
+// voxel. For an even number of values it is the lower of the two middle ones. The channel "share" is 1 if a voxel of
+// the box is inside.
 design::StagePtr make_median_stage(const design::NodePtr& solid, const FilterUse& use, const design::Counts3& size);
 
 enum class Morphology : uint8_t { dilate, erode, opening, closing };
-// The mark "inside": voxels of a ball around a voxel inside (dilate), or whose ball lies inside (erode), or both after
-// another. A ball holds the voxels whose centres are at most `radius_mm` away.
+// Makes a stage with the flag "inside". Dilation adds the voxels of a ball around each voxel inside; erosion keeps the
+// voxels whose ball lies inside; opening and closing do both in turn. A ball contains the voxels whose centres are at
+// most `radius_mm` away.
 design::StagePtr make_morphology_stage(const design::NodePtr& solid, Morphology what, double radius_mm,
                                        const std::optional<Vec3>& cell_mm);
 

@@ -14,7 +14,7 @@ uint64_t split_mix(uint64_t z) {
   return z ^ (z >> 31);
 }
 
-// Beyond that, cells cannot be told from one another in double precision.
+// Beyond this index, double precision cannot distinguish cells.
 constexpr double farthest_cell = 1e15;
 
 bool is_near(Vec3 p) {
@@ -26,7 +26,7 @@ std::array<int64_t, 3> cell_of(Vec3 p) {
           static_cast<int64_t>(std::floor(p.z))};
 }
 
-// Values of one octave, from 0 to 1.
+// Sums octaves of noise to values from 0 to 1.
 class Octaves : public program::FieldSource {
  public:
   Octaves(std::string_view name, uint64_t seed, const OctaveSum& sum, int period)
@@ -69,7 +69,7 @@ class Octaves : public program::FieldSource {
   Hash content_;
 };
 
-// Towards the middles of the twelve edges of a cube.
+// Directions to the midpoints of a cube's twelve edges.
 constexpr std::array<Vec3, 12> edge_middles{{{1, 1, 0},
                                              {-1, 1, 0},
                                              {1, -1, 0},
@@ -88,14 +88,14 @@ class SimplexNoise final : public Octaves {
   SimplexNoise(uint64_t seed, const OctaveSum& sum) : Octaves("simplex noise", seed, sum, 0) {}
 
  private:
-  // More than the greatest sum that gradients of length sqrt(2) can make, which is near 0.013.
+  // Slightly more than the greatest sum for gradients of length sqrt(2), which is near 0.013.
   static constexpr double peak = 1.0 / 76;
 
   double octave(Vec3 p, uint64_t seed, int64_t) const override {
     const double skew = (p.x + p.y + p.z) / 3;
     const auto cell = cell_of(p + Vec3{skew, skew, skew});
     const Vec3 first = p - unskewed(cell);
-    // The simplex's corners come by the order of the place's coordinates in the cell, the greatest first.
+    // The corners of the simplex follow the order of the coordinates in the cell, the greatest first.
     std::array<int, 3> order{0, 1, 2};
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return first[a] > first[b]; });
     std::array<int64_t, 3> corner = cell;
@@ -189,7 +189,7 @@ class VoronoiCells final : public program::FieldSource {
   static constexpr std::string_view channels[] = {"index", "border", "point", "x", "y", "z"};
   static constexpr int index = 0, border = 1, point = 2, x = 3;
   static constexpr double most_index = (1 << 24) - 1;
-  static constexpr int64_t reach = 2;  // cells
+  static constexpr int64_t reach = 2;  // number of cells searched on each side
 
   struct Nearest {
     Vec3 at;
@@ -221,7 +221,7 @@ class VoronoiCells final : public program::FieldSource {
     return best;
   }
 
-  // To the planes in the middle between the cell's point and the others.
+  // Returns the distance to the nearest of the planes midway between the cell's point and other points.
   double border_distance(const Nearest& own, Vec3 p, const std::array<int64_t, 3>& cell) const {
     double least = 3;
     visit_points(cell, [&](const Nearest& other) {

@@ -29,7 +29,7 @@ void divide(std::vector<double>& weights, double by) {
 
 using Factors = std::array<std::vector<double>, 3>;
 
-// Lists along the axes whose product the kernel is, if there are such.
+// Returns lists along the axes whose product is the kernel, or nothing if there are none.
 std::optional<Factors> factors_of(const Kernel& kernel) {
   const auto n = [&](size_t axis) { return static_cast<size_t>(kernel.size[axis]); };
   const auto greatest = std::ranges::max_element(kernel.weights, {}, [](double w) { return std::abs(w); });
@@ -50,7 +50,7 @@ std::optional<Factors> factors_of(const Kernel& kernel) {
 }
 
 std::vector<double> gaussian_weights(double sigma) {
-  constexpr double reach = 4;  // sigmas
+  constexpr double reach = 4;  // number of sigmas at which weights end
   const auto radius = static_cast<int>(std::floor(reach * sigma + 0.5));
   std::vector<double> weights;
   for (int n = -radius; n <= radius; ++n) weights.push_back(math::exp(-0.5 * n * n / (sigma * sigma)));
@@ -116,7 +116,7 @@ std::array<int64_t, 3> LinearFilter::above() const {
 }
 
 Interval LinearFilter::range() const {
-  // The least and the greatest sums of positive and negative weights, through all passes.
+  // Bounds the results by the sums of positive and of negative weights, pass by pass.
   double least = 0, greatest = 1;
   for (const Pass& pass : passes_) {
     double negative = 0, positive = 0;

@@ -13,40 +13,42 @@
 
 namespace ombre::nodes {
 
-// A block of numbers, x fastest.
+// A block of numbers, with x varying fastest.
 struct NumberGrid {
   std::array<int64_t, 3> size{};
   std::vector<double> values;
 };
 
-// value = centre * own + scale * (weighted sum around). Sums are taken in one order, so that they are the same bits
-// wherever a voxel lies. The voxel itself has the index floor(n / 2) of the n weights along an axis, and the weights
-// are those of the voxels at that place, not mirrored.
+// Computes centre * value + scale * (weighted sum of the voxels around). Sums are always taken in the same order, so
+// that results do not depend on a voxel's position. Of n weights along an axis, the one with index floor(n / 2) belongs
+// to the voxel itself. Weights belong to the voxels at their positions; the kernel is not mirrored.
 class LinearFilter {
  public:
-  // Weights that are a product of three lists cost the sum of their lengths, others their number. They are divided by
-  // their sum, unless that is 0.
+  // Makes a filter from a kernel. If its weights are the product of three lists, the cost is the sum of their lengths
+  // instead of the number of weights. Weights are divided by their sum, unless that is 0.
   static LinearFilter of(const design::Kernel& kernel);
-  // Weights exp(-x^2 / (2 sigma^2)) up to four sigmas away; sigmas in voxels, 0 leaves an axis as it is.
+  // Makes a Gaussian filter with weights exp(-x^2 / (2 sigma^2)) up to four sigmas. Sigmas are in voxels; 0 leaves an
+  // axis unchanged.
   static LinearFilter gaussian(Vec3 sigma);
-  // Unsharp masking: the values themselves plus `amount` times what the filter takes from them.
+  // Returns a filter for unsharp masking: the values plus `amount` times the difference between them and the filtered
+  // ones.
   LinearFilter sharpened(double amount) const;
 
-  // Voxels that are read below and above each.
+  // Return the number of voxels below and above each voxel that are read.
   std::array<int64_t, 3> below() const;
   std::array<int64_t, 3> above() const;
-  // Encloses the results for values from 0 to 1.
+  // Returns an interval that encloses the results for values from 0 to 1.
   Interval range() const;
 
-  // The grid's outermost voxels are only read: the result is smaller by `below` and `above`. Throws Cancelled soon
-  // after `stop`, which may be null, asks for it.
+  // Applies the filter. The result is smaller than the grid by `below` and `above`. Throws Cancelled soon after `stop`,
+  // which may be null, is set.
   NumberGrid apply(const NumberGrid& grid, const StopFlag* stop = nullptr) const;
 
  private:
   // One box of weights.
   struct Pass {
     std::array<int64_t, 3> size{1, 1, 1};
-    std::vector<double> weights;  // x fastest
+    std::vector<double> weights;  // x varies fastest
   };
   static Pass along(size_t axis, std::vector<double> weights);
   static NumberGrid applied(const Pass& pass, const NumberGrid& grid, const StopFlag* stop);

@@ -14,7 +14,7 @@ using program::Point;
 
 namespace {
 
-// All inputs are of one and the same single material everywhere, and nothing can be wrong with it.
+// True if all inputs consist of the same single material everywhere and have no checks.
 bool is_one_material(const std::vector<Composition>& parts) {
   for (const Composition& part : parts)
     if (part.fractions.size() != 1 || !part.checks.empty() || part.fractions[0].first != parts[0].fractions[0].first)
@@ -37,7 +37,7 @@ Composition weighted(const std::vector<Composition>& parts, const std::vector<Fi
   std::map<MaterialId, std::vector<Field>> terms;
   std::map<uint32_t, std::vector<Field>> flags;
   for (size_t i = 0; i < parts.size(); ++i) {
-    // select, not a product: what a hidden input says may not be a number.
+    // Uses select instead of a product, since the values of a hidden input may be NaN.
     for (const auto& [id, fraction] : parts[i].fractions)
       terms[id].push_back(select(truth(weights[i]), fraction * weights[i], zero));
     for (const auto& [number, flag] : parts[i].checks) flags[number].push_back(logical_and(truth(weights[i]), flag));
@@ -128,7 +128,7 @@ Field overlapping_attribute(const Inputs& in, std::string_view name, const Point
 
 namespace {
 
-// Weights, 0 where the value does not count.
+// Returns the weighted mean. Values with weight 0 do not count.
 Field weighed_mean(const std::vector<Field>& values, const std::vector<Field>& weights, Field zero) {
   std::vector<Field> terms;
   for (size_t i = 0; i < values.size(); ++i) {
@@ -138,7 +138,7 @@ Field weighed_mean(const std::vector<Field>& values, const std::vector<Field>& w
   return program::sum(terms) / program::sum(weights);
 }
 
-// The least or greatest of those that count, in place of which `beyond` stands for the others.
+// Returns the least or greatest of the values whose flag is set. `beyond` replaces the others.
 Field extreme(const std::vector<Field>& values, const std::vector<Field>& flags, double beyond,
               Field (*combine)(Field, Field)) {
   std::vector<Field> present;

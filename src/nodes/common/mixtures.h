@@ -1,4 +1,4 @@
-// Compositions and attributes where several solids meet.
+// Compositions and attributes where several solids overlap or blend.
 #pragma once
 
 #include <map>
@@ -7,18 +7,18 @@
 
 namespace ombre::nodes {
 
-// The inputs' compositions, each counted with its weight (not negative, not all zero where it matters);
-// a weight of zero hides whatever the input's composition is there.
+// Returns the weighted mean of the inputs' compositions. Weights must not be negative, nor all zero where the result
+// matters. An input with weight zero has no effect, whatever its composition.
 design::Composition weighted(const design::Inputs& in, const program::Point& p, design::Demand demand,
                              const std::vector<program::Field>& weights);
 
-// The same of compositions that are at hand, one for each weight.
+// Returns the weighted mean of given compositions, one for each weight.
 design::Composition weighted(const std::vector<design::Composition>& parts, const std::vector<program::Field>& weights);
 
-// Sums of compositions by weights, and their shares of the total.
+// Sums compositions with weights, and divides by the total weight.
 class WeighedSums {
  public:
-  // Begins with what a table has summed: fractions times weights, checks where they are 1, and the sum of the weights.
+  // Starts with the sums of a table: fractions times weights with their checks, and the sum of the weights.
   WeighedSums(const design::Composition& sums, program::Field total);
   void add(const design::Composition& composition, program::Field weight);
   design::Composition shares() const;
@@ -29,23 +29,23 @@ class WeighedSums {
   std::map<uint32_t, program::Field> checks_;
 };
 
-// The mean of all inputs that hold the point, when most of them are rows of a table.
+// Returns the mean of all inputs that hold the point, if most of them are rows of a table.
 design::Composition mixed(const design::Inputs& in, const program::Point& p, const design::PartFields& parts);
 
-// Truth values: is this input's distance the least, the first on ties?
+// Returns truth values that mark the input with the least distance, the first one in a tie.
 std::vector<program::Field> nearest(const std::vector<program::Field>& distances);
-// Keeps of several truth values only the first that is true (or the last).
+// Keeps only the first, or the last, of several truth values that is true.
 std::vector<program::Field> first_true(const std::vector<program::Field>& flags);
 std::vector<program::Field> last_true(const std::vector<program::Field>& flags);
 
-// What the inputs that contain the point say of the attribute, by its overlap rule; its default where
-// none that has it contains the point.
+// Combines the attribute's values of the inputs that contain the point, by its overlap rule. Returns its default where
+// no input that has it contains the point.
 program::Field overlapping_attribute(const design::Inputs& in, std::string_view name, const program::Point& p,
                                      design::Demand demand, const std::vector<program::Field>& insides,
                                      const design::AttributeDeclaration& declaration);
 
-// The same of values that are at hand, of which those count whose weight is not 0. How large it is matters to the rule
-// `mix` alone.
+// Combines given values by an overlap rule. Only values whose weight is not 0 count; the size of the weight matters
+// only to the rule `mix`.
 program::Field overlapping_values(const std::vector<program::Field>& values, const std::vector<program::Field>& weights,
                                   design::Overlap overlap, program::Field otherwise);
 

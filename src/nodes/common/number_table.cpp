@@ -10,7 +10,7 @@
 namespace ombre::nodes {
 namespace {
 
-// Where an input lies among its keys: between `below` and the next, at `share` of the way.
+// The position of an input among its keys: from key `below` the share `share` of the way to the next key.
 struct Between {
   size_t below = 0;
   double share = 0;
@@ -24,8 +24,8 @@ Between between(const std::vector<double>& keys, double at) {
   return {below, (at - keys[below]) / (keys[below + 1] - keys[below])};
 }
 
-// Slopes in the keys, of one input: as SciPy's PchipInterpolator has them, after Fritsch and Butland, and at the ends
-// the one-sided rule of three points by C. Moler, "Numerical computing with MATLAB", 2004.
+// Slopes at the keys of a single input, as in SciPy's PchipInterpolator: by Fritsch and Butland, and at the ends by the
+// one-sided three-point rule in C. Moler, "Numerical computing with MATLAB", 2004.
 double end_slope(double h0, double h1, double m0, double m1) {
   const double slope = ((2 * h0 + h1) * m0 - h0 * m1) / (h0 + h1);
   if (slope * m0 <= 0) return 0;
@@ -88,7 +88,7 @@ class Table final : public program::FieldSource {
                                      : linear(static_cast<size_t>(channel), at, 0, 0);
   }
 
-  // Values lie between those of the keys around.
+  // Interpolated values lie between those of the surrounding keys.
   Interval range(int channel, const Box& box) const override {
     std::array<std::pair<size_t, size_t>, 3> keys{};
     for (size_t axis = 0; axis < keys_.axes.size(); ++axis) {
@@ -103,7 +103,7 @@ class Table final : public program::FieldSource {
   }
 
  private:
-  // Of the inputs from `axis` on, where the keys of those before have the place `offset`.
+  // Interpolates over the inputs from `axis` on. `offset` is the combined position of the keys of the inputs before.
   double linear(size_t output, const std::array<Between, 3>& at, size_t axis, size_t offset) const {
     if (axis == keys_.axes.size()) return keys_.values[output][offset];
     const size_t next = offset * keys_.axes[axis].size() + at[axis].below;
@@ -120,7 +120,7 @@ class Table final : public program::FieldSource {
     const double h = x[n + 1] - x[n], t = at.share, s = 1 - t;
     const double value =
         y[n] * (1 + 2 * t) * s * s + y[n + 1] * t * t * (1 + 2 * s) + h * t * s * (slope[n] * s - slope[n + 1] * t);
-    // Monotone but for rounding.
+    // Enforces monotonicity against rounding errors.
     return std::clamp(value, std::min(y[n], y[n + 1]), std::max(y[n], y[n + 1]));
   }
 
@@ -136,7 +136,7 @@ class Table final : public program::FieldSource {
 
   TableKeys keys_;
   TableMode mode_;
-  std::vector<std::vector<double>> slopes_;  // of each output, in the keys
+  std::vector<std::vector<double>> slopes_;  // slopes of each output at the keys
   Hash content_;
 };
 

@@ -1,4 +1,4 @@
-// Tables of numbers over one, two or three inputs, as field sources whose space is that of the inputs.
+// Tables of numbers over one, two or three inputs. They are field sources whose space is that of the inputs.
 #pragma once
 
 #include <string>
@@ -10,23 +10,25 @@
 namespace ombre::nodes {
 
 enum class TableMode : uint8_t {
-  step,    // the value of the greatest key that is not above the input
-  linear,  // straight from key to key
-  cubic,   // F. N. Fritsch and J. Butland, 1984: cubics that are monotone where the values are; of one input
+  step,    // value at the greatest key that is not above the input
+  linear,  // linear interpolation between keys
+  cubic,   // cubics of a single input that are monotone where the values are (F. N. Fritsch and J. Butland, 1984)
 };
 
 struct TableKeys {
-  std::vector<std::vector<double>> axes;    // the keys of each input, ascending; one to three inputs
-  std::vector<std::vector<double>> values;  // of each output, for all combinations of keys, the last input's fastest
+  std::vector<std::vector<double>> axes;  // the keys of each of one to three inputs, in ascending order
+  // For each output, the values for all combinations of keys. The last input varies fastest.
+  std::vector<std::vector<double>> values;
 };
 
-// Of rows of keys and then values. Nothing, and what is wrong, where rows lack combinations of keys or repeat them.
+// Returns the table for rows of keys followed by values. Returns the problem if rows lack combinations of keys or
+// repeat them.
 struct TableProblem {
   std::string message, hint;
 };
 std::variant<TableKeys, TableProblem> table_of(const std::vector<std::vector<double>>& rows, size_t inputs);
 
-// Channels "0", "1", ... for the outputs. Beyond the keys the values of the nearest.
+// Makes a table with the channels "0", "1", ... for its outputs. Beyond the keys it has the values of the nearest key.
 program::SourceField make_table(TableKeys keys, TableMode mode);
 
 }  // namespace ombre::nodes

@@ -1,4 +1,4 @@
-// Points of outlines and paths as drawings and computations give them.
+// Removal of repeated points from outlines and paths of drawings and computations.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace ombre::nodes {
 
-// How far points may be off by rounding, relative to the size of what they bound.
+// Tolerance for rounding of points, relative to the size of the outline or path.
 inline constexpr double noise_of_points = 1e-11;
 
 inline double size_of(const std::vector<Vec3>& points) {
@@ -16,7 +16,7 @@ inline double size_of(const std::vector<Vec3>& points) {
   return length(box.size());
 }
 
-// A point that stands twice in a row counts once; where the points go round, so does the first one at their end.
+// Merges consecutive equal points. For closed outlines, the last point is also removed if it equals the first.
 template <class P>
 std::vector<P> without_repeated(const std::vector<P>& points, double size, bool go_round) {
   const double room = noise_of_points * size;

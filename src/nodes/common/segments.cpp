@@ -9,7 +9,8 @@ using program::Point;
 
 namespace {
 
-// The shares of the segment, from 0 at its start to 1, whose surroundings meet the box. Empty: lo > hi.
+// Returns the part of the segment, as shares from 0 at its start to 1 at its end, whose surroundings intersect the box.
+// lo > hi if there is none.
 Interval reached(Vec3 start, Vec3 end, Vec3 margins, const Box& where) {
   Interval shares{0, 1};
   for (int axis = 0; axis < 3; ++axis) {

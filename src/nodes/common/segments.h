@@ -1,4 +1,4 @@
-// Straight pieces from one point to another: the axes of struts.
+// Line segments, which are the axes of struts.
 #pragma once
 
 #include "base/math/box.h"
@@ -7,14 +7,14 @@
 namespace ombre::nodes {
 
 struct Segment {
-  Vec3 start, end;  // mm
+  Vec3 start, end;  // end points in mm
 
-  // Where the nearest point lies, from 0 at the start to 1 at the end.
+  // Returns the position of the nearest point, from 0 at the start to 1 at the end.
   program::Field along(const program::Point& p) const;
   program::Field squared_distance(const program::Point& p) const;
 };
 
-// Encloses the points of `where` whose nearest point on the segment is not farther than the margins along each axis.
+// Returns a box around the points of `where` whose nearest point on the segment is within the margin along each axis.
 Box reach_of_segment(Vec3 start, Vec3 end, Vec3 margins, const Box& where);
 
 }  // namespace ombre::nodes

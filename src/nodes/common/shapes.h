@@ -1,4 +1,4 @@
-// Distances that several solids share.
+// Distance functions that several solids use.
 #pragma once
 
 #include <array>
@@ -11,11 +11,12 @@ namespace ombre::nodes {
 using program::Field;
 using program::Point;
 
-// Solids whose g grows away from the planes x = 0, y = 0 and z = 0, so that of copies the nearest has the least.
+// Traits of solids whose g grows with the distance from the planes x = 0, y = 0 and z = 0, so that the nearest copy has
+// the least g.
 inline const design::Traits grows_outward{.nearest_copy_is_enough_from = Vec3{}};
 
-// A rotation that takes a direction to the z axis; what is at a right angle to it and nearest to x (or y, where the
-// direction is x) comes to lie along x.
+// Returns a rotation that maps a direction to the z axis. The perpendicular direction nearest to x (or to y, if the
+// direction is x) is mapped to x.
 inline Affine turned_to_z(Vec3 direction) {
   const Vec3 w = (1 / length(direction)) * direction;
   const bool is_x = w.y == 0 && w.z == 0;
@@ -24,7 +25,7 @@ inline Affine turned_to_z(Vec3 direction) {
   return {{u, cross(w, u), w}, {}};
 }
 
-// To the corner region of a shape whose distance to each of two perpendicular faces is known.
+// Returns the distance to a corner, given the distances to its perpendicular faces.
 inline Field corner(Field a, Field b) {
   return length(max(a, 0.0), max(b, 0.0)) + min(max(a, b), a.builder->constant(0));
 }

@@ -5,8 +5,8 @@
 
 namespace ombre::nodes {
 
-// The direction in which a solid's distance grows, of length 1, by differences over a step, mm; a vector of zeros where
-// it does not change.
+// Returns the gradient direction of a solid's distance, of length 1, by differences over `step` mm, or a zero vector
+// where the distance does not change.
 inline design::VectorField normal_of(const design::Ask& ask, const design::SolidName& solid, double step) {
   std::array<program::Field, 3> rise;
   for (int axis = 0; axis < 3; ++axis) {

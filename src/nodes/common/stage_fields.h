@@ -1,4 +1,4 @@
-// What nodes with stages have in common.
+// Helpers for nodes with stages.
 #pragma once
 
 #include "design/node.h"
@@ -6,16 +6,16 @@
 
 namespace ombre::nodes {
 
-inline constexpr const char* about_pitch = "Size of the voxels; none: the job's";
+inline constexpr const char* about_pitch = "Size of the voxels; none: that of the job's voxels";
 
-// What the stage's source says in a channel at the point.
+// Returns the value of a channel of the stage's source at the point.
 inline program::Field read_channel(const design::Inputs& in, const design::StagePtr& stage, const std::string& channel,
                                    const program::Point& p) {
   const program::SourceField source = in.staged(stage);
   return p.builder().source(source, source->channel(channel), p.x, p.y, p.z);
 }
 
-// False, and a diagnostic, where a stage that reads all voxels would have no end of them.
+// Returns false and adds a diagnostic if the stage reads all voxels but its solid is unbounded.
 inline bool is_bounded(const design::Reader& reader, const design::StagePtr& stage) {
   const Box box = stage->bounds();
   if (box.is_empty() || length(box.size()) < 2 * design::design_limit_mm) return true;
@@ -24,7 +24,8 @@ inline bool is_bounded(const design::Reader& reader, const design::StagePtr& sta
   return false;
 }
 
-// What a stage flags as "inside"; materials are those of the child, or of what is nearest in it.
+// The solid that a stage flags as "inside". Its materials are those of the child at the point, or at the nearest point
+// of the child.
 struct StagedSolid {
   design::StagePtr stage;
 

@@ -1,4 +1,4 @@
-// What each family tells struts.h of its nodes.
+// Functions of the node families that struts.h combines.
 #pragma once
 
 #include "design/values.h"
@@ -6,10 +6,11 @@
 
 namespace ombre::nodes {
 
-// At the start and the end of a strut. Nothing where it is no linear function of t, or not above 0 at both.
+// Returns the radii at the start and the end of a strut. Returns nothing if the radius is not a linear function of t,
+// or not above 0 at both ends.
 std::optional<std::array<double, 2>> end_radii(const design::Number& radius);
 
-// 0 and nothing for nodes that are no lattice, or no strut.
+// For nodes that are not a lattice, or not a strut, these functions return 0, false or nothing.
 size_t lattice_strut_count(const design::Node& node);
 std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node);
 bool is_single_strut(const design::Node& node);

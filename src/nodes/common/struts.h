@@ -1,4 +1,4 @@
-// What nodes made of struts, and tiles, say of themselves to those who write struts as beams.
+// Struts and tiles of nodes, for formats that store struts as beams.
 #pragma once
 
 #include <array>
@@ -10,27 +10,27 @@
 
 namespace ombre::nodes {
 
-// A conical frustum, closed at each end by the half ball beyond it, or flat. mm.
+// A conical frustum with hemispherical or flat ends; lengths in mm.
 struct StrutShape {
   Vec3 start, end;
   double start_radius = 0, end_radius = 0;
   bool has_flat_ends = false;
 };
 
-// Of how many struts the node itself is made: 0 for all but lattices and struts.
+// Returns the number of struts of which the node itself consists, which is 0 for all nodes except lattices and struts.
 size_t strut_count(const design::Node& node);
 
-// The struts of a lattice, or the one of a strut. Nothing for other nodes, and where the radius is no linear function
-// of t or not above 0 at both ends.
+// Returns the struts of a lattice or strut node. Returns nothing for other nodes, and if the radius is not a linear
+// function of t or not above 0 at both ends.
 std::optional<std::vector<StrutShape>> struts_of(const design::Node& node);
 
-// Copies of an input, moved by whole multiples of the steps.
+// Copies of an input, translated by integer multiples of the steps.
 struct TileCopies {
-  Vec3 steps;                       // 0: there is one copy along this axis, with the index 0
-  std::array<Interval, 3> indices;  // from the first to the last copy, unbounded where nothing limits them
+  Vec3 steps;                       // a step of 0 means a single copy along this axis, with index 0
+  std::array<Interval, 3> indices;  // indices of the first and last copy; unbounded if there is no limit
 };
 
-// Nothing for nodes that are no tile.
+// Returns nothing for nodes that are not tiles.
 std::optional<TileCopies> tile_copies_of(const design::Node& node);
 
 }  // namespace ombre::nodes

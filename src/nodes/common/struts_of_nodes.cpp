@@ -1,4 +1,4 @@
-// Struts of nodes of all families.
+// Combines the strut functions of all node families.
 #include "nodes/common/struts.h"
 
 #include "nodes/common/strut_families.h"

@@ -7,7 +7,7 @@ namespace {
 
 using design::PatientSpace;
 
-// From the frame of a file to one that is wanted, or nothing where the file does not say enough.
+// Returns the map from a file's coordinate system to the wanted one, or nothing if the file does not specify its own.
 std::optional<Affine> turn_of(PatientSpace from, std::string_view wanted) {
   const auto known = [&](double x, double y) { return std::optional(Affine::scaling({x, y, 1})); };
   const bool is_ras = wanted == "RAS";
@@ -46,7 +46,7 @@ int VolumePlace::channel(const char* name) const {
   return number;
 }
 
-// The file's directions, with the lengths and the origin that are given.
+// Returns the file's map with the spacing and origin of the node, if given.
 Affine VolumePlace::placed() const {
   Affine map = grid->space_from_index.value_or(Affine{});
   if (spacing)

@@ -1,4 +1,4 @@
-// Where a grid of numbers from a file lies in a design.
+// The position of a grid of numbers from a file in a design.
 #pragma once
 
 #include "design/source_loader.h"
@@ -13,16 +13,16 @@ struct VolumePlace {
   std::string series;
   int voxel_channel = -1;
   std::shared_ptr<const design::VolumeGrid> grid;  // read when the node is made
-  int64_t segment_label = -1;                      // the same; the number of the segment that is meant
+  int64_t segment_label = -1;                      // number of the chosen segment, read when the node is made
   Affine here_from_index, index_from_here;
 
  protected:
-  // Reads the file; false, and diagnostics, where that fails or it does not say enough. `segment` is the name of one,
-  // or empty.
+  // Reads the file. Returns false and adds diagnostics if that fails or information is missing. `segment` is the name
+  // of a segment, or empty.
   bool read_volume(const design::Reader& reader, const std::string& segment = "");
   int channel(const char* name) const;
 
-  // The parameters of T, which derives from this.
+  // Returns the parameters of T, which must derive from this class.
   template <class T>
   static std::vector<design::Parameter<T>> with_place(std::vector<design::Parameter<T>> others) {
     const auto own = [](auto VolumePlace::*member) {
@@ -33,22 +33,20 @@ struct VolumePlace {
          "The file, or a folder of DICOM files or of images; relative to the script, then to the working directory",
          design::required()}};
     for (auto& parameter : others) all.push_back(std::move(parameter));
-    all.emplace_back("spacing", own(&VolumePlace::spacing), "Lengths of a voxel; none: those of the file",
+    all.emplace_back("spacing", own(&VolumePlace::spacing), "Size of a voxel; none: that of the file",
                      design::unit::positive_mm);
     all.emplace_back("origin", own(&VolumePlace::origin), "Centre of the first voxel; none: that of the file",
                      design::unit::mm);
-    all.emplace_back(
-        "space", own(&VolumePlace::space),
-        "Frame of the places: the file's own, or RAS or LPS, for which the file must say what it has, or the "
-        "voxels' numbers, from 0 along each axis, as mm",
-        design::one_of({"file", "RAS", "LPS", "index"}));
-    all.emplace_back(
-        "series", own(&VolumePlace::series),
-        "Of several DICOM series in a folder, its number or UID; of several grids in a .vdb or .vti file, its name");
+    all.emplace_back("space", own(&VolumePlace::space),
+                     "Coordinate system: the file's own; RAS or LPS, if the file states its own; or index, the voxels' "
+                     "numbers from 0 along each axis, in mm",
+                     design::one_of({"file", "RAS", "LPS", "index"}));
+    all.emplace_back("series", own(&VolumePlace::series),
+                     "Number or UID of one of several DICOM series in a folder, or name of one of several grids in a "
+                     ".vdb or .vti file");
     all.emplace_back(
         "channel", own(&VolumePlace::voxel_channel),
-        "Of several values in each voxel, which one, counted from 0; -1: there is one, or the length of vectors "
-        "in a .vdb file",
+        "Index of one of several values per voxel, from 0; -1: the only one, or the length of vectors in a .vdb file",
         design::from_to(-1, 100000));
     return all;
   }

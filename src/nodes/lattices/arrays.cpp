@@ -1,4 +1,4 @@
-// Copies of a solid in rows, grids, circles, and mirrored.
+// Copies of a solid in rows, grids and circles, and mirrored.
 #include "design/spec.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/shapes.h"
@@ -11,19 +11,19 @@ namespace {
 
 using namespace design;
 
-// What a point may have to ask; programs would get too large.
+// Greatest number of copies that are evaluated at a point, since programs would get too large.
 constexpr double most_queries = 10'000;
 
 Domain copy_overlap_choices() { return one_of({"first", "mix", "last"}); }
 constexpr std::string_view copy_overlap_doc =
-    "Where copies overlap: first and last let one take precedence, mix adds their compositions and normalises";
+    "Composition where copies overlap: that of the first or last copy, or mix, the mean of all";
 
-// What the family shares: the union of copies, of which each point asks those that matter to it. T has
-//   holding(p)          where the copies that may hold the point are evaluated
-//   in_order(p)         the same, with the first copies first
-//   nearest_ones(p)     where the copies that may be the nearest are evaluated, the first ones first
-//   distances(in, p)    their distances
-//   most_queries_at_once  how many these can be
+// Base of the family: a union of copies, of which only those that matter are evaluated at a point. T has these methods:
+// - holding(p) returns the points at which copies that may hold p are evaluated.
+// - in_order(p) returns the same points in the order of the copies.
+// - nearest_ones(p) returns the points at which copies that may be nearest are evaluated, in the order of the copies.
+// - distances(in, p) returns their distances.
+// - most_queries_at_once returns the greatest number of these points.
 template <class T>
 struct Array {
   Metric metric(const Inputs& in) const {
@@ -81,7 +81,7 @@ struct Array {
     return demand == Demand::inside ? self().in_order(p) : self().nearest_ones(p);
   }
 
-  // The copies that hold the point; where none does and it matters, the nearest.
+  // Marks the copies that hold the point, or the nearest one where none does and it matters.
   std::vector<Field> holders(const Inputs& in, const Point& p, const std::vector<Point>& queried, Demand demand) const {
     std::vector<Field> flags = insides(in, queried);
     if (demand == Demand::inside) return flags;
@@ -103,13 +103,13 @@ struct LatticeArray : Array<T> {
   std::vector<Point> in_order(const Point& p) const { return copies.holding(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return copies.around(p); }
 
-  // The last one is a bound for the copies that are not evaluated, if there are such.
+  // Returns the distances of copies. If some copies are not evaluated, the last element is a bound for them.
   std::vector<Field> distances(const Inputs& in, const Point& p) const {
     const bool may_fall_short = in.metric(0).kind == Metric::Kind::bounded && !copies.queries_all();
     std::vector<Field> fields;
     for (const Point& q : copies.around(p)) {
       const Field distance = in.distance(0, q);
-      // Bounds may be less than what is known of the copies that are not evaluated; then they would jump.
+      // A bounded distance may be less than the bound for copies that are not evaluated, which would cause jumps.
       fields.push_back(may_fall_short ? max(distance, copies.distance_of_box(q)) : distance);
     }
     if (!copies.queries_all()) fields.push_back(copies.distance_of_others(p));
@@ -117,7 +117,7 @@ struct LatticeArray : Array<T> {
   }
 
   Box reach(const Inputs& in, const Box& where, double margin) const {
-    // Of an exact distance it is known how far it reaches; of others only where they are evaluated.
+    // The reach of an exact distance is known. Other inputs are evaluated wherever a copy may matter.
     const bool is_known = margin == 0 || in.metric(0).kind == Metric::Kind::exact;
     const Box reachable = is_known ? copies.original().expanded(margin) : design_space();
     const LatticeCopies::Part part = copies.part(where, reachable);
@@ -155,14 +155,15 @@ struct ArrayLinear : LatticeArray<ArrayLinear> {
   Choice materials = "first";
 
   static Spec<ArrayLinear> spec() {
-    return {"array_linear",
-            "arrays",
-            "Copies of its child in a row.",
-            {{"count", &ArrayLinear::count, "How many, with the child itself", required(from_to(1, 100'000))},
-             {"step", &ArrayLinear::step, "From one copy to the next along x, y and z", required(unit::mm)},
-             {"materials", &ArrayLinear::materials, copy_overlap_doc, copy_overlap_choices()}},
-            one_solid,
-            "array_linear(4, (6, 0, 1)) { sphere(2, \"red\"); }"};
+    return {
+        "array_linear",
+        "arrays",
+        "Copies of its child in a row.",
+        {{"count", &ArrayLinear::count, "Number of copies, including the child itself", required(from_to(1, 100'000))},
+         {"step", &ArrayLinear::step, "Distance from one copy to the next along x, y and z", required(unit::mm)},
+         {"materials", &ArrayLinear::materials, copy_overlap_doc, copy_overlap_choices()}},
+        one_solid,
+        "array_linear(4, (6, 0, 1)) { sphere(2, \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -171,7 +172,7 @@ struct ArrayLinear : LatticeArray<ArrayLinear> {
   }
 
  private:
-  // A rotation that takes the step to the x axis.
+  // Returns a rotation that maps the step to the x axis.
   Affine frame() const {
     if (length(step) == 0) return {};
     const Vec3 u = (1 / length(step)) * step;
@@ -193,9 +194,9 @@ struct ArrayGrid : LatticeArray<ArrayGrid> {
     return {"array_grid",
             "arrays",
             "Copies of its child in a grid along x, y and z.",
-            {{"counts", &ArrayGrid::counts, "How many along x, y and z", required(from_to(1, 100'000))},
-             {"steps", &ArrayGrid::steps, "From one copy to the next along x, y and z", required(unit::mm)},
-             {"centred", &ArrayGrid::centred, "Whether the grid lies around the child's place; else it begins there"},
+            {{"counts", &ArrayGrid::counts, "Number of copies along x, y and z", required(from_to(1, 100'000))},
+             {"steps", &ArrayGrid::steps, "Distance from one copy to the next along x, y and z", required(unit::mm)},
+             {"centred", &ArrayGrid::centred, "Centres the grid on the child; else the grid begins at the child"},
              {"materials", &ArrayGrid::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_grid((3, 3, 2), (5, 5, 5)) { sphere(2, \"red\"); }"};
@@ -212,7 +213,7 @@ struct ArrayGrid : LatticeArray<ArrayGrid> {
     return make_copies(reader, {}, rows, *inputs[0]);
   }
 
-  // The copies begin at the child; a centred grid is this grid, moved back by half its length.
+  // A centred grid is a grid that starts at the child, translated by half its length.
   std::vector<Point> holding(const Point& p) const { return copies.holding(p.mapped(uncentred())); }
   std::vector<Point> in_order(const Point& p) const { return holding(p); }
   std::vector<Point> nearest_ones(const Point& p) const { return copies.around(p.mapped(uncentred())); }
@@ -240,19 +241,20 @@ struct ArrayPolar : Array<ArrayPolar> {
   TurnedCopies copies;
 
   static Spec<ArrayPolar> spec() {
-    return {"array_polar",
-            "arrays",
-            "Copies of its child around an axis, turned on the way.",
-            {{"count", &ArrayPolar::count, "How many, with the child itself", required(from_to(1, 10'000))},
-             {"axis", &ArrayPolar::axis, "Direction of the axis, about which copies are turned right-handed"},
-             {"angle", &ArrayPolar::angle, "From the first copy to the last; 360: evenly all round",
-              from_to(-360, 360, "deg")},
-             {"radius", &ArrayPolar::radius,
-              "How far the child is moved away from the axis first: along x, or along y where the axis is x", unit::mm},
-             {"around", &ArrayPolar::around, "A point on the axis", unit::mm},
-             {"materials", &ArrayPolar::materials, copy_overlap_doc, copy_overlap_choices()}},
-            one_solid,
-            "array_polar(6, radius=8) { cube(3, \"red\"); }"};
+    return {
+        "array_polar",
+        "arrays",
+        "Copies of its child around an axis, each turned about it.",
+        {{"count", &ArrayPolar::count, "Number of copies, including the child itself", required(from_to(1, 10'000))},
+         {"axis", &ArrayPolar::axis, "Direction of the axis; copies are turned about it right-handed"},
+         {"angle", &ArrayPolar::angle, "Angle from the first copy to the last; 360: evenly all round",
+          from_to(-360, 360, "deg")},
+         {"radius", &ArrayPolar::radius,
+          "Distance by which the child is first moved from the axis: along x, or along y if the axis is x", unit::mm},
+         {"around", &ArrayPolar::around, "A point on the axis", unit::mm},
+         {"materials", &ArrayPolar::materials, copy_overlap_doc, copy_overlap_choices()}},
+        one_solid,
+        "array_polar(6, radius=8) { cube(3, \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -299,8 +301,8 @@ struct ArrayMirror : Array<ArrayMirror> {
     return {"array_mirror",
             "arrays",
             "Its child and the child's mirror image.",
-            {{"normal", &ArrayMirror::normal, "Direction at a right angle to the plane", required()},
-             {"around", &ArrayMirror::around, "A point of the plane", unit::mm},
+            {{"normal", &ArrayMirror::normal, "Direction perpendicular to the plane", required()},
+             {"around", &ArrayMirror::around, "A point on the plane", unit::mm},
              {"materials", &ArrayMirror::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};

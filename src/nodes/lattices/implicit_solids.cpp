@@ -14,16 +14,15 @@ struct Function {
   std::optional<Vec3> min, max;
 
   static Spec<Function> spec() {
-    return {
-        "function",
-        "implicit solids",
-        "Everything where an expression is 0 or less.",
-        {{"expression", &Function::expression, "Expression in x, y, z, rho, phic, r, theta, phis", required()},
-         {"material", &Function::material, "Its material"},
-         {"min", &Function::min, "Least corner of the box that it is cut to; without it, its parent's box", unit::mm},
-         {"max", &Function::max, "Greatest corner of that box", unit::mm}},
-        no_inputs,
-        "function((-8, -8, -8), (8, 8, 8), \"sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)\", \"red\");"};
+    return {"function",
+            "implicit solids",
+            "All points where an expression is 0 or less.",
+            {{"expression", &Function::expression, "Expression in x, y, z, rho, phic, r, theta, phis", required()},
+             {"material", &Function::material, "Its material"},
+             {"min", &Function::min, "Least corner of the box to which it is cut; none: its parent's box", unit::mm},
+             {"max", &Function::max, "Greatest corner of that box", unit::mm}},
+            no_inputs,
+            "function((-8, -8, -8), (8, 8, 8), \"sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)\", \"red\");"};
   }
 
   bool complete(const Reader& reader) const {
@@ -42,7 +41,7 @@ struct Function {
     return expression.range(box).lo > margin ? Box::empty() : box;
   }
 
-  // Within the box the value is the expression's own.
+  // Within the box, the value is that of the expression.
   Field distance(const Point& p) const {
     const Field value = expression(p);
     if (!min) return value;

@@ -8,9 +8,9 @@
 namespace ombre::nodes {
 namespace {
 
-// With so few copies, asking all costs less than finding those that matter.
+// Up to this number of copies, evaluating all costs less than finding those that matter.
 constexpr int few_in_lattice = 16;
-// Of the greatest coordinate: which copies are evaluated may be computed with single precision.
+// Tolerance relative to the greatest coordinate, since the choice of copies may be computed in single precision.
 constexpr double rounding = 1e-6;
 
 Interval multiplied(double factor, Interval v) {
@@ -26,7 +26,7 @@ LatticeCopies::LatticeCopies(const Affine& frame_from_here, const std::array<Row
   const Box all = hull();
   box_ = box_.expanded(rounding * (1 + length(all.lo) + length(all.hi)));
   holding_ = window(0);
-  // A point between the copies is this near to a copy: as far as the corners of a cell and its box reach.
+  // Greatest distance from a point between the copies to the nearest copy: the extent of a cell and of the box.
   Vec3 farthest;
   const Vec3 size = box_.size();
   for (int axis = 0; axis < 3; ++axis) {
@@ -67,7 +67,8 @@ std::vector<Point> LatticeCopies::holding(const Point& p) const { return candida
 std::vector<Point> LatticeCopies::around(const Point& p) const { return candidates(p, around_); }
 
 std::vector<Point> LatticeCopies::candidates(const Point& p, const Window& window) const {
-  // The first copy of the window along each axis. Its number depends on the point where the window is not the whole.
+  // Finds the first copy of the window along each axis. Unless the window contains all copies, its number depends on
+  // the point.
   Point first = p;
   if (!has_all(window)) {
     const Point q = p.mapped(frame_from_here_);

@@ -1,4 +1,4 @@
-// Copies at equal steps along directions at right angles: which of them a point has to ask.
+// Copies at equal steps along perpendicular directions, and the choice of those that matter at a point.
 #pragma once
 
 #include <array>
@@ -9,40 +9,42 @@
 
 namespace ombre::nodes {
 
-// Copy (i, j, k) is moved by i, j and k steps. A point asks a few copies around it, however many there are.
+// Copies (i, j, k) translated by i, j and k steps. At each point only a few copies around it are evaluated, regardless
+// of their total number.
 class LatticeCopies {
  public:
   struct Row {
-    Vec3 step;  // along an axis of the frame, one way or the other
+    Vec3 step;  // along an axis of the frame, in either direction
     int count = 1;
   };
 
   LatticeCopies() = default;
-  // `frame_from_here` is a rotation; `bounds` encloses what is copied.
+  // `frame_from_here` must be a rotation. `bounds` encloses the original.
   LatticeCopies(const Affine& frame_from_here, const std::array<Row, 3>& rows, const Box& bounds);
 
-  // Where the copies that may hold the point are evaluated, the first ones first.
+  // Returns the points at which the copies that may hold p are evaluated, in the order of the copies.
   std::vector<program::Point> holding(const program::Point& p) const;
-  // The same of those within a reach beyond which no copy can be the nearest, as long as the point lies between the
-  // outermost ones.
+  // Returns the points for the copies that may be nearest to p, in the same order. This holds for points between the
+  // outermost copies.
   std::vector<program::Point> around(const program::Point& p) const;
-  // How many points `around` gives.
+  // Returns the number of points that `around` returns.
   double around_count() const;
   bool queries_all() const;
-  // What the distance to all other copies is at least; only if there are others.
+  // Returns a lower bound of the distance to all other copies. There must be such copies.
   program::Field distance_of_others(const program::Point& p) const;
-  // The signed distance from the box around the original.
+  // Returns the signed distance from the box around the original.
   program::Field distance_of_box(const program::Point& p) const;
 
-  // Encloses copies of the box `reached` of the original, found within `originals`.
+  // A part of the original. It is used to enclose copies of the part of the original that is found within `originals`.
   struct Part {
-    Box originals;  // empty: no copy reaches
+    Box originals;  // empty if no copy reaches
     Vec3 least, greatest;
   };
-  // Which points of the original the points of `where` evaluate, if these lie within the box `reachable`.
+  // Returns the points of the original that are evaluated for the points of `where`, if they lie within the box
+  // `reachable`.
   Part part(const Box& where, const Box& reachable) const;
-  const Box& original() const { return original_; }  // the bounds that were given
-  // Encloses the points at which distance_of_others is `margin` or less.
+  const Box& original() const { return original_; }  // the bounds given to the constructor
+  // Returns a box around the points at which distance_of_others is at most `margin`.
   Box others(double margin) const;
 
  private:
@@ -59,7 +61,7 @@ class LatticeCopies {
   Affine frame_from_here_;
   std::array<Row, 3> rows_;
   std::array<double, 3> steps_{};  // along the frame's axes
-  Box original_, box_;             // here, and in the frame
+  Box original_, box_;             // bounds of the original in this space, and in the frame
   Window holding_, around_;
 };
 

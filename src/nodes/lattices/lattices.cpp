@@ -1,4 +1,4 @@
-// Lattices of struts: unit cells by name, or graphs of edges.
+// Lattices of struts: named unit cells, or graphs of edges.
 #include "design/spec.h"
 #include "nodes/common/segments.h"
 #include "nodes/common/strut_families.h"
@@ -16,7 +16,7 @@ Domain cell_choices() {
   return one_of(names);
 }
 
-// Struts with round ends, so that joints close.
+// Struts with hemispherical ends, so that joints are closed.
 struct Lattice {
   Choice cell = "none";
   Vec3 size{10, 10, 10};
@@ -27,13 +27,13 @@ struct Lattice {
   static Spec<Lattice> spec() {
     return {"lattice",
             "lattices",
-            "Struts with round ends: a unit cell, centred on the origin, or a graph of edges. tile repeats unit cells.",
-            {{"cell", &Lattice::cell, "Which unit cell; none: the edges", cell_choices()},
-             {"size", &Lattice::size, "Lengths of the unit cell along x, y and z", unit::positive_mm},
-             {"radius", &Lattice::radius, "Of the struts; t runs from 0 to 1 along each",
+            "Struts with round ends: a unit cell centred on the origin, or a graph of edges. tile repeats unit cells.",
+            {{"cell", &Lattice::cell, "Name of the unit cell; none: the edges are used", cell_choices()},
+             {"size", &Lattice::size, "Size of the unit cell along x, y and z", unit::positive_mm},
+             {"radius", &Lattice::radius, "Radius of the struts; t runs from 0 to 1 along each",
               with_variables({"t"}, unit::positive_mm)},
              {"edges", &Lattice::edges,
-              "Instead of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
+              "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
              {"material", &Lattice::material, "Its material"}},
             no_inputs,
             "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");"};
@@ -60,12 +60,12 @@ struct Lattice {
     Traits traits{.instances = segments_.size()};
     if (cell == "none") return traits;
     traits.cell_size = size;
-    // Of a mirrored cell, the neighbours are mirror images, with their struts beyond the mirror.
+    // The neighbours of a mirrored cell are mirror images, whose struts lie beyond the mirror planes.
     if (is_mirrored()) traits.nearest_copy_is_enough_from = size;
     return traits;
   }
 
-  // Nothing where they are no conical frusta.
+  // Returns the struts as conical frusta, or nothing if they are not.
   std::optional<std::vector<StrutShape>> shapes() const {
     const auto common = end_radii(radius);
     std::vector<StrutShape> shapes;
@@ -96,7 +96,8 @@ struct Lattice {
     return near.empty() ? p.constant(0) : at_most(nearest(folded(p), near), 0, border);
   }
 
-  // That of the strut whose surface is nearest; of very many the first that holds the point.
+  // Returns the position along the strut whose surface is nearest, or, with very many struts, along the first that
+  // holds the point.
   Field along(const Inputs& in, const Point& p) const {
     if (const auto parts = table(in, PartQuery::along, p)) return parts->along;
     const Point q = folded(p);
@@ -111,7 +112,7 @@ struct Lattice {
 
  private:
   struct Strut : Segment {
-    double own_radius = 0;  // 0: the lattice's
+    double own_radius = 0;  // 0 for the lattice's radius
 
     Field radius_at(const Point& p, const Number& common) const {
       if (own_radius > 0) return p.constant(own_radius);
@@ -129,7 +130,7 @@ struct Lattice {
     }
   };
 
-  // Its struts as rows of a table.
+  // The struts as rows of a table.
   class Rows : public PartList {
    public:
     explicit Rows(const Lattice& lattice) : lattice_(lattice) {}
@@ -157,7 +158,7 @@ struct Lattice {
   };
 
   bool is_mirrored() const { return !(cell == "none") && find_unit_cell(cell.text())->is_mirrored; }
-  // Then all is the same in each octant.
+  // True if all octants are equal, so that only one is evaluated.
   bool is_folded() const { return is_mirrored() && radius.constant(); }
 
   std::vector<Strut> of_cell() const {
@@ -177,7 +178,7 @@ struct Lattice {
 
   Point folded(const Point& p) const { return is_folded() ? p.moved_to(abs(p.x), abs(p.y), abs(p.z)) : p; }
 
-  // Those of the octant that points are folded into, or all.
+  // Returns the struts of the octant into which points are folded, or all struts.
   std::vector<const Strut*> struts_here() const {
     std::vector<const Strut*> found;
     for (const Strut& strut : segments_)
@@ -186,7 +187,7 @@ struct Lattice {
     return found;
   }
 
-  // Without those that cannot hold a point that lies where this one is known to.
+  // Returns struts_here() without those that cannot hold a point within the known range of p.
   std::vector<const Strut*> struts_near(const Point& p) const {
     std::vector<const Strut*> found = struts_here();
     if (is_folded() || p.within() == Box::everything()) return found;
@@ -201,7 +202,7 @@ struct Lattice {
     return is_folded() ? std::nullopt : in.many_parts(query, p, Rows(*this));
   }
 
-  // The least distance. One root for all where they are equally thick.
+  // Returns the least distance. Takes a single square root if all struts have the same radius.
   Field nearest(const Point& p, const std::vector<const Strut*>& struts) const {
     const bool same =
         radius.constant() && std::ranges::all_of(struts, [](const Strut* s) { return s->own_radius == 0; });

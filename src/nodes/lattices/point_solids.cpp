@@ -1,4 +1,4 @@
-// Solids that points in space span.
+// Solids given by points in space.
 #include <algorithm>
 
 #include "base/math/curves.h"
@@ -18,15 +18,15 @@ using namespace design;
 struct Hull {
   Points points;
   MaterialName material;
-  std::vector<Plane> planes;  // found when the node is made
+  std::vector<Plane> planes;  // computed when the node is made
   Vec3 middle;
-  double depth = 0;  // of the middle below the nearest plane
+  double depth = 0;  // distance from the middle to the nearest plane
 
   static Spec<Hull> spec() {
     return {"hull",
             "point solids",
-            "The smallest solid without dents that holds all points.",
-            {{"points", &Hull::points, "At least four, not all in one plane", required(unit::points)},
+            "The convex hull of points: the smallest convex solid that contains all of them.",
+            {{"points", &Hull::points, "At least four points, not all in one plane", required(unit::points)},
              {"material", &Hull::material, "Its material"}},
             no_inputs,
             "hull([[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 10], [6, 6, 6]], \"green\");"};
@@ -49,10 +49,11 @@ struct Hull {
     return false;
   }
 
-  // Beside edges and corners the surface is farther away than the planes are.
+  // Near edges and corners the surface is farther away than the planes.
   Metric metric() const { return Metric::bounded(); }
 
-  // Planes that lie `margin` farther out bound a hull that is larger by less than margin / depth, seen from the middle.
+  // Planes moved outward by `margin` bound a hull that is larger by a factor below 1 + margin / depth, seen from the
+  // middle.
   Box reach(const Inputs&, const Box&, double margin) const {
     const double larger = 1 + margin / depth;
     Box box;
@@ -77,24 +78,24 @@ struct Tube {
   MaterialName material;
   Choice curve = "straight", caps = "round";
   bool closed = false;
-  std::vector<Vec3> path;  // the points, or many of the curve through them
+  std::vector<Vec3> path;  // the points, or many points of the curve through them
   program::SourceField line;
 
   static Spec<Tube> spec() {
     return {"tube",
             "point solids",
-            "Round bar along lines or a smooth curve through points; joints are round.",
-            {{"points", &Tube::points, "At least two, along its middle", required(unit::points)},
+            "A round bar along lines, or along a smooth curve through points. Joints are round.",
+            {{"points", &Tube::points, "At least two points on its centre line", required(unit::points)},
              {"radius", &Tube::radius, "Its radius", unit::positive_mm},
              {"material", &Tube::material, "Its material"},
              {"curve", &Tube::curve,
-              "Between points: straight, or smooth (a centripetal Catmull-Rom curve, followed to 0.002 mm)",
+              "Centre line between points: straight, or smooth (a centripetal Catmull-Rom curve, accurate to 0.002 mm)",
               one_of({"straight", "smooth"})},
              {"caps", &Tube::caps,
-              "Ends: round (half balls beyond the end points), or flat; what else of the tube comes before a flat end, "
-              "nearer than its diameter, is cut off too",
+              "Ends: round (half balls beyond the end points), or flat. A flat end also cuts off other parts of the "
+              "tube that pass in front of it within a diameter",
               one_of({"round", "flat"})},
-             {"closed", &Tube::closed, "Whether it goes back to its first point"}},
+             {"closed", &Tube::closed, "Joins the last point to the first"}},
             no_inputs,
             "tube([[0, 0, 0], [10, 0, 0], [10, 8, 4], [0, 8, 8]], 1.2, \"cyan\", curve=\"smooth\");"};
   }
@@ -119,7 +120,7 @@ struct Tube {
     return line != nullptr;
   }
 
-  // Behind bends the surface is farther away than the middle line says.
+  // The surface behind a bend is farther away than the distance to the centre line suggests.
   Metric metric() const { return path.size() == 2 && caps == "round" ? Metric::exact() : Metric::bounded(); }
 
   Box bounds(const Box& where) const { return line->bounds().expanded(radius.range(where).hi); }
@@ -136,18 +137,18 @@ struct Tube {
  private:
   static constexpr double tolerance_mm = 0.002;
 
-  // A ball around an end, twice as large as the tube, where it lies before the end's plane.
+  // A ball around an end, twice as large as the tube, restricted to the side in front of the end's plane.
   static Field before_end(const Point& p, Field r, Vec3 end, Vec3 next) {
     const Vec3 n = (1 / length(end - next)) * (end - next);
     const Field x = p.x - end.x, y = p.y - end.y, z = p.z - end.z;
     return min(x * n.x + y * n.y + z * n.z, r * 2.0 - length(x, y, z));
   }
 
-  // After Yuksel, Schaefer and Keyser, Parameterization and applications of Catmull-Rom curves, 2011: each piece as a
-  // Bézier curve. An open curve goes on as if mirrored at its ends.
+  // Returns the curve as a chain of Bézier curves, after Yuksel, Schaefer and Keyser, Parameterization and applications
+  // of Catmull-Rom curves, 2011. An open curve is continued by reflection at its ends.
   std::vector<Vec3> smooth_path(const std::vector<Vec3>& corners) const {
     const size_t count = corners.size(), pieces = closed ? count : count - 1;
-    const auto corner_at = [&](size_t n) {  // counted from the one before the first
+    const auto corner_at = [&](size_t n) {  // counted from the corner before the first
       if (closed) return corners[(n + count - 1) % count];
       if (n == 0) return 2.0 * corners[0] - corners[1];
       return n > count ? 2.0 * corners[count - 1] - corners[count - 2] : corners[n - 1];
@@ -158,7 +159,7 @@ struct Tube {
     return chain;
   }
 
-  // Between the second and the third of four points.
+  // Returns the piece between the second and the third of four points.
   static Cubic<Vec3> piece(Vec3 p0, Vec3 p1, Vec3 p2, Vec3 p3) {
     const double before = length(p1 - p0), here = length(p2 - p1), after = length(p3 - p2);
     const double a = std::sqrt(before), b = std::sqrt(here), c = std::sqrt(after);

@@ -12,24 +12,25 @@ namespace {
 
 using namespace design;
 
-// Copies moved by whole multiples of the steps. A point is brought back into the cell around the child; the copies
-// that may matter there are evaluated: the own one, and neighbours that reach into it.
+// Copies translated by integer multiples of the steps. A point is mapped into the cell around the child. There the
+// child and the neighbours that reach into the cell are evaluated.
 struct Tile {
   std::optional<Vec3> size, first, last;
 
   static Spec<Tile> spec() {
-    return {"tile",
-            "lattices",
-            "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Below it, "
-            "expressions know the copy's indices ci, cj, ck.",
-            {{"size", &Tile::size,
-              "Steps from copy to copy; 0: none along that axis. Without it, those of the unit cell, or the lengths of "
-              "the child's box",
-              unit::not_negative_mm},
-             {"first", &Tile::first, "Least indices of copies, whole numbers; the child itself is copy (0, 0, 0)", {}},
-             {"last", &Tile::last, "Greatest indices of copies", {}}},
-            one_solid,
-            "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
+    return {
+        "tile",
+        "lattices",
+        "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Expressions "
+        "below it may use the copy's indices ci, cj, ck.",
+        {{"size", &Tile::size,
+          "Distance from copy to copy; 0: no copies along that axis; none: the size of the unit cell, or of the "
+          "child's box",
+          unit::not_negative_mm},
+         {"first", &Tile::first, "Least indices of copies, as whole numbers; the child itself is copy (0, 0, 0)", {}},
+         {"last", &Tile::last, "Greatest indices of copies", {}}},
+        one_solid,
+        "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -66,7 +67,7 @@ struct Tile {
       axis.middle = axis.is_one_enough ? 0 : 0.5 * (axis.lo + axis.hi);
       copies *= 2 * axis.neighbours(true) + 1;
     }
-    // A small child is written out for each copy, so that what does not reach into the cell is left out.
+    // A small child is written out for each copy, so that parts that do not reach into the cell are removed.
     constexpr int small = 2;
     repetitions_ = inputs[0]->depth() <= small ? 1 : copies;
     constexpr double most = 343;
@@ -87,7 +88,7 @@ struct Tile {
     return copies;
   }
 
-  // The nearest copy is among the neighbours by distance, not by a bound of it.
+  // Neighbours are chosen by distance, so the metric must be exact for the nearest copy to be found.
   Metric metric(const Inputs& in) const {
     const Metric metric = in.metric(0);
     if (metric.kind == Metric::Kind::exact) return Metric::bounded();
@@ -121,7 +122,8 @@ struct Tile {
     return program::fold(fields, program::logical_or);
   }
 
-  // Of copies that overlap the nearest cell's counts; where none holds the point, that of the nearest surface.
+  // Where copies overlap, that of the nearest cell counts. Where no copy holds the point, the one with the nearest
+  // surface counts.
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     const std::vector<Point> points = copies(p, demand == Demand::everywhere, Order::own_first);
     if (points.size() == 1) return in.composition(0, points[0], demand);
@@ -153,15 +155,15 @@ struct Tile {
   static bool is_limit(double index) { return std::isinf(index) || index == std::floor(index); }
 
   struct Axis {
-    double step = 0, lo = 0, hi = 0;  // 0: no copies; the child's extent
-    double middle = 0;                // of the cell in which the child stands
+    double step = 0, lo = 0, hi = 0;  // step (0 for no copies), and extent of the child
+    double middle = 0;                // centre of the cell that contains the child
     bool is_one_enough = false;
-    double first = -Box::inf, last = Box::inf;  // limits of indices
+    double first = -Box::inf, last = Box::inf;  // least and greatest index
 
     bool is_limited() const { return std::isfinite(first) || std::isfinite(last); }
 
-    // How many copies to each side matter in a cell: those that reach into it, or those that may be nearest. None
-    // if the own copy is always as near.
+    // Returns the number of copies on each side that matter in a cell: those that reach into it, or, if `nearest`,
+    // those that may be nearest. Returns 0 if no neighbour is ever nearer than the own copy.
     int neighbours(bool nearest) const {
       if (step == 0 || is_one_enough) return 0;
       constexpr double rounding = 1e-9;
@@ -170,13 +172,13 @@ struct Tile {
     }
 
     struct Copy {
-      Field index, at;  // which copy, and where in it
-      Interval extent;  // where that can be
+      Field index, at;  // number of the copy, and position within it
+      Interval extent;  // range of `at`
     };
     std::vector<Copy> copies(Field x, bool nearest, Order order) const {
       const int most = neighbours(nearest);
       std::vector<Copy> result;
-      if (order == Order::any && step > 0 && last - first <= 2 * most) {  // so few are there at all
+      if (order == Order::any && step > 0 && last - first <= 2 * most) {  // there are no more copies than neighbours
         for (double index = first; index <= last; ++index)
           result.push_back({x.builder->constant(index), x - index * step, Interval::everything()});
         return result;
@@ -194,7 +196,7 @@ struct Tile {
       const Field index = is_limited() ? own : own + offset;
       const Field at = x - index * step;
       if (is_limited() || offset != 0) return {index, at, extent(offset)};
-      // What intervals cannot see.
+      // The clamp tells intervals a bound that they cannot derive.
       return {index, min(max(at, middle - 0.5 * step), builder.constant(middle + 0.5 * step)), extent(0)};
     }
     Field clamped(Field index) const {
@@ -209,7 +211,7 @@ struct Tile {
     }
   };
 
-  // The point as the copies that matter see it.
+  // Returns the point in the coordinates of each copy that matters.
   std::vector<Point> copies(const Point& p, bool nearest, Order order) const {
     std::vector<Point> points;
     const auto along_x = axes_[0].copies(p.x, nearest, order), along_y = axes_[1].copies(p.y, nearest, order),

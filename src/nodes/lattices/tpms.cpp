@@ -1,4 +1,4 @@
-// Triply periodic minimal surfaces, by their usual trigonometric approximations.
+// Triply periodic minimal surfaces, given by their usual trigonometric approximations.
 #include <cmath>
 #include <numbers>
 
@@ -24,7 +24,7 @@ struct Surface {
   std::vector<Term> terms;
 };
 
-// The term, and those that follow from it when the axes change places in turn.
+// Returns the terms and those that result from cyclic permutation of the axes.
 std::vector<Term> cyclic(std::initializer_list<Term> some) {
   std::vector<Term> all;
   for (const auto& [factor, x, y, z] : some) {
@@ -56,7 +56,7 @@ std::vector<std::string> surface_names() {
   return names;
 }
 
-// The waves of one phase, and their derivatives by it.
+// The sines and cosines of one phase, and their derivatives by it.
 struct Waves {
   Field sin, cos, sin2, cos2, one, zero;
 
@@ -106,12 +106,11 @@ struct Tpms {
     return {"tpms",
             "lattices",
             "A triply periodic minimal surface, without end: cut it with an intersection.",
-            {{"surface", &Tpms::surface, "Which one", one_of(surface_names())},
-             {"kind", &Tpms::kind,
-              "sheet: a wall along the surface. solid: all on the side where the function is below level",
+            {{"surface", &Tpms::surface, "Name of the surface", one_of(surface_names())},
+             {"kind", &Tpms::kind, "sheet: a wall along the surface; solid: the side where the function is below level",
               one_of({"sheet", "solid"})},
-             {"cell", &Tpms::cell, "Lengths of its period along x, y and z", unit::positive_mm},
-             {"thickness", &Tpms::thickness, "Of the sheet, across it", unit::positive_mm},
+             {"cell", &Tpms::cell, "Length of its period along x, y and z", unit::positive_mm},
+             {"thickness", &Tpms::thickness, "Thickness of the sheet", unit::positive_mm},
              {"level", &Tpms::level, "Value of the function at the surface; 0 for the minimal surface"},
              {"material", &Tpms::material, "Its material"}},
             no_inputs,
@@ -121,7 +120,8 @@ struct Tpms {
   Metric metric() const { return Metric::implicit(); }
   Box bounds(const Box& where) const { return where; }
 
-  // To first order: the function over the length of its gradient, which is right to third order near minimal surfaces.
+  // Approximates the distance by the function divided by the length of its gradient. Near minimal surfaces this is
+  // accurate to third order.
   Field distance(const Point& p) const {
     const auto [value, slope] = at(p);
     const Field from_surface = value / sqrt(slope);
@@ -136,7 +136,7 @@ struct Tpms {
 
  private:
   struct Sample {
-    Field value, squared_slope;  // of the function less the level; the latter by mm
+    Field value, squared_slope;  // function minus the level, and its squared gradient in 1/mm^2
   };
 
   static Field phase(Field x, Field length) { return x / length * (2 * std::numbers::pi); }
@@ -148,12 +148,12 @@ struct Tpms {
   const Surface& chosen() const {
     for (const Surface& one : surfaces())
       if (surface == one.name) return one;
-    return surfaces().front();  // the reader lets no other name through
+    return surfaces().front();  // the reader accepts no other name
   }
 
   Sample at(const Point& p) const {
     const Waves x(phase_x(p)), y(phase_y(p)), z(phase_z(p));
-    Field value = minus_level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;  // and by the phases
+    Field value = minus_level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;  // derivatives by the phases
     for (const Term& term : chosen().terms) {
       const Field fx = x.value(term.x), fy = y.value(term.y), fz = z.value(term.z);
       value = value + fx * fy * fz * term.factor;
@@ -173,11 +173,11 @@ struct Tpms {
     return {value, floored(squared)};
   }
 
-  using Gradient = std::array<Field, 3>;  // 1/mm
+  using Gradient = std::array<Field, 3>;  // per mm
 
   static bool is_zero(Field field) { return field.builder->constant_value(field) == 0.0; }
 
-  // Of a phase along an axis, or of the level; by differences where there is no rule.
+  // Returns the gradient of a phase along an axis, or of the level, by differences if there is no symbolic derivative.
   Gradient gradient(Field (Tpms::*of)(const Point&) const, const Point& p, const Number& number, int axis) const {
     Gradient result{p.constant(0), p.constant(0), p.constant(0)};
     if (number.constant()) {
@@ -185,7 +185,7 @@ struct Tpms {
       return result;
     }
     if (const auto by_rule = program::gradient((this->*of)(p), p)) return *by_rule;
-    constexpr double step = 1e-2;  // mm
+    constexpr double step = 1e-2;  // step of differences in mm
     for (int n = 0; n < 3; ++n) {
       Vec3 by;
       by[n] = step;
@@ -196,7 +196,7 @@ struct Tpms {
     return result;
   }
 
-  // Where the gradient vanishes, the value stays finite.
+  // Keeps the quotient finite where the gradient vanishes.
   static Field floored(Field squared) { return max(squared, 1e-6); }
 };
 

@@ -12,10 +12,10 @@ namespace {
 using program::Field;
 using program::Point;
 
-// With so few copies, asking all costs less than finding those that matter.
+// Up to this number of copies, evaluating all costs less than finding those that matter.
 constexpr int few_turned = 8;
-// Of the greatest coordinate, and of an angle in degrees: which copies are evaluated may be computed with single
-// precision.
+// Tolerances relative to the greatest coordinate, and of an angle in degrees, since the choice of copies may be
+// computed in single precision.
 constexpr double rounding_mm = 1e-6, rounding_degrees = 1e-3;
 constexpr Vec3 z_axis{0, 0, 1};
 
@@ -36,7 +36,7 @@ TurnedCopies::TurnedCopies(const Affine& turn_from_here, const Affine& turn_from
   candidates_ = static_cast<int>(std::min<double>(count, std::floor(2 * half_degrees_ / std::abs(degrees)) + 1));
 }
 
-// A box beside the axis lies in a half plane: its corners have the extreme angles.
+// Computes the sector of the bounds. If the box does not contain the axis, its corners have the extreme angles.
 void TurnedCopies::find_sector(const Box& bounds) {
   if (bounds.is_empty()) return;
   Box box = image(turn_from_original_, bounds);
@@ -54,7 +54,8 @@ void TurnedCopies::find_sector(const Box& bounds) {
 
 std::vector<Point> TurnedCopies::holding(const Point& p) const {
   if (candidates_ == count_) return all(p);
-  // Angles from the middle of the first copy, or of all of them, so that their jump lies where there is none.
+  // Angles are measured from the middle of the first copy, or of all copies, so that the jump of atan2 lies where there
+  // are none.
   const double before = is_full_ ? 0 : (count_ - 1) / 2.0;
   const Affine level = Affine::rotation(z_axis, -(middle_degrees_ + before * degrees_));
   const Point q = p.mapped(turn_from_here_), seen = q.mapped(level);

@@ -13,7 +13,7 @@ void add(Struts& struts, Vec3 a, Vec3 b) {
   if (std::none_of(struts.begin(), struts.end(), is_known)) struts.emplace_back(a, b);
 }
 
-// All images under the symmetries of a cube: permutations and reflections of the axes.
+// Returns all images under the symmetries of a cube: permutations and reflections of the axes.
 Struts symmetric(const Struts& some) {
   Struts all;
   for (const auto& [a, b] : some) {
@@ -22,7 +22,7 @@ Struts symmetric(const Struts& some) {
       for (int signs = 0; signs < 8; ++signs) {
         const Vec3 s{signs & 1 ? -1.0 : 1.0, signs & 2 ? -1.0 : 1.0, signs & 4 ? -1.0 : 1.0};
         const auto image = [&](Vec3 p) {
-          return Vec3{0 + s.x * p[order[0]], 0 + s.y * p[order[1]], 0 + s.z * p[order[2]]};  // 0 + turns -0 into 0
+          return Vec3{0 + s.x * p[order[0]], 0 + s.y * p[order[1]], 0 + s.z * p[order[2]]};  // adding 0 turns -0 into 0
         };
         add(all, image(a), image(b));
       }

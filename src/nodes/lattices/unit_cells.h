@@ -1,4 +1,4 @@
-// Unit cells of strut lattices that the literature knows by name.
+// Named unit cells of strut lattices from the literature.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,12 @@
 
 namespace ombre::nodes {
 
-// Straight pieces in a cell of side one, centred on the origin. They cross the planes x = 0, y = 0 and z = 0 only at
-// their ends, so half a cell has whole pieces. Those on the cell's faces are shared with its neighbours.
+// Struts in a cell of side one, centred on the origin. They meet the planes x = 0, y = 0 and z = 0 only at their ends,
+// so half a cell contains whole struts. Struts on the cell's faces are shared with its neighbours.
 struct UnitCell {
   std::string_view name, meaning;
   std::vector<std::pair<Vec3, Vec3>> struts;
-  bool is_mirrored = true;  // is its left half the mirror image of its right half, along each axis?
+  bool is_mirrored = true;  // along each axis, the two halves are mirror images
 };
 
 const std::vector<UnitCell>& unit_cells();

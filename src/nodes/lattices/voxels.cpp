@@ -39,20 +39,20 @@ struct Voxels {
   std::vector<MaterialId> materials_of_colours;
 
   static Spec<Voxels> spec() {
-    return {
-        "voxel",
-        "imported",
-        "The pixels of a stack of PNG images as voxels, each of the material that has its colour.",
-        {{"path", &Voxels::path, "A folder with an image for each layer, from the lowest up, or one image", required()},
-         {"voxel", &Voxels::voxel, "Lengths of a voxel along x, y and z", required(unit::positive_mm)},
-         {"min", &Voxels::min, "Corner with the least x, y and z", unit::mm},
-         {"materials", &Voxels::materials,
-          "Pairs of a colour, \"#ff0000\", and its material; before the table's colours"},
-         {"match", &Voxels::match,
-          "exact: colours without a material are an error; nearest: they get the nearest colour's",
-          one_of({"exact", "nearest"})}},
-        no_inputs,
-        "voxel(\"models/stack\", (0.5, 0.5, 1));"};
+    return {"voxel",
+            "imported",
+            "The pixels of a stack of PNG images as voxels. Each has the material of its colour.",
+            {{"path", &Voxels::path, "A folder with an image for each layer, from the lowest up, or a single image",
+              required()},
+             {"voxel", &Voxels::voxel, "Size of a voxel along x, y and z", required(unit::positive_mm)},
+             {"min", &Voxels::min, "Corner with the least x, y and z", unit::mm},
+             {"materials", &Voxels::materials,
+              "Pairs of a colour, \"#ff0000\", and its material; they come before the colours of the materials file"},
+             {"match", &Voxels::match,
+              "exact: a colour without a material is an error; nearest: it gets the material with the nearest colour",
+              one_of({"exact", "nearest"})}},
+            no_inputs,
+            "voxel(\"models/stack\", (0.5, 0.5, 1));"};
   }
 
   bool complete(const Reader& reader) {
@@ -87,7 +87,7 @@ struct Voxels {
   Composition composition(const Inputs&, const Point& p, Demand) const {
     const Field number = number_at(p.mapped(inverse(here_from_index())));
     std::map<MaterialId, Field> shares;
-    // Transparent voxels, which only blends ask about, count as the first colour.
+    // Transparent voxels, whose composition matters only to blends, count as the first colour.
     for (size_t n = 0; n < materials_of_colours.size(); ++n) {
       const auto colour = static_cast<double>(n + 1);
       const Field is_it = n == 0 ? less(number, p.constant(1.5)) : less(abs(number - colour), p.constant(0.5));
@@ -108,7 +108,7 @@ struct Voxels {
     return map;
   }
 
-  // Of a colour that is listed, or the table's; null where neither has it.
+  // Returns the listed material of a colour, else that of the table, else null.
   const Material* material_of(const Rgba& colour, const Reader& reader) const {
     for (const auto& [name, material] : materials)
       if (to_lower(name) == hex_text(colour)) return material.material;

@@ -1,4 +1,4 @@
-// Solids laid along the surfaces of others.
+// Solids that are laid along the surfaces of others.
 #include <algorithm>
 #include <cmath>
 
@@ -13,14 +13,14 @@ namespace {
 using namespace design;
 using program::Op;
 
-// A base and a pattern. In scripts, what one statement makes is one of them.
+// The inputs are a base and a pattern. In scripts each is made by one statement.
 constexpr InputInfo two_solids{2, 2, true};
 
-// The normals of the base are taken from differences over this length to both sides: finer than voxels, and coarse
-// enough for single precision.
+// Step to both sides for the differences that give normals of the base. It is finer than voxels, and coarse enough for
+// single precision.
 constexpr double normal_step_mm = 0.01;
 
-// Two surfaces and what stands on the first.
+// The inputs are two surfaces and a child that stands on the first.
 constexpr InputInfo three_solids{3, 3, true};
 
 Field difference(const Inputs& in, size_t solid, const Point& p, Vec3 step) {
@@ -28,45 +28,45 @@ Field difference(const Inputs& in, size_t solid, const Point& p, Vec3 step) {
          in.distance(solid, p.mapped(Affine::translation(-step)));
 }
 
-// The point `way` along the normal of a solid's distance, from p.
+// Moves `from` by `way` along the normal of a solid's distance at p.
 Point along_normal(const Inputs& in, size_t solid, const Point& p, const Point& from, Field way) {
   const Field x = difference(in, solid, p, {normal_step_mm, 0, 0}),
               y = difference(in, solid, p, {0, normal_step_mm, 0}),
               z = difference(in, solid, p, {0, 0, normal_step_mm});
   const Field size = max(length(x, y, z), 1e-9 * normal_step_mm);
-  // In intervals the quotients may be anything, but a normal has length one.
+  // Intervals cannot bound the quotients, so components of the normal are clamped to its length of one.
   const auto part = [&](Field v) { return min(max(v / size, -1.0), p.constant(1)); };
   return from.moved_to(from.x + way * part(x), from.y + way * part(y), from.z + way * part(z));
 }
 
-// The nearest point of a solid's surface, where its distance at p is known.
+// Returns the nearest point of a solid's surface, given the distance at p.
 Point on_surface(const Inputs& in, size_t solid, const Point& p, Field distance) {
   return along_normal(in, solid, p, p, -distance);
 }
 
-// A pattern of which x and y are the place on a surface, and z is the height above it. The place is that of the
-// surface's nearest point q, in a frame whose third axis is `direction`:
-//   planar       the first two coordinates of q
-//   cylindrical  the arc around the third axis that ends in q, and q's third coordinate
-//   spherical    arcs on the ball around `around` that q lies on: along its equator, and from there to q
+// Maps a pattern onto a surface. The pattern's x and y are the position on the surface, and its z is the height above
+// it. The position is that of the surface's nearest point q, in a frame whose third axis is `direction`:
+// - planar: the first two coordinates of q.
+// - cylindrical: the arc around the third axis up to q, and q's third coordinate.
+// - spherical: arcs on the sphere around `around` through q, along its equator and from there to q.
 struct ConformalMap {
   Choice mapping = "planar";
   Vec3 direction{0, 0, 1}, around;
 
   static Spec<ConformalMap> spec() {
-    return {
-        "conformal_map",
-        "maps",
-        "Lays a flat pattern, its second child, along the surface of its first: the pattern's z is the height above "
-        "it, its x and y a place on it.",
-        {{"mapping", &ConformalMap::mapping,
-          "What x and y are: planar, as seen along ref_dir; cylindrical, the way around ref_dir and along it; "
-          "spherical, the way around ref_dir and from the equator to the poles",
-          one_of({"planar", "cylindrical", "spherical"})},
-         {"ref_dir", &ConformalMap::direction, "Reference direction; x begins along x, or along y where ref_dir is x"},
-         {"around", &ConformalMap::around, "Where x, y and ref_dir begin", unit::mm}},
-        two_solids,
-        "conformal_map(mapping=\"cylindrical\") { cylinder(10, 20); rectprism((30, 6, 2), \"red\"); }"};
+    return {"conformal_map",
+            "maps",
+            "Lays a flat pattern, its second child, along the surface of its first child. The pattern's z is the "
+            "height above the surface; its x and y are a place on it.",
+            {{"mapping", &ConformalMap::mapping,
+              "Meaning of x and y: planar (as seen along ref_dir), cylindrical (lengths around ref_dir and along it), "
+              "or spherical (lengths around ref_dir and from the equator to the poles)",
+              one_of({"planar", "cylindrical", "spherical"})},
+             {"ref_dir", &ConformalMap::direction,
+              "Reference direction; the pattern's x begins along x, or along y if ref_dir is x"},
+             {"around", &ConformalMap::around, "Point where x, y and ref_dir begin", unit::mm}},
+            two_solids,
+            "conformal_map(mapping=\"cylindrical\") { cylinder(10, 20); rectprism((30, 6, 2), \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
@@ -79,7 +79,7 @@ struct ConformalMap {
   }
 
   Metric metric() const { return Metric::implicit(); }
-  // Of the base: at the point, and twice along each axis.
+  // The base is evaluated at the point, and twice along each axis.
   Traits traits() const { return {.most_evaluations_of_input = 7}; }
 
   Field distance(const Inputs& in, const Point& p) const { return in.distance(1, place(in, p)); }
@@ -94,8 +94,8 @@ struct ConformalMap {
   }
   Field along(const Inputs& in, const Point& p) const { return in.along(1, place(in, p)); }
 
-  // Where a pattern reaches: so high above the base, and, since a height is the way to the surface's point, no farther
-  // from that point's place.
+  // Returns where the pattern can reach. Points lie at most the pattern's height above the base, and no farther than
+  // that from their positions on the surface.
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Box pattern = in.reach(1, design_space(), margin);
     if (pattern.is_empty()) return pattern;
@@ -112,10 +112,10 @@ struct ConformalMap {
   }
 
  private:
-  // Takes points to the frame of the places.
+  // Returns the map from points to the frame of positions.
   Affine frame() const { return turned_to_z(direction) * Affine::translation(-around); }
 
-  // Where the pattern is evaluated.
+  // Returns the point at which the pattern is evaluated.
   Point place(const Inputs& in, const Point& p) const {
     const Field height = in.distance(0, p);
     const Point q = on_surface(in, 0, p, height).mapped(frame());
@@ -128,8 +128,8 @@ struct ConformalMap {
   }
 };
 
-// What stands on one surface, put onto another. A point p, at the height h over the second, belongs to the nearest
-// point q of it; q belongs to the nearest point of the first, over which the child is evaluated at the height h.
+// Maps a child from one surface to another. For a point p at height h above the second surface, q is the nearest point
+// of that surface. The child is evaluated at height h above the point of the first surface that is nearest to q.
 struct SurfaceMap {
   double height = 10;
 
@@ -137,9 +137,9 @@ struct SurfaceMap {
     return {
         "surface_map",
         "maps",
-        "Puts what stands on the surface of its first child onto that of its second, at the same heights; its "
-        "third child is what stands there.",
-        {{"height", &SurfaceMap::height, "How far over and under the surfaces it reaches; what is farther is cut off",
+        "Moves its third child from the surface of its first child to that of its second, keeping heights above the "
+        "surface.",
+        {{"height", &SurfaceMap::height, "Greatest height above and below the surfaces; anything farther is cut off",
           required(unit::positive_mm)}},
         three_solids,
         "surface_map(height=3) { sphere(8); ellipsoid((12, 9, 7)); translate(8, 0, 0) cube(2, \"red\"); }"};
@@ -151,7 +151,7 @@ struct SurfaceMap {
   }
 
   Metric metric() const { return Metric::implicit(); }
-  // Of a surface: at a point, and twice along each axis, for two points.
+  // Each surface is evaluated at a point, and twice along each axis, for two points.
   Traits traits() const { return {.most_evaluations_of_input = 14}; }
 
   Field distance(const Inputs& in, const Point& p) const {

@@ -1,4 +1,4 @@
-// Composition by formulas.
+// Compositions given by formulas.
 #include <map>
 
 #include "design/spec.h"
@@ -19,14 +19,14 @@ bool same_length(const Reader& reader, size_t functions, size_t materials, std::
   return false;
 }
 
-// Fractions from raw values, each for its material. Where they are unusable the input's own composition
-// stands and the check tells.
+// Turns raw values into fractions, one for each material. Where the values are unusable, the input's own composition is
+// used and a check is set.
 struct Mixture {
-  std::vector<Composition> parts;  // each a material alone, or a mixture
+  std::vector<Composition> parts;  // each a single material or a mixture
   std::vector<Field> raw;
   bool threshold = false;
 
-  // `message` gives what the check tells.
+  // `message` returns the text of the check.
   template <class Message>
   Composition over(const Inputs& in, const Point& p, Demand demand, const Message& message) const {
     const Field zero = p.constant(0);
@@ -83,7 +83,7 @@ struct Mixture {
     return shares;
   }
 
-  // 1 for the greatest, the first on ties.
+  // Returns 1 for the greatest value, the first one in a tie, and 0 for the others.
   static std::vector<Field> winners(const std::vector<Field>& values) {
     const Field best = program::fold(values, static_cast<Field (*)(Field, Field)>(program::max));
     std::vector<Field> shares;
@@ -120,17 +120,18 @@ struct FGrade {
   Choice mode = "prob";
 
   static Spec<FGrade> spec() {
-    return {
-        "fgrade",
-        "material gradients",
-        "Sets the composition of its child by formulas, one for each material.",
-        {{"functions", &FGrade::functions,
-          "Expressions; d is the signed distance of the child, t the place along its struts", required(over_child())},
-         {"materials", &FGrade::materials, "A material or mixture for each expression", required(mixable())},
-         {"mode", &FGrade::mode, "prob: the values are shares of a mixture. thresh: the greatest value takes all",
-          one_of({"prob", "thresh"})}},
-        one_solid,
-        "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"], \"prob\") { cube(10); }"};
+    return {"fgrade",
+            "material gradients",
+            "Sets the composition of its child by formulas, one for each material.",
+            {{"functions", &FGrade::functions,
+              "Expressions; d is the signed distance of the child, t the position along its struts",
+              required(over_child())},
+             {"materials", &FGrade::materials, "A material or mixture for each expression", required(mixable())},
+             {"mode", &FGrade::mode,
+              "prob: the values are shares of a mixture; thresh: the material with the greatest value is used alone",
+              one_of({"prob", "thresh"})}},
+            one_solid,
+            "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"], \"prob\") { cube(10); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
@@ -161,7 +162,7 @@ struct Material {
             "material gradients",
             "Sets the composition of its child: one material, or a mixture.",
             {{"materials", &Material::materials, "One or more materials or mixtures", required(mixable())},
-             {"fractions", &Material::fractions, "A share for each, numbers or fields; without it all the same",
+             {"fractions", &Material::fractions, "A share for each material, as numbers or fields; none: equal shares",
               over_child()}},
             one_solid,
             "material([\"red\", \"clear\"], [0.3, 0.7]) { sphere(5); }"};

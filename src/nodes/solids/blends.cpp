@@ -23,7 +23,7 @@ PartQuery query_for(std::string_view rule) {
   return rule == "first" ? PartQuery::first : rule == "last" ? PartQuery::last : PartQuery::mix;
 }
 
-// Of each input, by the rule.
+// Returns the share of each input, by the rule.
 std::vector<Field> shares(const Inputs& in, const Point& p, Demand demand, std::string_view rule,
                           const Falloff& falloff) {
   std::vector<Field> result = weights(in, p, falloff);
@@ -41,7 +41,7 @@ std::vector<Field> shares(const Inputs& in, const Point& p, Demand demand, std::
   return result;
 }
 
-// `yes` where the condition is true, else `no`.
+// Returns `yes` where the condition is true, else `no`.
 Composition choose(Field condition, const Composition& yes, const Composition& no) {
   const Field zero = condition.builder->constant(0);
   std::map<MaterialId, std::pair<Field, Field>> fractions;
@@ -104,7 +104,7 @@ Field Blend::distance(Field total, Field least, const Point& p) const {
 Field Blend::membership(Field total, Field any, const Point& p, Border border) const {
   const Field held = at_most(full(p), total, border);
   if (radius.constant()) return held;
-  // Where the radius is 0 nothing is joined: 0 <= 0 would hold everywhere.
+  // A radius of 0 joins nothing, although 0 <= 0 would hold everywhere.
   return logical_or(any, border == Border::excluded ? held : logical_and(held, less(p.constant(0), radius(p))));
 }
 
@@ -113,7 +113,8 @@ double Blend::lipschitz(size_t solids) const {
   return is_chamfer ? n : std::sqrt(n);
 }
 
-// With `solids` of them at a distance D below k, the joint's g is at least k - (k - D) * lipschitz(solids).
+// If `solids` of them have a distance of at least D, with D below k, the joint's g is at least k - (k - D) *
+// lipschitz(solids).
 double Blend::reach(size_t solids, const Box& where, double margin) const {
   const Interval k = radius.range(where);
   const double least = k.hi - (k.hi - margin) / lipschitz(solids);

@@ -1,4 +1,4 @@
-// Solids joined, cut and complemented, sharply or with a blend along their seams.
+// Solids that are joined, cut and complemented, optionally with a blend along their seams.
 #include "design/spec.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/solids/blends.h"
@@ -13,17 +13,17 @@ Field (*const greatest)(Field, Field) = program::max;
 
 Domain overlap_choices() { return one_of({"mix", "first", "last"}); }
 constexpr std::string_view overlap_doc =
-    "Where inputs overlap: mix adds their compositions and normalises, first and last let one take precedence";
+    "Composition where children overlap: mix, the mean of all, or that of the first or last child";
 
-constexpr std::string_view blend_doc = "Radius of the fillet, or size of the chamfer, along seams; 0: sharp";
-constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat";
+constexpr std::string_view blend_doc = "Radius of the fillet, or size of the chamfer, along seams; 0: sharp seams";
+constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat bevel";
 Domain join_choices() { return one_of({"round", "chamfer"}); }
 
 constexpr std::string_view attributes_doc =
-    "How attributes combine where inputs overlap, in place of their own rules: [[\"modulus\", \"max\"]]";
+    "Rules for attributes where children overlap, in place of the attributes' own: [[\"modulus\", \"max\"]]";
 Domain attribute_rules() { return one_of({overlap_names.begin(), overlap_names.end()}); }
 
-// The attribute as it combines here.
+// Returns the attribute's declaration with the overlap rule of this node.
 AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, const std::vector<NamedWord>& rules) {
   AttributeDeclaration declaration = in.declaration(part);
   for (const NamedWord& rule : rules)
@@ -31,7 +31,7 @@ AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, c
   return declaration;
 }
 
-// Weights of inputs that contain the point; where none does and it matters, the nearest counts.
+// Returns weights of the inputs that contain the point, or of the nearest input where none does and it matters.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
   std::vector<Field> flags = in.memberships(p, Border::included);
   if (demand == Demand::everywhere) {
@@ -44,7 +44,7 @@ std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand dema
   return flags;
 }
 
-// Least and greatest distances are exact on one side of a surface, and bounds on the other.
+// The minimum or maximum of distances is exact on one side of a surface and a bound on the other.
 Metric joined_metric(const Inputs& in) {
   if (in.count() == 1) return in.metric(0);
   Metric metric = Metric::bounded();
@@ -67,10 +67,10 @@ struct Union {
   static Spec<Union> spec() {
     return {"union",
             "booleans",
-            "What is in any of its children.",
+            "The union of its children: all points that are in at least one of them.",
             {{"materials", &Union::materials,
-              "Where inputs overlap: mix adds their compositions and normalises, first and last let one take "
-              "precedence; blend weighs them by how far inside the point is, across seams too",
+              "Composition where children overlap: mix, the mean of all; that of the first or last child; or blend, a "
+              "mean weighted by depth, also across seams",
               one_of({"mix", "first", "last", "blend"})},
              {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Union::join, join_doc, join_choices()},
@@ -142,7 +142,8 @@ struct Union {
   }
 
  private:
-  // For each input, the number of inputs whose influence may reach it, itself included; of very many all are counted.
+  // Returns for each input the number of inputs whose influence may reach it, itself included. With very many inputs it
+  // counts all.
   std::vector<size_t> overlap_counts(const Inputs& in, const Box& where) const {
     constexpr size_t few = 64;
     const size_t count = in.count();
@@ -159,20 +160,20 @@ struct Union {
     return counts;
   }
 
-  // How many inputs stand before those of the table.
+  // Returns the number of inputs before those of the table.
   static size_t before(const PartFields& parts) {
     size_t count = 0;
     while (count < parts.others.size() && parts.others[count] == count) ++count;
     return count;
   }
 
-  // Do the inputs of the table follow one another?
+  // True if the inputs of the table are consecutive.
   static bool are_together(const PartFields& parts, size_t count) {
     const size_t first = before(parts), end = first + count - parts.others.size();
     return first == parts.others.size() || parts.others[first] == end;
   }
 
-  // The first or last that holds the point, where those of the table count as one.
+  // Returns the composition of the first or last input that holds the point, with those of the table as one.
   Composition in_order(const Inputs& in, const Point& p, const PartFields& parts) const {
     std::vector<Composition> compositions;
     std::vector<Field> flags;
@@ -191,9 +192,9 @@ struct Union {
   }
 };
 
-// The joint of what the solids leave: its complement.
+// The complement of the blended joint of the solids' complements.
 struct Carved {
-  std::vector<Field> depths;  // of each solid, how far inside the point is: its distance, negated
+  std::vector<Field> depths;  // depth of the point in each solid, its negated distance
   Blend blend;
 
   Field total(const Point& p) const {
@@ -203,7 +204,7 @@ struct Carved {
     return program::sum(values);
   }
   Field distance(const Point& p) const { return -blend.distance(total(p), program::fold(depths, program::min), p); }
-  // In the whole where the joint is not; the border belongs to one of both.
+  // A point is in the whole if it is not in the joint of the complements. The surface belongs to only one of them.
   Field membership(Field any_outside, const Point& p, Border border) const {
     return logical_not(blend.membership(total(p), any_outside, p, other(border)));
   }
@@ -218,7 +219,7 @@ struct Intersection {
   static Spec<Intersection> spec() {
     return {"intersection",
             "booleans",
-            "What is in all of its children.",
+            "The intersection of its children: all points that are in every one of them.",
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
              {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Intersection::join, join_doc, join_choices()},
@@ -231,7 +232,7 @@ struct Intersection {
   bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
   Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
-  // Children without bounds of their own are evaluated within those of the others.
+  // Children without bounds are evaluated within the bounds of the others.
   Box reach(const Inputs& in, const Box& where, double margin) const {
     Box box = where;
     for (int round = 0; round < 2; ++round)
@@ -249,7 +250,7 @@ struct Intersection {
 
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     if (demand == Demand::everywhere) return weighted(in, p, demand, overlap_weights(in, p, demand, materials.text()));
-    // Inside the whole is inside each.
+    // A point in the intersection is inside every child.
     if (materials == "first") return in.composition(0, p, demand);
     if (materials == "last") return in.composition(in.count() - 1, p, demand);
     return weighted(in, p, demand, std::vector<Field>(in.count(), p.constant(1)));
@@ -276,7 +277,7 @@ struct Difference {
   static Spec<Difference> spec() {
     return {"difference",
             "booleans",
-            "What is in its first child and in none of the others.",
+            "Its first child without all others: the points that are in the first and in none of the others.",
             {{"blend", &Difference::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Difference::join, join_doc, join_choices()}},
             grouped_solids(OfNothing::cuts_nothing),
@@ -294,7 +295,7 @@ struct Difference {
     return program::fold(distances, greatest);
   }
 
-  // The surface of what is cut away belongs to both.
+  // The surface of a solid that is cut away belongs to both.
   Field membership(const Inputs& in, const Point& p, Border border) const {
     std::vector<Field> flags = in.memberships(p, other(border));
     flags[0] = in.membership(0, p, border);
@@ -319,7 +320,7 @@ struct Negate {
   static Spec<Negate> spec() {
     return {"negate",
             "booleans",
-            "Everything that is not in its child. Without bounds: use it inside an intersection.",
+            "Everything outside its child. It is unbounded: use it inside an intersection.",
             {},
             {1, 1, false, OfNothing::counts},
             "intersection() { cube(8, \"red\"); negate() { sphere(5, \"red\"); } }"};
@@ -339,19 +340,22 @@ struct Negate {
   }
 };
 
-// What a loop without passes, a condition that does not hold or a text without letters makes.
+// The result of a loop without passes, of a false condition or of a text without letters.
 struct Empty {
   static constexpr bool is_nothing_itself = true;
 
   static Spec<Empty> spec() {
-    return {
-        "empty", "booleans", "Nothing: a solid without a point. What is made from it or cut out of it is nothing too.",
-        {},      no_inputs,  "union() { sphere(4, \"red\"); empty(); }"};
+    return {"empty",
+            "booleans",
+            "An empty solid, without any point. Solids made from it alone, or cut out of it, are empty too.",
+            {},
+            no_inputs,
+            "union() { sphere(4, \"red\"); empty(); }"};
   }
 
   Metric metric() const { return Metric::bounded(); }
   Box bounds(const Box&) const { return Box::empty(); }
-  // Farther than any point of a design is from another.
+  // Larger than the distance between any two points of a design.
   Field distance(const Point& p) const { return p.constant(10 * design_limit_mm); }
 };
 

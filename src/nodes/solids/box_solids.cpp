@@ -16,7 +16,7 @@ struct Cube {
     return {
         "cube",
         "box solids",
-        "Cube, centred on the origin.",
+        "A cube centred on the origin.",
         {{"side", &Cube::side, "Length of an edge", unit::positive_mm}, {"material", &Cube::material, "Its material"}},
         no_inputs,
         "cube(10, \"red\");"};
@@ -42,7 +42,7 @@ struct RectPrism {
   static Spec<RectPrism> spec() {
     return {"rectprism",
             "box solids",
-            "Block with edges along the axes, centred on the origin.",
+            "A block with edges along the axes, centred on the origin.",
             {{"size", &RectPrism::size, "Lengths along x, y and z", unit::positive_mm},
              {"material", &RectPrism::material, "Its material"}},
             no_inputs,
@@ -66,8 +66,8 @@ struct HalfSpace {
   static Spec<HalfSpace> spec() {
     return {"half_space",
             "box solids",
-            "Everything behind a plane. Cut other solids with it.",
-            {{"normal", &HalfSpace::normal, "Direction that leads out of it; need not have length one", required()},
+            "Everything behind a plane. Use it to cut other solids.",
+            {{"normal", &HalfSpace::normal, "Outward direction; any length", required()},
              {"offset", &HalfSpace::offset, "Distance of the plane from the origin along the normal", unit::mm},
              {"material", &HalfSpace::material, "Its material"}},
             no_inputs,
@@ -85,7 +85,7 @@ struct HalfSpace {
     Box box = where;
     const double reach = offset.range(where).hi;
     for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(normal[axis]) != length(normal)) continue;  // tilted: cuts off no side as a whole
+      if (std::abs(normal[axis]) != length(normal)) continue;  // a tilted plane does not limit the box along this axis
       if (normal[axis] > 0) box.hi[axis] = std::min(box.hi[axis], reach);
       if (normal[axis] < 0) box.lo[axis] = std::max(box.lo[axis], -reach);
     }

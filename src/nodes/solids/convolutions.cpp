@@ -1,4 +1,4 @@
-// Solids whose composition, attributes or surface come from the voxels around.
+// Solids whose composition, attributes or surface are computed from the surrounding voxels.
 #include <algorithm>
 
 #include "base/text/text.h"
@@ -15,8 +15,8 @@ namespace {
 
 using namespace design;
 
-// The shares of the filtered materials; negative ones count as 0. Where none is left, as in what is thinner than a
-// voxel, the child's own composition holds.
+// Returns the shares of the filtered materials; negative ones count as 0. Where no share is left, as in features
+// thinner than a voxel, returns the child's own composition.
 Composition filtered_composition(const Inputs& in, const Point& p, Demand demand, const StagePtr& stage,
                                  bool count_void) {
   Composition own = in.composition(0, p, demand);
@@ -44,7 +44,7 @@ bool holds(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// False, and a diagnostic, where the child does not have one of the attributes.
+// Returns false and adds a diagnostic if the child does not have one of the attributes.
 bool check_attributes(const Reader& reader, const NodePtr& child, const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const Node* node : topological({child}))
@@ -59,21 +59,22 @@ bool check_attributes(const Reader& reader, const NodePtr& child, const std::vec
   return true;
 }
 
-constexpr const char* about_attributes = "Names of its attributes that are filtered too";
-constexpr const char* about_void = "Whether voxels outside of the child count as void; else only those inside count";
+constexpr const char* about_attributes = "Names of attributes that are filtered, too";
+constexpr const char* about_void = "Counts voxels outside the child as void; else only voxels inside count";
 
 struct VoxelBlend {
   Counts3 size{3, 3, 3};
   bool count_void = false;
   std::optional<Vec3> pitch;
-  StagePtr sums;  // known when the node is made
+  StagePtr sums;  // set when the node is made
 
   static Spec<VoxelBlend> spec() {
     return {
         "blend",
         "convolutions",
-        "Gives each voxel of its child the mean composition of the voxels in a box around it; the shape stays.",
-        {{"size", &VoxelBlend::size, "Voxels of the box along x, y and z", required(from_to(1, 1000))},
+        "Gives each voxel of its child the mean composition of the voxels in a box around it. The shape does not "
+        "change.",
+        {{"size", &VoxelBlend::size, "Number of voxels of the box along x, y and z", required(from_to(1, 1000))},
          {"count_void", &VoxelBlend::count_void, about_void},
          {"pitch", &VoxelBlend::pitch, about_pitch, unit::positive_mm}},
         one_solid,
@@ -101,9 +102,10 @@ struct Convolve {
     return {
         "convolve",
         "convolutions",
-        "Gives each voxel of its child the weighted mean of the compositions around it; the shape stays.",
+        "Gives each voxel of its child the weighted mean of the compositions around it. The shape does not change.",
         {{"kernel", &Convolve::kernel,
-          "Weights in lists along x of lists along y of lists along z; voxel floor(n / 2) is the one that they are for",
+          "Weights as lists along x of lists along y of lists along z; of n weights, number floor(n / 2) belongs to "
+          "the voxel itself",
           required()},
          {"count_void", &Convolve::count_void, about_void},
          {"attributes", &Convolve::attributes, about_attributes},
@@ -132,7 +134,7 @@ struct Convolve {
   }
 };
 
-// How wide a Gaussian is: in mm along all axes, or in voxels along each.
+// The width of a Gaussian: in mm along all axes, or in voxels along each.
 struct Width {
   double mm = 0;
   std::optional<Vec3> voxels;
@@ -145,10 +147,10 @@ struct Width {
   }
 };
 
-constexpr const char* about_sigma = "Standard deviation of the weights, which end four of them away";
-constexpr const char* about_sigma_voxels = "The same in voxels along x, y and z, in the place of sigma";
+constexpr const char* about_sigma = "Standard deviation of the weights, which extend to four times as far";
+constexpr const char* about_sigma_voxels = "Standard deviation in voxels along x, y and z, in place of sigma";
 
-// False, and a diagnostic, unless one of the two is given.
+// Returns false and adds a diagnostic unless exactly one of the two is given.
 bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& voxels) {
   const bool has_voxels = voxels && voxels->x + voxels->y + voxels->z > 0;
   if ((sigma > 0) != has_voxels) return true;
@@ -170,7 +172,7 @@ struct Gaussian {
   static Spec<Gaussian> spec() {
     return {"gaussian",
             "convolutions",
-            "Blurs its child's composition with weights of a normal distribution; the shape stays.",
+            "Blurs its child's composition with weights of a normal distribution. The shape does not change.",
             {{"sigma", &Gaussian::sigma, about_sigma, unit::not_negative_mm},
              {"sigma_voxels", &Gaussian::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
              {"count_void", &Gaussian::count_void, about_void},
@@ -203,15 +205,16 @@ struct Sharpen {
   StagePtr stage;
 
   static Spec<Sharpen> spec() {
-    return {"sharpen",
-            "convolutions",
-            "Makes borders between its child's materials steeper, by unsharp masking; the shape stays.",
-            {{"amount", &Sharpen::amount, "How much of what a Gaussian blur takes away is added", positive("")},
-             {"sigma", &Sharpen::sigma, about_sigma, unit::not_negative_mm},
-             {"sigma_voxels", &Sharpen::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
-             {"pitch", &Sharpen::pitch, about_pitch, unit::positive_mm}},
-            one_solid,
-            "sharpen(2, sigma=0.5) fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"]) cube(10);"};
+    return {
+        "sharpen",
+        "convolutions",
+        "Makes borders between its child's materials steeper, by unsharp masking. The shape does not change.",
+        {{"amount", &Sharpen::amount, "Factor of the difference from a Gaussian blur, which is added", positive("")},
+         {"sigma", &Sharpen::sigma, about_sigma, unit::not_negative_mm},
+         {"sigma_voxels", &Sharpen::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
+         {"pitch", &Sharpen::pitch, about_pitch, unit::positive_mm}},
+        one_solid,
+        "sharpen(2, sigma=0.5) fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"]) cube(10);"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -238,8 +241,8 @@ struct Majority {
     return {
         "majority",
         "convolutions",
-        "Gives each voxel of its child the material that most of the box around it has; the shape stays.",
-        {{"size", &Majority::size, "Voxels of the box along x, y and z", from_to(1, 99)},
+        "Gives each voxel of its child the most frequent material in the box around it. The shape does not change.",
+        {{"size", &Majority::size, "Number of voxels of the box along x, y and z", from_to(1, 99)},
          {"count_void", &Majority::count_void, about_void},
          {"pitch", &Majority::pitch, about_pitch, unit::positive_mm}},
         one_solid,
@@ -265,9 +268,9 @@ struct Median {
   static Spec<Median> spec() {
     return {"median",
             "convolutions",
-            "Gives each voxel of its child the median of attributes in the box around it; the shape stays.",
+            "Gives each voxel of its child the median of attributes in the box around it. The shape does not change.",
             {{"attributes", &Median::attributes, "Names of the attributes", required()},
-             {"size", &Median::size, "Voxels of the box along x, y and z", from_to(1, 99)},
+             {"size", &Median::size, "Number of voxels of the box along x, y and z", from_to(1, 99)},
              {"pitch", &Median::pitch, about_pitch, unit::positive_mm}},
             one_solid,
             "median([\"infill\"]) attribute(\"infill\", \"x > 0\") cube(10);"};
@@ -294,12 +297,13 @@ struct Smooth {
   static Spec<Smooth> spec() {
     return {"smooth",
             "convolutions",
-            "Smooths the surface of its child: inside is where at least half of a Gaussian around the place is inside.",
+            "Smooths the surface of its child: a point is inside if at least half of a Gaussian around it is inside "
+            "the child.",
             {{"sigma", &Smooth::sigma, about_sigma, unit::not_negative_mm},
              {"sigma_voxels", &Smooth::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
              {"pitch", &Smooth::pitch, about_pitch, unit::positive_mm},
              {"keep_volume", &Smooth::keep_volume,
-              "In place of half of the Gaussian, the part with which the volume stays"}},
+              "Keeps the child's volume by choosing another share than half of the Gaussian"}},
             one_solid,
             "smooth(1) rectprism((10, 6, 4), \"red\");"};
   }
@@ -314,7 +318,7 @@ struct Smooth {
   }
 
   Metric metric() const { return Metric::implicit(); }
-  // A flat side has half of the Gaussian beyond it: nothing leaves the child's box, unless more is kept.
+  // Half of the Gaussian lies beyond a flat side, so nothing extends beyond the child's box at a level of 1/2 or more.
   Box reach(const Inputs&, const Box& where, double margin) const {
     const Box box = stage->bounds();
     return box.is_empty() ? box : intersect(box.expanded(margin), where);
@@ -339,7 +343,7 @@ struct Smooth {
                                "write for example " + spelled::parameter("sigma", "0.5") + " in place of sigma_voxels");
       return false;
     }
-    // Sides move out by less than a sigma, since they lose what corners and edges gain.
+    // Sides move outward by less than a sigma, to compensate for the volume that corners and edges lose.
     const Vec3 voxels = width.voxels.value_or(Vec3{});
     const double widest =
         width.voxels ? std::max({voxels.x * pitch->x, voxels.y * pitch->y, voxels.z * pitch->z}) : width.mm;
@@ -358,12 +362,11 @@ struct Morphed : StagedSolid {
       std::string_view name, sentence, example;
     };
     static constexpr Words words[] = {
-        {"dilate", "Adds to its child all voxels that lie within a radius of it.", "dilate(1) cube(6, \"red\");"},
-        {"erode", "Takes from its child all voxels that lie within a radius of what is outside.",
-         "erode(1) cube(6, \"red\");"},
-        {"opening", "Takes from its child what a ball inside it cannot reach: spikes and thin walls.",
+        {"dilate", "Adds all voxels within a radius of its child.", "dilate(1) cube(6, \"red\");"},
+        {"erode", "Removes all voxels of its child within a radius of the outside.", "erode(1) cube(6, \"red\");"},
+        {"opening", "Removes the parts of its child that a ball inside it cannot reach: spikes and thin walls.",
          "opening(1) union() { cube(6, \"red\"); rectprism((12, 1, 1), \"red\"); }"},
-        {"closing", "Fills what a ball outside of its child cannot reach: holes, gaps and notches.",
+        {"closing", "Fills the parts that a ball outside its child cannot reach: holes, gaps and notches.",
          "closing(1) difference() { cube(6, \"red\"); rectprism((12, 1, 1), \"red\"); }"}};
     const Words& word = words[static_cast<size_t>(what)];
     return {word.name,

@@ -12,19 +12,20 @@ namespace {
 
 using namespace design;
 
-// What a file has of one material.
+// The part of a file that has one material.
 struct SolidPart {
   MaterialName material;
   program::SourceField source;
 };
 using Parts = std::vector<SolidPart>;
 
-// A part's material, where the use of the file says the one for parts without a name.
+// Returns the material of a part, or `otherwise` for parts without a name.
 MaterialName material_of(const std::string& name, const MaterialName& otherwise, const Reader& reader) {
   return name.empty() ? otherwise : MaterialName{reader.materials.find(name)};
 }
 
-// A mixture is that of the whole solid, so it leaves no room for materials of the file.
+// Returns false and adds a diagnostic if a mixture, which applies to the whole solid, is combined with the file's
+// materials.
 bool check_mixture(const MaterialName& material, const Choice& materials, const Reader& reader) {
   if (!material.mixture || materials == "one") return true;
   reader.diagnostics.error(
@@ -36,7 +37,7 @@ bool check_mixture(const MaterialName& material, const Choice& materials, const 
   return false;
 }
 
-// The material that a request for a file names. A mixture makes no difference to what is read.
+// Returns the material for the request of a file. For a mixture it does not matter.
 MaterialName material_for_request(const MaterialName& material, const Reader& reader) {
   return material.mixture ? MaterialName{&reader.materials.first()} : material;
 }
@@ -60,14 +61,14 @@ std::vector<Field> insides(const Parts& parts, const Point& p) {
 }
 
 Field least_distance(const Parts& parts, const Point& p) { return program::fold(distances(parts, p), program::min); }
-// Along voxel rows this needs no distances.
+// Does not need distances, which makes it fast along rows of voxels.
 Field inside_any(const Parts& parts, const Point& p) { return program::fold(insides(parts, p), program::logical_or); }
 
-// Which parts count at a point; one at least does where it matters.
+// Returns the parts that count at a point. At least one counts where it matters.
 std::vector<Field> part_weights(const Parts& parts, const Point& p, Demand demand) {
   std::vector<Field> flags = insides(parts, p);
   if (demand == Demand::inside) {
-    flags.back() = p.constant(1);  // what is inside, and in none of the others
+    flags.back() = p.constant(1);  // points inside that belong to none of the other parts
     return flags;
   }
   const Field none = logical_not(program::fold(flags, program::logical_or));
@@ -91,7 +92,7 @@ Composition composition_of(const Parts& parts, const Inputs& in, const Point& p,
   return result;
 }
 
-// Of all parts' sources.
+// Returns a hash of all parts' sources.
 template <class AnyParts>
 Hash content_of(const AnyParts& parts) {
   if (parts.size() == 1) return parts[0].source->content();
@@ -127,30 +128,30 @@ struct Mesh : SolidOfParts {
   Choice materials = "one";
   std::vector<MaterialForName> material_map;
   double deform = 0;
-  std::shared_ptr<const std::vector<MeshPart>> loaded;  // when the node is made
+  std::shared_ptr<const std::vector<MeshPart>> loaded;  // set when the node is made
 
   static Spec<Mesh> spec() {
-    return {"mesh",
-            "imported",
-            "Solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in "
-            "their own unit; or by the outer sides of a mesh of results, VTU, XDMF, FRD or INP.",
-            {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
-             {"material", &Mesh::material, "Its material; beside the file's materials, that of what has none there",
-              mixable()},
-             {"inside", &Mesh::inside_rule,
-              "What is inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
-              "open meshes)",
-              one_of({"nonzero", "parity", "generalized"})},
-             {"object", &Mesh::object, "The name of one of the file's objects; none: all of them"},
-             {"materials", &Mesh::materials,
-              "Whose materials: one (the node's), names (the file's, by their names), or colours (those whose colours "
-              "are nearest to the file's); where they overlap, the file's first wins",
-              one_of({"one", "names", "colours"})},
-             {"material_map", &Mesh::material_map,
-              "Materials for names of the file, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
-             {"deform", &Mesh::deform, "Of results: how many times their displacement moves the solid"}},
-            no_inputs,
-            "mesh(\"models/gear.stl\", \"red\");"};
+    return {
+        "mesh",
+        "imported",
+        "A solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in their "
+        "own unit; or by the outer sides of a mesh of results: VTU, XDMF, FRD or INP.",
+        {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
+         {"material", &Mesh::material, "Its material; with the file's materials, that of parts without one", mixable()},
+         {"inside", &Mesh::inside_rule,
+          "Rule for the inside: nonzero (winding number; overlapping shells stay solid), parity, or generalized (for "
+          "open meshes)",
+          one_of({"nonzero", "parity", "generalized"})},
+         {"object", &Mesh::object, "Name of one of the file's objects; none: all of them"},
+         {"materials", &Mesh::materials,
+          "Materials: one (the node's), names (by the names in the file), or colours (those nearest to the file's "
+          "colours); where parts overlap, the first one in the file wins",
+          one_of({"one", "names", "colours"})},
+         {"material_map", &Mesh::material_map,
+          "Materials for names in the file, which come before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+         {"deform", &Mesh::deform, "Factor of the displacement by which a mesh of results is deformed"}},
+        no_inputs,
+        "mesh(\"models/gear.stl\", \"red\");"};
   }
 
   bool complete(const Reader& reader) {
@@ -174,7 +175,7 @@ struct Mesh : SolidOfParts {
     return true;
   }
 
-  // Walls between two parts are nearer than the surface of the whole.
+  // Walls between two parts may be nearer than the surface of the whole.
   Metric metric() const { return parts.size() == 1 && loaded->front().is_exact ? Metric::exact() : Metric::bounded(); }
 };
 
@@ -186,29 +187,29 @@ struct Scad : SolidOfParts {
   Choice materials = "auto";
   std::vector<MaterialForName> material_map;
   ScriptVariables variables;
-  std::shared_ptr<const ScadSolids> loaded;  // when the node is made
+  std::shared_ptr<const ScadSolids> loaded;  // set when the node is made
 
   static Spec<Scad> spec() {
     return {
         "scad",
         "imported",
-        "Solid that an OpenSCAD script makes, in mm; arguments of other names are values for the script's "
+        "A solid that an OpenSCAD script makes, in mm. Arguments with other names are values for the script's "
         "variables.",
         {{"path", &Scad::path, "The script; relative to this one, then to the working directory", required()},
          {"material", &Scad::material,
-          "Its material; beside the script's own, that of what has none there. A mixture is for the whole solid",
+          "Its material; with the script's materials, that of parts without one. A mixture applies to the whole solid",
           mixable()},
-         {"part", &Scad::part, "The name of one of the script's parts, rest for solids of no part; none: all of them"},
+         {"part", &Scad::part, "Name of one of the script's parts; rest: solids outside parts; none: everything"},
          {"materials", &Scad::materials,
-          "Whose materials: one (the node's), names (those of material() in the script), colours (those whose "
-          "colours are nearest to color()), or auto: names if the script has some, else colours, else one; where "
-          "solids overlap, the script's first wins",
+          "Materials: one (the node's), names (those of material() in the script), colours (those nearest to the "
+          "script's colours), or auto (names if the script has some, else colours, else one); where solids overlap, "
+          "the first one in the script wins",
           one_of({"auto", "one", "names", "colours"})},
          {"material_map", &Scad::material_map,
-          "Materials for names of the script, before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
+          "Materials for names in the script, which come before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
          {"variables", &Scad::variables, "Values for the script's variables: scad(\"box.scad\", width=20)"},
          {"script", &Scad::script,
-          "The script's text, in the place of the file's: path then says where its files are"}},
+          "The script's text in place of the file's; path then determines where its files are sought"}},
         no_inputs,
         "scad(\"openscad/handle.scad\", thickness=6);"};
   }
@@ -234,7 +235,7 @@ struct Scad : SolidOfParts {
     return true;
   }
 
-  // Walls between two parts are nearer than the surface of the whole.
+  // Walls between two parts may be nearer than the surface of the whole.
   Metric metric() const { return parts.size() == 1 ? Metric::exact() : Metric::bounded(); }
 };
 
@@ -250,26 +251,27 @@ struct Cad {
   std::vector<MaterialName> part_materials;
 
   static Spec<Cad> spec() {
-    return {"cad",
-            "imported",
-            "Solid of a CAD file: STEP or IGES, in the file's own unit.",
-            {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
-             {"material", &Cad::material, "Its material; beside the file's materials, that of what has none there",
-              mixable()},
-             {"mode", &Cad::mode,
-              "fast (by triangles) or exact (by the surfaces themselves: slow, and distances are exact)",
-              one_of({"fast", "exact"})},
-             {"tolerance", &Cad::tolerance, "How far triangles may be from the surface; 0: a quarter of a voxel",
-              unit::not_negative_mm},
-             {"object", &Cad::object, "The name of one of the file's solids; none: all of them"},
-             {"materials", &Cad::materials,
-              "Whose materials: one (the node's), names (by the names of the file's solids), or colours (those whose "
-              "colours are nearest to the solids'); where solids overlap, the file's first wins",
-              one_of({"one", "names", "colours"})},
-             {"material_map", &Cad::material_map,
-              "Materials for names of solids, before all others: [[\"bracket\", \"gray\"], [\"bushing\", \"red\"]]"}},
-            no_inputs,
-            "cad(\"models/bracket.step\", \"gray\");"};
+    return {
+        "cad",
+        "imported",
+        "A solid from a CAD file: STEP or IGES, in the file's own unit.",
+        {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
+         {"material", &Cad::material, "Its material; with the file's materials, that of parts without one", mixable()},
+         {"mode", &Cad::mode,
+          "fast (uses triangles) or exact (uses the surfaces themselves: slow, with exact distances)",
+          one_of({"fast", "exact"})},
+         {"tolerance", &Cad::tolerance, "Greatest distance of triangles from the surface; 0: a quarter of a voxel",
+          unit::not_negative_mm},
+         {"object", &Cad::object, "Name of one of the file's solids; none: all of them"},
+         {"materials", &Cad::materials,
+          "Materials: one (the node's), names (by the names of the file's solids), or colours (those nearest to the "
+          "solids' colours); where solids overlap, the first one in the file wins",
+          one_of({"one", "names", "colours"})},
+         {"material_map", &Cad::material_map,
+          "Materials for names of solids, which come before all others: [[\"bracket\", \"gray\"], [\"bushing\", "
+          "\"red\"]]"}},
+        no_inputs,
+        "cad(\"models/bracket.step\", \"gray\");"};
   }
 
   bool complete(const Reader& reader) {
@@ -293,7 +295,7 @@ struct Cad {
     return true;
   }
 
-  // Walls between two solids are nearer than the surface of the whole.
+  // Walls between two solids may be nearer than the surface of the whole.
   Metric metric() const { return parts->size() == 1 && parts->front().is_single ? Metric::exact() : Metric::bounded(); }
   Box bounds(const Box&) const { return bounds_of(*parts); }
   Field distance(const Inputs& in, const Point& p) const { return least_distance(made(in), p); }

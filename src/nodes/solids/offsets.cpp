@@ -1,4 +1,4 @@
-// Solids between level sets of a child's distance: grown, shrunk, hollowed.
+// Solids bounded by level sets of a child's distance: grown, shrunk, hollowed.
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
 #include "nodes/solids/solid_families.h"
@@ -8,18 +8,18 @@ namespace {
 
 using namespace design;
 
-// A level of an exact distance is again a distance on one side alone, and on the other a bound of it.
+// A level set of an exact distance has an exact distance on one side, and a bound of it on the other.
 Metric level_metric(const Inputs& in) {
   const Metric metric = in.metric(0);
   return metric.is_implicit() ? metric : Metric::bounded(metric.lipschitz);
 }
 
-// Encloses the points of `where` at which the input's g is `level` or less.
+// Returns a box around the points of `where` at which the input's g is at most `level`.
 Box level_reach(const Inputs& in, const Box& where, double level) {
   if (level >= 0) return in.reach(0, where, level);
   const Metric metric = in.metric(0);
   if (metric.is_implicit()) return in.reach(0, where, 0);
-  // So deep inside, the box around the input is at least this far away.
+  // At such a depth, the input's bounding box is at least this far away.
   const double depth = -level / metric.lipschitz * (1 - 1e-9);
   return intersect(in.reach(0, where.expanded(depth), 0).expanded(-depth), where);
 }
@@ -30,9 +30,9 @@ struct Offset {
   static Spec<Offset> spec() {
     return {"offset",
             "offsets",
-            "Grows its child by a distance, or shrinks it. Edges and corners that grow become round.",
+            "Grows its child by a distance, or shrinks it. Edges and corners become round when they grow.",
             {{"distance", &Offset::distance_mm,
-              "How far the surface moves outward; negative: inward. A formula displaces it from point to point",
+              "Distance by which the surface moves outward; negative: inward. A formula may vary from point to point",
               required(unit::mm)}},
             one_solid,
             "offset(2) { cube(6, \"red\"); }"};
@@ -57,7 +57,7 @@ struct Offset {
   }
 
  private:
-  // What is inside may be outside of the child.
+  // Points inside may lie outside the child.
   Demand grown(Demand demand) const {
     return distance_mm.constant() && *distance_mm.constant() <= 0 ? demand : Demand::everywhere;
   }
@@ -71,8 +71,8 @@ struct Shell {
     return {"shell",
             "offsets",
             "A wall along the surface of its child.",
-            {{"thickness", &Shell::thickness, "How thick the wall is", required(unit::positive_mm)},
-             {"side", &Shell::side, "Where it lies: inward of the surface, outward, or centred on it",
+            {{"thickness", &Shell::thickness, "Thickness of the wall", required(unit::positive_mm)},
+             {"side", &Shell::side, "Position of the wall: inward of the surface, outward, or centred on it",
               one_of({"inward", "outward", "centred"})}},
             one_solid,
             "shell(1) { sphere(8, \"red\"); }"};

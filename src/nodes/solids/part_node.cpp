@@ -16,13 +16,13 @@ struct Part {
   std::string name;
 
   static Spec<Part> spec() {
-    return {
-        "part",
-        "parts",
-        "Names a part of the design: the label \"part\" of all that is in its braces, outer names before inner ones.",
-        {{"name", &Part::name, "Its name", required()}},
-        one_solid,
-        "part(\"handle\") { cylinder(2, 20, \"red\"); }"};
+    return {"part",
+            "parts",
+            "Names a part of the design: sets the label \"part\" of everything in its braces. Outer names take "
+            "precedence over inner ones.",
+            {{"name", &Part::name, "Its name", required()}},
+            one_solid,
+            "part(\"handle\") { cylinder(2, 20, \"red\"); }"};
   }
 
   bool complete(const Reader& reader) const {

@@ -11,7 +11,7 @@ namespace {
 using design::Points;
 using design::Reader;
 
-// Relative to the size of the polygon.
+// Tolerances relative to the size of the polygon.
 constexpr double flattest_area = 1e-8, farthest_from_plane = 1e-6;
 
 bool fail(const Reader& reader, const std::string& message, const Phrase& hint = {}) {
@@ -19,7 +19,7 @@ bool fail(const Reader& reader, const std::string& message, const Phrase& hint =
   return false;
 }
 
-// Of twice the area's length, at a right angle to the plane in which the points lie nearly.
+// Returns a vector normal to the plane of the points, whose length is twice their area.
 Vec3 area_vector(const std::vector<Vec3>& points) {
   Vec3 sum;
   for (size_t n = 0; n < points.size(); ++n)
@@ -27,7 +27,7 @@ Vec3 area_vector(const std::vector<Vec3>& points) {
   return sum;
 }
 
-// Right-handed, with the point of the plane that is nearest to the origin as its own.
+// Returns a right-handed frame of the plane, whose origin is the plane's point nearest to the origin.
 Affine plane_frame(Vec3 normal, double offset) {
   int flattest = 0;
   for (const int axis : {1, 2})
@@ -58,7 +58,7 @@ std::optional<Ring> laid(const Points& points, const Affine& plane_from_here, do
                          const Reader& reader) {
   Ring ring;
   size_t worst = 0;
-  double farthest = 0;  // off the plane
+  double farthest = 0;  // greatest distance from the plane
   for (size_t n = 0; n < points.at.size(); ++n) {
     const Vec3 p = plane_from_here(points.at[n]);
     ring.push_back({p.x, p.y});

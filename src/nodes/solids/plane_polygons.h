@@ -1,4 +1,4 @@
-// Polygons of a design: checked, and laid into the plane in which they lie.
+// Polygons of a design, which are checked and mapped to the plane in which they lie.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,15 @@
 
 namespace ombre::nodes {
 
-// A ring, without points that repeat the one before. Nothing, and a diagnostic, for what bounds no area.
+// Removes points that repeat the one before. Returns nothing and adds a diagnostic if the ring bounds no area.
 std::optional<Ring> checked_ring(Ring ring, const std::string& what, const design::Reader& reader);
 
-// Polygons and the plane around which they are right-handed; points of two numbers lie in XY, seen from above.
+// Polygons and the plane in which they are counterclockwise. Points of two numbers lie in XY, seen from above.
 struct PlanePolygons {
   Polygons polygons;
-  Affine here_from_plane;  // z: along the normal
+  Affine here_from_plane;  // z is the normal
 
-  // Nothing, and a diagnostic, when points do not lie in a plane or bound no area.
+  // Returns nothing and adds a diagnostic if points do not lie in one plane or bound no area.
   static std::optional<PlanePolygons> read(const design::Points& outer, const std::vector<design::Points>& holes,
                                            const design::Reader& reader);
 };

@@ -1,4 +1,4 @@
-// Solids from profiles: polygons with a height, polygons that turn.
+// Solids from profiles: extruded and revolved polygons.
 #include <algorithm>
 #include <numbers>
 
@@ -36,23 +36,23 @@ struct PolygonExtrude {
   std::vector<Points> holes;
   double taper = 0;
   Affine here_from_plane;
-  program::SourceField outline;  // made when the node is
+  program::SourceField outline;  // made with the node
 
   static Spec<PolygonExtrude> spec() {
     return {"polygon_extrude",
             "profiles",
-            "Polygon with a height: points of two numbers rise from XY, points of three along the normal around which "
-            "they go counterclockwise.",
+            "An extruded polygon. Points of two numbers lie in XY and are extruded along z; points of three numbers "
+            "are extruded along the normal around which they go counterclockwise.",
             {{"vertices", &PolygonExtrude::vertices,
-              "Its corners in order: [x, y] in the plane XY, or [x, y, z], all in one plane; where it crosses itself, "
-              "what it goes round is inside",
+              "Its corners in order: [x, y] in the plane XY, or [x, y, z], all in one plane; if it crosses itself, all "
+              "enclosed areas are inside",
               required(unit::points)},
-             {"height", &PolygonExtrude::height, "How far it reaches from its plane", unit::positive_mm},
-             {"symmetric", &PolygonExtrude::symmetric, "Half of the height to each side of the plane"},
+             {"height", &PolygonExtrude::height, "Height above its plane", unit::positive_mm},
+             {"symmetric", &PolygonExtrude::symmetric, "Extends by half of the height to each side of the plane"},
              {"material", &PolygonExtrude::material, "Its material"},
              {"holes", &PolygonExtrude::holes, "Polygons that are cut out, in the same plane", unit::points},
              {"taper", &PolygonExtrude::taper,
-              "How much its walls lean inward, away from the plane of the points; below 0 outward",
+              "Angle by which its walls lean inward, away from the plane of the points; below 0: outward",
               from_to(-80, 80, "deg")}},
             no_inputs,
             "polygon_extrude([[0, 0], [12, 0], [12, 4], [4, 4], [4, 10], [0, 10]], 5, false, \"red\");"};
@@ -81,7 +81,7 @@ struct PolygonExtrude {
     return image(here_from_plane, box).expanded(1e-12 * (length(box.size()) + length(here_from_plane.offset)));
   }
 
-  // Walls at an angle: their offset grows with the distance from the plane.
+  // With tapered walls, the offset of the polygon grows with the distance from its plane.
   Field distance(const Point& p) const {
     const Point at = p.mapped(inverse(here_from_plane));
     const Field flat = ask(outline, "distance", at.x, at.y), beyond = beyond_ends(at.z);
@@ -89,7 +89,7 @@ struct PolygonExtrude {
     return max((flat + abs(at.z) * tangent()) * cosine(), beyond);
   }
 
-  // Along voxel rows this needs no distances.
+  // Does not need distances, which makes it fast along rows of voxels.
   Field membership(const Inputs&, const Point& p, Border border) const {
     if (taper != 0) return at_most(distance(p), 0, border);
     const Point at = p.mapped(inverse(here_from_plane));
@@ -106,17 +106,17 @@ struct Revolve {
   Points profile;
   double angle = 360;
   MaterialName material;
-  program::SourceField outline;  // made when the node is; x is rho, y is z
+  program::SourceField outline;  // made with the node; x is rho and y is z
 
   static Spec<Revolve> spec() {
     return {"revolve",
             "profiles",
-            "Polygon that turns about the z axis, right-handed from +x.",
+            "A polygon revolved about the z axis, right-handed from +x.",
             {{"profile", &Revolve::profile,
-              "Its corners in order: [rho, z], with rho the distance from the axis; where it crosses itself, what it "
-              "goes round is inside",
+              "Its corners in order: [rho, z], with rho the distance from the axis; if it crosses itself, all enclosed "
+              "areas are inside",
               required(unit::points)},
-             {"angle", &Revolve::angle, "How far it turns", turns()},
+             {"angle", &Revolve::angle, "Angle of the revolution", turns()},
              {"material", &Revolve::material, "Its material"}},
             no_inputs,
             "revolve([[3, 0], [8, 0], [8, 2], [5, 4], [5, 10], [3, 10]], 270, \"blue\");"};
@@ -182,7 +182,7 @@ struct Revolve {
     return domain;
   }
 
-  // The direction of an end, along its plane and at a right angle to it, forward.
+  // Coordinates of a point relative to an end face: `along` the face, and `across` it, forward.
   struct End {
     Field along, across;
   };
@@ -191,19 +191,19 @@ struct Revolve {
     return {p.x * u.x + p.y * u.y, p.y * u.x - p.x * u.y};
   }
 
-  // To the half plane from the axis on in which an end lies.
+  // Returns the distance to the half plane that starts at the axis and contains an end face.
   static Field from_end_plane(const Point& p, double degrees) {
     const End end = end_at(p, degrees);
     return length(min(end.along, p.constant(0)), end.across);
   }
 
-  // To the end itself, which is flat.
+  // Returns the distance to the end face.
   Field from_end(const Point& p, double degrees) const {
     const End end = end_at(p, degrees);
     return length(max(ask(outline, "distance", end.along, p.z), 0.0), end.across);
   }
 
-  // Is the point between the ends, as seen from the axis?
+  // True if the point lies between the end faces, seen from the axis.
   Field faces(const Point& p, bool strictly) const {
     const auto not_below = [&](Field value) { return strictly ? 0.0 - value < 0 : 0.0 - value <= 0; };
     const Field behind_first = not_below(end_at(p, 0).across), before_last = not_below(-end_at(p, angle).across);

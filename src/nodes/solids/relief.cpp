@@ -1,4 +1,4 @@
-// Images as solids.
+// Solids from images.
 #include <algorithm>
 
 #include "base/system/assert.h"
@@ -20,20 +20,21 @@ struct Relief {
   std::shared_ptr<const HeightImage> image;  // read when the node is made
 
   static Spec<Relief> spec() {
-    return {"relief",
-            "imported",
-            "Plate that rises where an image is bright; centred on the z axis, its foot on z = 0.",
-            {{"path", &Relief::path,
-              "A PNG file, gray or in colours, of which the brightness counts; relative to the script, then to the "
-              "working directory",
-              required()},
-             {"width", &Relief::width, "Along x", unit::positive_mm},
-             {"height", &Relief::height, "Of white over black", unit::positive_mm},
-             {"base", &Relief::base, "Of what lies below black", unit::positive_mm},
-             {"material", &Relief::material, "Its material"},
-             {"length", &Relief::length_y, "Along y; 0 keeps the shape of the image", unit::not_negative_mm}},
-            no_inputs,
-            "relief(\"models/leaf.png\", 30, 2, 1, \"green\");"};
+    return {
+        "relief",
+        "imported",
+        "A plate that is higher where an image is brighter, centred on the z axis, with its foot on z = 0.",
+        {{"path", &Relief::path,
+          "A PNG file, gray or in colours; only its brightness counts; relative to the script, then to the working "
+          "directory",
+          required()},
+         {"width", &Relief::width, "Length along x", unit::positive_mm},
+         {"height", &Relief::height, "Height of white above black", unit::positive_mm},
+         {"base", &Relief::base, "Thickness below black", unit::positive_mm},
+         {"material", &Relief::material, "Its material"},
+         {"length", &Relief::length_y, "Length along y; 0: keeps the proportions of the image", unit::not_negative_mm}},
+        no_inputs,
+        "relief(\"models/leaf.png\", 30, 2, 1, \"green\");"};
   }
 
   bool complete(const Reader& reader) {
@@ -47,7 +48,7 @@ struct Relief {
     return image != nullptr;
   }
 
-  // Steep slopes are nearer than they are high.
+  // A steep slope is nearer than the difference in height.
   Metric metric() const { return Metric::bounded(); }
 
   Box reach(const Inputs&, const Box&, double margin) const {
@@ -67,7 +68,7 @@ struct Relief {
 
  private:
   double length_mm() const { return length_y > 0 ? length_y : width * image->rows / image->columns; }
-  // How much faster z - top changes than the point moves, at most.
+  // Returns the Lipschitz constant of z - top.
   double steepness() const {
     const double across = image->step_across * image->columns / width, up = image->step_up * image->rows / length_mm();
     return std::sqrt(1 + height * height * (across * across + up * up)) * (1 + 1e-12);

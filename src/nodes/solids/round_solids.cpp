@@ -18,7 +18,7 @@ struct Sphere {
     return {
         "sphere",
         "round solids",
-        "Ball, centred on the origin.",
+        "A ball centred on the origin.",
         {{"radius", &Sphere::radius, "Its radius", unit::positive_mm}, {"material", &Sphere::material, "Its material"}},
         no_inputs,
         "sphere(5, \"red\");"};
@@ -34,7 +34,7 @@ struct Sphere {
   Field distance(const Point& p) const { return length(p.x, p.y, p.z) - radius(p); }
 };
 
-// The distance is a bound: exact ones need an iteration.
+// An ellipsoid whose distance is a bound, since the exact distance requires an iteration.
 struct Ellipsoid {
   Numbers3 radii{8, 5, 3};
   MaterialName material;
@@ -42,7 +42,7 @@ struct Ellipsoid {
   static Spec<Ellipsoid> spec() {
     return {"ellipsoid",
             "round solids",
-            "Ball stretched along the axes, centred on the origin.",
+            "A ball stretched along the axes, centred on the origin.",
             {{"radii", &Ellipsoid::radii, "Half lengths along x, y and z", unit::positive_mm},
              {"material", &Ellipsoid::material, "Its material"}},
             no_inputs,
@@ -50,7 +50,7 @@ struct Ellipsoid {
   }
 
   Metric metric() const { return radii.x == radii.y && radii.y == radii.z ? Metric::exact() : Metric::bounded(); }
-  // g <= margin is an ellipsoid too, grown by more than the margin along its long axes.
+  // The points with g <= margin form an ellipsoid that is larger by more than the margin along its long axes.
   Box reach(const Inputs&, const Box& where, double margin) const {
     const double least = std::min({radii.x.range(where).lo, radii.y.range(where).lo, radii.z.range(where).lo});
     if (margin > 0 && least <= 0) return where;
@@ -72,7 +72,7 @@ struct Cylinder {
   static Spec<Cylinder> spec() {
     return {"cylinder",
             "round solids",
-            "Cylinder along z, centred on the origin.",
+            "A cylinder along z, centred on the origin.",
             {{"radius", &Cylinder::radius, "Its radius", unit::positive_mm},
              {"height", &Cylinder::height, "Its length along z", unit::positive_mm},
              {"material", &Cylinder::material, "Its material"}},
@@ -97,9 +97,9 @@ struct Cone {
   static Spec<Cone> spec() {
     return {"cone",
             "round solids",
-            "Cone or frustum along z, centred on the origin, its base down.",
+            "A cone or frustum along z, centred on the origin, with its base down.",
             {{"base", &Cone::base, "Radius at the lower end", unit::not_negative_mm},
-             {"top", &Cone::top, "Radius at the upper end; 0 is a point", unit::not_negative_mm},
+             {"top", &Cone::top, "Radius at the upper end; 0: a point", unit::not_negative_mm},
              {"height", &Cone::height, "Its length along z", unit::positive_mm},
              {"material", &Cone::material, "Its material"}},
             no_inputs,
@@ -117,7 +117,7 @@ struct Cone {
     return Box::centered({r, r, height.range(where).hi / 2});
   }
 
-  // In the half plane (rho, z) the nearest point lies on one of the discs or on the slope.
+  // In the half plane (rho, z), the nearest point lies on a disc or on the slope.
   Field distance(const Point& p) const {
     const Field rho = length(p.x, p.y), low = base(p), high = top(p), half = height(p) * 0.5;
     const Field disc = select(p.z <= 0, low, high);
@@ -138,7 +138,7 @@ struct Torus {
   static Spec<Torus> spec() {
     return {"torus",
             "round solids",
-            "Ring lying flat in XY, centred on the origin.",
+            "A ring that lies flat in XY, centred on the origin.",
             {{"ring", &Torus::ring, "Radius of the centre line", unit::positive_mm},
              {"tube", &Torus::tube, "Radius of the tube", unit::positive_mm},
              {"material", &Torus::material, "Its material"}},
@@ -146,7 +146,7 @@ struct Torus {
             "torus(8, 2, \"magenta\");"};
   }
 
-  // A tube as wide as the ring closes the hole, and its inner half then folds over the axis.
+  // If the tube is wider than the ring, the hole closes and the inner half extends across the axis.
   Metric metric() const { return *tube.constant() <= *ring.constant() ? Metric::exact() : Metric::bounded(); }
 
   Box bounds(const Box& where) const {
@@ -167,7 +167,7 @@ struct Strut {
     return {
         "strut",
         "round solids",
-        "Cylinder from one point to another.",
+        "A cylinder from one point to another.",
         {{"start", &Strut::start, "Centre of one end", unit::mm},
          {"end", &Strut::end, "Centre of the other end", unit::mm},
          {"radius", &Strut::radius, "Its radius; t runs from 0 at its start to 1 at its end",
@@ -203,7 +203,7 @@ struct Strut {
 
   Field along(const Inputs&, const Point& p) const { return share(p); }
 
-  // Nothing where it is no conical frustum.
+  // Returns the strut, or nothing if it is not a conical frustum.
   std::optional<StrutShape> shape() const {
     const auto radii = end_radii(radius);
     return radii ? std::optional(StrutShape{start, end, (*radii)[0], (*radii)[1], caps == "flat"}) : std::nullopt;
@@ -212,13 +212,13 @@ struct Strut {
  private:
   Vec3 direction() const { return (1 / length(end - start)) * (end - start); }
 
-  // In mm along the axis.
+  // Returns the position along the axis in mm, measured from the midpoint.
   Field from_middle(const Point& p) const {
     const Vec3 u = direction(), middle = 0.5 * (start + end);
     return (p.x - middle.x) * u.x + (p.y - middle.y) * u.y + (p.z - middle.z) * u.z;
   }
 
-  // From 0 at the start to 1 at the end. By what the distance asks too, which costs less than the way from the start.
+  // Returns the position from 0 at the start to 1 at the end. It uses values that the distance needs, too.
   Field share(const Point& p) const {
     return min(max(from_middle(p) * (1 / length(end - start)) + 0.5, 0.0), p.constant(1));
   }
@@ -230,7 +230,7 @@ struct Strut {
     });
   }
 
-  // How far the surface is from the nearest point of the axis, along x, y, z, at most.
+  // Returns the greatest extent of the surface from the axis along x, y and z.
   Vec3 margins(Vec3 u, double r) const {
     if (caps == "round") return {r, r, r};
     const auto side = [r](double cosine) {

@@ -9,8 +9,8 @@ namespace {
 
 using namespace design;
 
-// The 2023 paper's summing operation (Figs 17 and 18). Each child gives a falloff of its distance, 1 at
-// -blend, 1/2 at 0 and 0 from blend on, a smooth step between; solid where they add up to 1/2.
+// The summing operation of the 2023 paper (Figs 17 and 18). Each child gives a falloff of its distance, a smooth step
+// from 1 at -blend through 1/2 at 0 to 0 at blend. Points where they add up to at least 1/2 are solid.
 struct Sum {
   Number blend = 0;
   Number iso = 0;
@@ -20,9 +20,10 @@ struct Sum {
         "sum",
         "booleans",
         "Joins its children organically, or takes a level set of their summed distances.",
-        {{"blend", &Sum::blend, "How far from its surface a child still swells its neighbours; 0: take the level set",
+        {{"blend", &Sum::blend,
+          "Distance from its surface up to which a child swells its neighbours; 0: the level set is used",
           unit::not_negative_mm},
-         {"iso", &Sum::iso, "Without blend: solid where the distances add up to this or less", unit::mm}},
+         {"iso", &Sum::iso, "Level set, without blend: solid where the distances add up to this or less", unit::mm}},
         many_solids,
         "sum(blend=2) { strut((0, 0, 0), (10, 0, 0), 1, \"red\"); strut((0, 0, 0), (0, 10, 0), 1, \"blue\"); }"};
   }
@@ -30,10 +31,10 @@ struct Sum {
   bool is_level_set() const { return blend.constant() && *blend.constant() == 0; }
   Metric metric() const { return Metric::implicit(); }
 
-  // Where no child's g is below blend, the falloffs are zero and g is blend.
+  // Where all children have g >= blend, the falloffs are zero and g is blend.
   Box reach(const Inputs& in, const Box& where, double margin) const {
     const Interval blends = blend.range(where);
-    // Of distances that add up to no more than a total, the least is no more than its share.
+    // If distances add up to at most a total, the least is at most the mean.
     const double total = margin + iso.range(where).hi;
     if (is_level_set()) return hull_of(in, where, std::max(0.0, total / static_cast<double>(in.count())));
     if (margin >= blends.lo && margin > 0) return where;
@@ -49,12 +50,12 @@ struct Sum {
     return {weight, blend.range(design_space()).hi};
   }
 
-  // The distance at which one child alone would give this total: a single child stays as it is.
+  // Returns the distance at which a single child would give the same total, so that a single child is not changed.
   Field distance(const Inputs& in, const Point& p) const {
     if (is_level_set()) return program::sum(in.distances(p)) - iso(p);
     const Field t = min(program::sum(weights(in, p, falloff())), p.constant(1));
     program::Builder& builder = p.builder();
-    // Inverse of the smooth step: 1/2 - sin(asin(1 - 2t) / 3).
+    // Inverts the smooth step: 1/2 - sin(asin(1 - 2t) / 3).
     const Field angle = builder.apply(program::Op::asin, min(max(1 - t * 2.0, -1.0), p.constant(1))) / 3;
     return blend(p) * (sin(angle) * 2.0);
   }
@@ -65,7 +66,8 @@ struct Sum {
     return at_most(p.constant(0.5), influence_of(in, p, query, falloff()).total, border);
   }
 
-  // Children that contain the point count alike; else those within reach count by their falloff; else the nearest does.
+  // Children that contain the point count equally. Otherwise those within reach count by their falloff, or else the
+  // nearest counts.
   Composition composition(const Inputs& in, const Point& p, Demand demand) const {
     if (!is_level_set()) return blended_composition(in, p, demand, "mix", falloff());
     return weighted(in, p, Demand::everywhere, holders_or_nearest(in, p));

@@ -1,4 +1,4 @@
-// What holds a part up while it is printed.
+// Supports, which hold a part up while it is printed.
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/solids/solid_families.h"
@@ -13,7 +13,7 @@ struct Support {
   MaterialName material;
   double clearance = 0;
   std::optional<Vec3> pitch;
-  StagePtr stage;  // known when the node is made
+  StagePtr stage;  // set when the node is made
 
   static Spec<Support> spec() {
     Domain angles = unit::degrees;
@@ -22,14 +22,14 @@ struct Support {
     Spec<Support> spec{
         "support",
         "supports",
-        "What must stand under the solid in its braces when it is built layer by layer, down to its lowest layer or to "
-        "what of it lies below; the solid itself is not part of it.",
+        "The supports that the solid in its braces needs when it is built layer by layer. They stand on its lowest "
+        "layer or on parts of the solid below. The solid itself is not included.",
         {{"angle", &Support::angle,
-          "From the vertical: surfaces that hang over by no more support themselves; 0: all that hangs is supported",
+          "Angle from the vertical up to which overhanging surfaces support themselves; 0: all overhangs are supported",
           angles},
          {"material", &Support::material, "Its material; none: the one that the materials file marks as support"},
-         {"clearance", &Support::clearance, "Gap that stays open between it and the solid", unit::not_negative_mm},
-         {"pitch", &Support::pitch, "Size of the cells by which it is found; none: the job's voxels",
+         {"clearance", &Support::clearance, "Gap between the supports and the solid", unit::not_negative_mm},
+         {"pitch", &Support::pitch, "Size of the cells with which supports are computed; none: the job's voxels",
           unit::positive_mm}},
         one_solid,
         "support(angle=45) { cylinder(3, 20); translate(0, 0, 11) rectprism((20, 20, 2)); }"};
@@ -78,7 +78,7 @@ struct Support {
   Composition composition(const Inputs& in, const Point& p, Demand) const {
     return Composition::pure(in.material(material), p.constant(1));
   }
-  // The solid's attributes are not its own.
+  // Supports do not have the solid's attributes.
   std::optional<Field> attribute(const Inputs& in, std::string_view name, const Point& p, Demand) const {
     return p.constant(in.declaration(name).default_value);
   }

@@ -1,4 +1,4 @@
-// Letters.
+// Solids of letters.
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
@@ -19,29 +19,29 @@ struct Letters {
   Choice h_align = "center", v_align = "center";
   double line_spacing = 1;
   Choice measure = "capitals";
-  program::SourceField outline;  // made when the node is
+  program::SourceField outline;  // made with the node
 
   static Spec<Letters> spec() {
     return {
         "text",
         "text",
-        "Letters with a depth, in XY, read from above, half of it to each side of z = 0.",
-        {{"text", &Letters::text, "What is written; lines end with \\n", required()},
-         {"height", &Letters::height, "Of the capital letters, or of what measure says", unit::positive_mm},
-         {"depth", &Letters::depth, "Along z", unit::positive_mm},
+        "Solid letters in XY, read from above, with half of their depth on each side of z = 0.",
+        {{"text", &Letters::text, "The text; lines end with \\n", required()},
+         {"height", &Letters::height, "Height of capital letters, or of what measure selects", unit::positive_mm},
+         {"depth", &Letters::depth, "Thickness along z", unit::positive_mm},
          {"material", &Letters::material, "Its material"},
-         {"style", &Letters::style, "Letters to take; a font without italics is slanted",
+         {"style", &Letters::style, "Style of the font; a font without italics is slanted",
           one_of({"regular", "bold", "italic", "bold_italic"})},
          {"font", &Letters::font,
-          "Name of an installed font, or path of a .ttf or .otf file; a warning says what takes the place of a font "
-          "that is not there"},
-         {"h_align", &Letters::h_align, "Which end of the lines is at x = 0", one_of({"left", "center", "right"})},
+          "Name of an installed font, or path of a .ttf or .otf file; if it is missing, another font is used and a "
+          "warning names it"},
+         {"h_align", &Letters::h_align, "End of the lines that is at x = 0", one_of({"left", "center", "right"})},
          {"v_align", &Letters::v_align,
-          "What is at y = 0: bottom (the foot of the last line), top (of the first line's capitals), center (the "
-          "middle of these two), top_first_line (the foot of the first line)",
+          "Position of y = 0: bottom (the foot of the last line), top (the top of the first line's capitals), center "
+          "(midway between these two), or top_first_line (the foot of the first line)",
           one_of({"bottom", "center", "top", "top_first_line"})},
-         {"line_spacing", &Letters::line_spacing, "Times the font's own distance from line to line", positive("")},
-         {"measure", &Letters::measure, "What height is of: capitals (the letter H), or em (the font's size)",
+         {"line_spacing", &Letters::line_spacing, "Factor of the font's own distance from line to line", positive("")},
+         {"measure", &Letters::measure, "Meaning of height: capitals (the letter H), or em (the font's size)",
           one_of({"capitals", "em"})}},
         no_inputs,
         "text(\"B1\", 8, 2, \"red\", style=\"bold\");"};
@@ -68,7 +68,7 @@ struct Letters {
   }
 
   Field distance(const Point& p) const { return corner(ask("distance", p), beyond_ends(p)); }
-  // Along voxel rows this needs no distances.
+  // Does not need distances, which makes it fast along rows of voxels.
   Field membership(const Inputs&, const Point& p, Border border) const {
     return logical_and(truth(ask("inside", p)), at_most(beyond_ends(p), 0, border));
   }

@@ -1,4 +1,4 @@
-// Solids moved, turned, stretched and mirrored. They move the question, not the samples.
+// Solids that are translated, rotated, scaled and mirrored by mapping the points at which the input is evaluated.
 #include <map>
 
 #include "design/spec.h"
@@ -9,13 +9,13 @@ namespace {
 
 using namespace design;
 
-// What the family shares: T::map() takes points of the input's frame to points of this one.
+// Base of the family. T::map() maps points of the input's space to points of this one.
 template <class T>
 struct Transform {
   Affine map() const { return static_cast<const T*>(this)->here_from_input(); }
 
   Point inner(const Point& p) const { return p.mapped(inverse(map())); }
-  // The input's distance times this never exceeds the distance here.
+  // Factor for the input's distance, so that the product never exceeds the distance here.
   double scale() const {
     const auto [least, greatest] = stretch(map());
     return greatest - least <= 1e-12 * greatest && std::abs(least - 1) < 1e-12 ? 1 : least;
@@ -37,7 +37,7 @@ struct Translate : Transform<Translate> {
     return {"translate",
             "transforms",
             "Moves what is in its braces.",
-            {{"by", &Translate::by, "How far along x, y and z", required(unit::mm)}},
+            {{"by", &Translate::by, "Distance along x, y and z", required(unit::mm)}},
             one_solid,
             "translate(5, 0, 0) { sphere(3, \"red\"); }"};
   }
@@ -54,13 +54,13 @@ struct Rotate : Transform<Rotate> {
   static Spec<Rotate> spec() {
     return {"rotate",
             "transforms",
-            "Turns what is in its braces, right-handed, about fixed axes.",
-            {{"angles", &Rotate::angles, "Pitch about x, yaw about y, roll about z", unit::degrees},
-             {"order", &Rotate::order, "Which axis is turned about first, second, third",
+            "Turns what is in its braces about fixed axes, right-handed.",
+            {{"angles", &Rotate::angles, "Angles about x (pitch), y (yaw) and z (roll)", unit::degrees},
+             {"order", &Rotate::order, "Order of the axes, the first turn first",
               one_of({"zyx", "xyz", "xzy", "yxz", "yzx", "zxy"})},
-             {"axis", &Rotate::axis, "Instead of angles: a direction to turn about", {}},
-             {"degrees", &Rotate::degrees, "With axis: the angle", unit::degrees},
-             {"around", &Rotate::around, "A point that stays where it is", unit::mm}},
+             {"axis", &Rotate::axis, "Axis to turn about, in place of angles", {}},
+             {"degrees", &Rotate::degrees, "Angle about axis", unit::degrees},
+             {"around", &Rotate::around, "A point that stays in place", unit::mm}},
             one_solid,
             "rotate(axis=z, deg=45) { cube(6, \"red\"); }"};
   }
@@ -116,7 +116,7 @@ struct Mirror : Transform<Mirror> {
     return {"mirror",
             "transforms",
             "Mirrors what is in its braces at a plane through the origin.",
-            {{"normal", &Mirror::normal, "Direction at a right angle to the plane", required()}},
+            {{"normal", &Mirror::normal, "Direction perpendicular to the plane", required()}},
             one_solid,
             "mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};
   }
@@ -142,12 +142,13 @@ struct Matrix : Transform<Matrix> {
   Affine matrix;
 
   static Spec<Matrix> spec() {
-    return {"matrix",
-            "transforms",
-            "Applies an affine map to what is in its braces.",
-            {{"matrix", &Matrix::matrix, "3 or 4 rows of 4 numbers; the last column moves, in mm", required()}},
-            one_solid,
-            "matrix([[1, 0.3, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2]]) { cube(6, \"red\"); }"};
+    return {
+        "matrix",
+        "transforms",
+        "Applies an affine map to what is in its braces.",
+        {{"matrix", &Matrix::matrix, "3 or 4 rows of 4 numbers; the last column is a translation in mm", required()}},
+        one_solid,
+        "matrix([[1, 0.3, 0, 0], [0, 1, 0, 0], [0, 0, 1, 2]]) { cube(6, \"red\"); }"};
   }
 
   bool complete(const Reader& reader) const {

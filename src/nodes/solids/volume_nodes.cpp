@@ -1,4 +1,4 @@
-// Grids of numbers from files, as solids and as values, and numbers as materials.
+// Grids of numbers from files, as solids and values, and numbers as materials.
 #include <algorithm>
 #include <map>
 
@@ -28,20 +28,21 @@ struct VolumeSolid : VolumePlace {
   static Spec<VolumeSolid> spec() {
     std::vector<Parameter<VolumeSolid>> parameters = with_place<VolumeSolid>(
         {{"material", &VolumeSolid::material, "Its material"},
-         {"level", &VolumeSolid::level, "Inside are values of at least this"},
-         {"upper", &VolumeSolid::upper, "Inside are values of at most this too"},
+         {"level", &VolumeSolid::level, "Value at the surface, which is the least one inside"},
+         {"upper", &VolumeSolid::upper, "Greatest value inside"},
          {"label", &VolumeSolid::label,
-          "Inside are the voxels with this number, whole and not interpolated; -1: by level",
+          "Value of the voxels that are inside, without interpolation; -1: the level decides",
           from_to(-1, greatest_label)},
-         {"above", &VolumeSolid::above, "Inside are values above the level; false: those below it"},
-         {"between", &VolumeSolid::between, "Values between voxels' centres", one_of({"linear", "nearest", "cubic"})},
-         {"by", &VolumeSolid::by, "Where the level comes from: it is given, or found by Otsu's method",
+         {"above", &VolumeSolid::above, "Values above the level are inside; false: values below it"},
+         {"between", &VolumeSolid::between, "Interpolation between the centres of voxels",
+          one_of({"linear", "nearest", "cubic"})},
+         {"by", &VolumeSolid::by, "Source of the level: level (as given), or otsu (Otsu's method)",
           one_of({"level", "otsu"})}});
     parameters.emplace_back("segment", &VolumeSolid::segment,
-                            "In place of a label: the name, or the ID, of a segment of a .seg.nrrd file");
+                            "Name or ID of a segment of a .seg.nrrd file, in place of a label");
     return {"volume_solid",
             "imported",
-            "Everything in a grid of numbers (a scan, say) where they reach a level, or where they are a label.",
+            "The region of a grid of numbers (a scan, say) where the numbers reach a level or equal a label.",
             std::move(parameters),
             no_inputs,
             "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};
@@ -90,14 +91,14 @@ struct VolumeSolid : VolumePlace {
     return false;
   }
 
-  // Of the label or segment that is meant; below 0: neither is.
+  // Returns the number of the chosen label or segment, or a negative number if there is none.
   int64_t number() const { return segment.empty() ? label : segment_label; }
 
-  static constexpr int greatest_label = (1 << 24) - 1;  // that floats tell from its neighbours
+  static constexpr int greatest_label = (1 << 24) - 1;  // floats distinguish integers up to this one
 
   int channel() const { return VolumePlace::channel(number() >= 0 ? "nearest" : channel_between(between)); }
 
-  // Values where g is `margin` or less.
+  // Returns the range of values where g is at most `margin`.
   Interval wanted(double margin) const {
     if (const auto wanted = static_cast<double>(number()); wanted >= 0)
       return {wanted - 0.5 - margin, wanted + 0.5 + margin};
@@ -112,23 +113,22 @@ struct Volume : VolumePlace {
   Choice between = "linear";
 
   static Spec<Volume> spec() {
-    return {
-        "volume",
-        "values",
-        "Numbers of a grid from a file (a scan, say), at the place where they are used.",
-        with_place<Volume>({{"outside", &Volume::outside, "The value beyond the grid"},
-                            {"clamp", &Volume::clamp, "Beyond the grid, values are those at its side, not `outside`"},
-                            {"between", &Volume::between, "`value` between the voxels' centres",
-                             one_of({"linear", "nearest", "cubic"})}}),
-        no_inputs,
-        "sphere(8, mix(\"red\", \"blue\", volume(\"models/two_lobes.nrrd\").value / 200));",
-        {{"value", &Volume::value, "Between the voxels' centres as `between` says: linear along each axis, or cubic"},
-         {"nearest", &Volume::nearest, "Of the voxel whose centre is nearest"},
-         {"inside", &Volume::is_inside, "1 in the grid, 0 beyond it", {0, 1}},
-         {"gradient", &Volume::gradient,
-          "How fast the value grows along x, y and z, per mm: of cubic values exactly, else from differences over a "
-          "voxel "
-          "each way"}}};
+    return {"volume",
+            "values",
+            "Numbers of a grid from a file (a scan, say), at the point where they are used.",
+            with_place<Volume>({{"outside", &Volume::outside, "Value outside the grid"},
+                                {"clamp", &Volume::clamp,
+                                 "Continues the values at the grid's sides outside it, in place of `outside`"},
+                                {"between", &Volume::between, "Interpolation of `value` between the centres of voxels",
+                                 one_of({"linear", "nearest", "cubic"})}}),
+            no_inputs,
+            "sphere(8, mix(\"red\", \"blue\", volume(\"models/two_lobes.nrrd\").value / 200));",
+            {{"value", &Volume::value, "The number, interpolated as `between` says"},
+             {"nearest", &Volume::nearest, "The number of the voxel whose centre is nearest"},
+             {"inside", &Volume::is_inside, "1 inside the grid, 0 outside", {0, 1}},
+             {"gradient", &Volume::gradient,
+              "Derivatives of the value along x, y and z, per mm: exact for cubic interpolation, else from differences "
+              "over a voxel each way"}}};
   }
 
   bool complete(const Reader& reader) { return read_volume(reader); }
@@ -187,15 +187,15 @@ struct Transfer {
     Spec<Transfer> spec{
         "transfer",
         "values",
-        "Materials for numbers: a transfer function for scans, or the materials of labels.",
+        "The material for a number: a transfer function for scans, or the materials of labels.",
         {{"value", &Transfer::value, "The number", required()},
-         {"stops", &Transfer::stops, "Pairs of a number and a material, numbers in rising order", required()},
+         {"stops", &Transfer::stops, "Pairs of a number and a material, with numbers in ascending order", required()},
          {"mode", &Transfer::mode,
-          "linear: mixtures between neighbours; step: the last stop at or below the number; label: the stop of that "
-          "number "
-          "alone",
+          "linear: mixtures of neighbouring stops; step: the last stop at or below the number; label: the stop with "
+          "exactly that number",
           one_of({"linear", "step", "label"})},
-         {"otherwise", &Transfer::otherwise, "Of labels without a stop, and below the first step; none: void"}},
+         {"otherwise", &Transfer::otherwise,
+          "Material of labels without a stop, and of numbers below the first step; none: void"}},
         no_inputs,
         "sphere(8, transfer(formula(\"x\"), [[-4, \"red\"], [0, \"clear\"], [4, \"blue\"]]));",
         {{"mixture", &Transfer::mixture, "The material or mixture for the number"}}};

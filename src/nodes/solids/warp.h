@@ -1,4 +1,4 @@
-// Solids whose space is bent. They move the question, as transforms do, by maps that are not affine.
+// Solids in distorted space. Points are mapped as by transforms, but by maps that are not affine.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace ombre::nodes {
 
-// Encloses the points that `inner` asks for those of `where`.
+// Returns a box around the points to which `inner` maps those of `where`.
 template <class T>
 Box query_box(const T& warp, const Box& where) {
   if (where.is_empty()) return where;
@@ -26,15 +26,15 @@ Box query_box(const T& warp, const Box& where) {
   return intersect(box, design::design_space());
 }
 
-// What the family shares. T has
-//   inner(p)        where the child is evaluated
-//   image_of(box)   encloses where the points of the child's box come to lie
-//   stretch_in(box) how many times further than points of the box the points lie at which the child is evaluated, at
-//                   most; infinite where neighbours may be evaluated far apart
-//   warn(...)       tells what is cut off
+// Base of the family. T has these methods:
+// - inner(p) returns the point at which the child is evaluated.
+// - image_of(box) returns a box around the image of the child's box.
+// - stretch_in(box) returns the greatest factor by which `inner` increases distances between points of the box, or
+//   infinity if neighbours may be evaluated far apart.
+// - warn(...) reports what is cut off.
 template <class T>
 struct Warp {
-  Box shape;  // encloses what is inside
+  Box shape;  // encloses the inside
   double stretch = std::numeric_limits<double>::infinity();
 
   bool complete(const design::Reader& reader, const std::vector<design::NodePtr>& inputs) {
@@ -54,8 +54,8 @@ struct Warp {
     return design::Metric::bounded(std::max(1.0, metric.lipschitz));
   }
 
-  // Far from the shape maps may stretch without end, so the child is evaluated at the nearest point of the shape's box;
-  // the way there is a bound as well.
+  // Far from the shape, maps may stretch without limit. The child is therefore evaluated at the nearest point of the
+  // shape's box, and the distance to that box is a lower bound.
   Field distance(const design::Inputs& in, const Point& p) const {
     if (metric(in).is_implicit()) return in.distance(0, self().inner(p));
     const auto clamped = [&](Field v, Interval range) { return min(max(v, range.lo), p.constant(range.hi)); };

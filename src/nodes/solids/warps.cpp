@@ -1,4 +1,4 @@
-// Twisted, tapered and bent solids, and flat ones laid around cylinders and balls.
+// Solids that are twisted, tapered and bent, and flat ones laid around cylinders and balls.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -30,7 +30,7 @@ double greatest(Interval v) { return std::max(std::abs(v.lo), std::abs(v.hi)); }
 double least(Interval v) { return v.lo <= 0 && v.hi >= 0 ? 0 : std::min(std::abs(v.lo), std::abs(v.hi)); }
 double farthest_from_z_axis(const Box& box) { return std::hypot(greatest(box.axis(0)), greatest(box.axis(1))); }
 
-// The greatest factor by which [[a, 0, k], [0, a, 0], [0, 0, 1]] stretches a vector.
+// Returns the greatest factor by which [[a, 0, k], [0, a, 0], [0, 0, 1]] stretches a vector.
 double shear_stretch(double a, double k) {
   const double sum = a * a + k * k + 1;
   return std::sqrt((sum + std::sqrt(std::max(0.0, sum * sum - 4 * a * a))) / 2);
@@ -42,8 +42,8 @@ struct Twist : Warp<Twist> {
   static Spec<Twist> spec() {
     return {"twist",
             "warps",
-            "Turns each cross section of its child about the z axis, the more the higher it lies.",
-            {{"rate", &Twist::rate, "Angle per height, right-handed; at z = 0 nothing turns", required(any("deg/mm"))}},
+            "Turns each cross section of its child about the z axis by an angle proportional to z.",
+            {{"rate", &Twist::rate, "Angle per height, right-handed; nothing turns at z = 0", required(any("deg/mm"))}},
             one_solid,
             "twist(9) { rectprism((6, 6, 20), \"red\"); }"};
   }
@@ -73,15 +73,15 @@ struct Taper : Warp<Taper> {
   double factor = 1, from_z = 0, to_z = 10;
 
   static Spec<Taper> spec() {
-    return {
-        "taper",
-        "warps",
-        "Widens or narrows its child along z, about the z axis.",
-        {{"factor", &Taper::factor, "Scale of x and y at the height to_z, also beyond", required(positive(""))},
-         {"from_z", &Taper::from_z, "Height at which the child is as wide as before, also beyond", unit::mm},
-         {"to_z", &Taper::to_z, "Height at which the factor is reached; between the two it changes evenly", unit::mm}},
-        one_solid,
-        "taper(0.4, -8, 8) { cylinder(5, 16, \"red\"); }"};
+    return {"taper",
+            "warps",
+            "Widens or narrows its child along z, about the z axis.",
+            {{"factor", &Taper::factor, "Factor of x and y at the height to_z and beyond", required(positive(""))},
+             {"from_z", &Taper::from_z, "Height at which the child keeps its width, and beyond", unit::mm},
+             {"to_z", &Taper::to_z, "Height at which the factor is reached; it changes linearly between the two",
+              unit::mm}},
+            one_solid,
+            "taper(0.4, -8, 8) { cylinder(5, 16, \"red\"); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -119,8 +119,8 @@ struct Taper : Warp<Taper> {
   }
 };
 
-// Part of a round band: angles to both sides of where it begins, and radii. Angles beyond half a turn are cut off, and
-// so are radii below 0.
+// A part of an annulus: a range of angles around its beginning, and of radii. Angles beyond half a turn and radii below
+// 0 are cut off.
 struct Band {
   Interval angle, radius;
 
@@ -129,15 +129,15 @@ struct Band {
   bool is_empty() const { return is_none(angle) || is_none(radius); }
 };
 
-// Rings of radius 1 evaluated at this radius are stretched; so much, at most, in a region that lies at least `nearest`
-// away from their centres.
+// Returns the greatest stretch of rings of radius 1 that are evaluated at this radius, in a region that is at least
+// `nearest` away from their centres.
 double band_stretch(double radius, double nearest) { return nearest > 0 ? std::max(1.0, radius / nearest) : infinite; }
 
 void warn_of_cut(const Reader& reader, bool is_cut, const std::string& what, const Phrase& hint) {
   if (is_cut) reader.diagnostics.warning(reader.where, std::string(reader.node) + " cuts off " + what, hint);
 }
 
-// Around what radius parts are laid, for messages.
+// Warns about parts that are cut off when they are laid around a radius.
 void warn_of_band(const Reader& reader, const Box& child, double radius, Interval depth, const std::string& axis) {
   if (child.is_empty()) return;
   const double half_turn = pi * radius * (1 + 1e-9);
@@ -159,8 +159,7 @@ struct Bend : Warp<Bend> {
             "warps",
             "Bends its child in the xz plane: the x axis becomes a circle that begins at the origin.",
             {{"radius", &Bend::radius,
-              "Radius of that circle, whose centre lies at z = radius; negative: below. Lengths stay what they are at "
-              "z = 0",
+              "Radius of that circle, whose centre lies at z = radius; negative: below. Lengths at z = 0 do not change",
               required(unit::mm)}},
             one_solid,
             "bend(12) { rectprism((30, 6, 2), \"red\"); }"};
@@ -213,11 +212,11 @@ struct Remap : Warp<Remap> {
   static Spec<Remap> spec() {
     return {"remap",
             "warps",
-            "Lays a flat child around a cylinder along z, or a ball: its x goes around, its y up, its z outward.",
+            "Lays a flat child around a cylinder along z, or a ball: its x goes around, its y upward, its z outward.",
             {{"to", &Remap::to,
-              "cylinder; or sphere, where x is the way along the equator and y the way from there to the poles",
+              "cylinder; or sphere, with x the length along the equator and y the length from there to the poles",
               one_of({"cylinder", "sphere"})},
-             {"radius", &Remap::radius, "Where z = 0 comes to lie; lengths stay what they are there",
+             {"radius", &Remap::radius, "Radius at which z = 0 lies; lengths do not change there",
               required(unit::positive_mm)}},
             one_solid,
             "remap(radius=10) { rectprism((40, 8, 1), \"red\"); }"};
@@ -286,7 +285,8 @@ Box searched(const Box& where, const Condition& may_reach) {
   return hull_of(boxes);
 }
 
-// Where a formula is constant, what is asked for is flat, and a child's transforms could lose it to rounding.
+// Thickens flat boxes, since transforms of the child could lose them to rounding. Boxes are flat where a formula is
+// constant.
 Box thickened(Box box) {
   for (int axis = 0; axis < 3; ++axis) {
     if (box.lo[axis] != box.hi[axis]) continue;
@@ -305,10 +305,10 @@ struct FormulaWarp {
     return {"warp",
             "warps",
             "Evaluates its child at another point, given by three formulas: at (x*2, y, z), it is half as wide.",
-            {{"x", &FormulaWarp::x, "The coordinate x there, for each point", required(unit::mm)},
-             {"y", &FormulaWarp::y, "The same along y", required(unit::mm)},
-             {"z", &FormulaWarp::z, "The same along z", required(unit::mm)},
-             {"min", &FormulaWarp::min, "Least corner of a box that it is cut to; none: it is not cut", unit::mm},
+            {{"x", &FormulaWarp::x, "Coordinate x of the other point", required(unit::mm)},
+             {"y", &FormulaWarp::y, "Coordinate y of the other point", required(unit::mm)},
+             {"z", &FormulaWarp::z, "Coordinate z of the other point", required(unit::mm)},
+             {"min", &FormulaWarp::min, "Least corner of a box to which it is cut; none: it is not cut", unit::mm},
              {"max", &FormulaWarp::max, "Greatest corner of that box", unit::mm}},
             one_solid,
             "warp(\"x - 1.5*sin(z/2)\", \"y\", \"z\") { cylinder(3, 20, \"red\"); }"};

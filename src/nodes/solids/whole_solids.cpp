@@ -1,4 +1,4 @@
-// Solids that are found by looking at all voxels of another: its parts, its hollows filled, its distance.
+// Solids computed from all voxels of another: its parts, filled hollows, distances.
 #include "base/text/text.h"
 #include "design/spec.h"
 #include "nodes/common/shapes.h"
@@ -22,8 +22,10 @@ struct KeepPartsOf : StagedSolid {
     return {
         "keep_parts",
         "voxel shapes",
-        "Keeps of its child the part that is largest, or those that are large enough, or those at points.",
-        {{"keep", &KeepPartsOf::keep, "Which parts; voxels that touch by a side belong together",
+        "Keeps the largest part of its child, all parts that are large enough, or the parts at given points.",
+        {{"keep", &KeepPartsOf::keep,
+          "Parts to keep: the largest, those above a volume, or those at points. Voxels that share a side belong "
+          "together",
           one_of({"largest", "above", "at"})},
          {"volume", &KeepPartsOf::volume, "Least volume of the parts that are kept by \"above\"", not_negative("mm3")},
          {"at", &KeepPartsOf::at, "A point of the part that is kept by \"at\"", unit::mm},
@@ -69,9 +71,9 @@ struct Redistance {
     return {
         "redistance",
         "voxel shapes",
-        "Gives its child, which only has a sign (a scan, a formula), distances in mm that offset, shell and "
-        "blends can use.",
-        {{"margin", &Redistance::margin, "How far around the child distances are known", positive("mm")},
+        "Gives a child without distances in mm (a scan, a formula) such distances, which offset, shell and blends "
+        "need.",
+        {{"margin", &Redistance::margin, "Distance from the child up to which distances are known", positive("mm")},
          {"pitch", &Redistance::pitch, about_pitch, unit::positive_mm}},
         one_solid,
         "offset(1) redistance(3, pitch=(0.25, 0.25, 0.25)) function(\"x*x + y*y + z*z - 16\", \"red\", min=(-4, -4, "
@@ -88,7 +90,7 @@ struct Redistance {
     const Box box = in.bounds(0, design_space());
     return box.is_empty() ? box : intersect(box.expanded(distance_mm), where);
   }
-  // Farther away the distance to the box around the child is a lower bound.
+  // Farther away, the distance to the box around the child is a lower bound.
   Field distance(const Inputs& in, const Point& p) const {
     const Box box = in.input(0).bounds(design_space());
     if (box.is_empty()) return p.constant(Box::inf);

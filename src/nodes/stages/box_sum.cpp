@@ -11,21 +11,21 @@ namespace {
 using design::StageChannel;
 using design::StageValues;
 
-// Fractions are added as whole numbers, so that sums do not depend on their order.
+// Fractions are added as integers, so that sums do not depend on the order.
 constexpr double fixed_point = 0x1p-24;
 
-// Numbers in a box, x fastest.
+// Numbers in a box, with x varying fastest.
 struct NumberBlock {
   std::array<int64_t, 3> size{};
   std::vector<int64_t> values;
 };
 
-// Sums of `length` neighbours along an axis, by one addition and one subtraction each.
+// Returns sums of `length` neighbours along an axis, by one addition and one subtraction each.
 NumberBlock sums_along(const NumberBlock& block, size_t axis, int64_t length, const StopFlag* stop) {
   NumberBlock made{block.size, {}};
   made.size[axis] -= length - 1;
   made.values.resize(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]));
-  // Lines of numbers that lie side by side are added as a whole.
+  // Adjacent lines of numbers are added together.
   int64_t side = 1;
   for (size_t a = 0; a < axis; ++a) side *= block.size[a];
   const int64_t lines = static_cast<int64_t>(block.values.size()) / (side * block.size[axis]);
@@ -85,7 +85,7 @@ class BoxSumStage final : public design::HaloStage {
     return reach;
   }
 
-  // The read channels are the fractions and then "inside"; void comes first where the solid has it itself.
+  // The channels read are the fractions and then "inside". Void comes first if the solid itself contains it.
   void compute(const StageValues& read, StageValues& made, Vec3, const StopFlag* stop) const override {
     const size_t fractions = read.channels() - 1;
     for (size_t c = 0; c < fractions; ++c) add(read, c, false, made, c, stop);
@@ -100,7 +100,7 @@ class BoxSumStage final : public design::HaloStage {
     return {sum_channel(material), material, 0, false, {0, voxels}};
   }
 
-  // Adds the sums of a channel, or of what it lacks to 1.
+  // Adds the sums of a channel, or of 1 minus the channel.
   void add(const StageValues& read, size_t from, bool is_rest, StageValues& made, size_t to,
            const StopFlag* stop) const {
     const std::vector<float>& values = read.channel(from);
@@ -108,7 +108,7 @@ class BoxSumStage final : public design::HaloStage {
     if (std::ranges::all_of(values, [&](float v) { return v == none; })) return;
     NumberBlock block{{read.box().size(0), read.box().size(1), read.box().size(2)}, {}};
     block.values.reserve(values.size());
-    // Rounded to the nearest: no value is negative.
+    // Rounds to the nearest integer; values are never negative.
     const double scale = is_rest ? -1 / fixed_point : 1 / fixed_point, offset = (is_rest ? 1 / fixed_point : 0) + 0.5;
     for (const float v : values) block.values.push_back(static_cast<int64_t>(scale * static_cast<double>(v) + offset));
     for (size_t axis = 0; axis < 3; ++axis)

@@ -1,4 +1,4 @@
-// Distances to a solid's surface, by sweeping its nearest points from voxel to voxel.
+// Distances to a solid's surface, computed by passing nearest points from voxel to voxel.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -13,14 +13,14 @@ using design::StageValues;
 
 using Place = std::array<float, 3>;  // mm from the first voxel's centre
 
-// Each voxel keeps the nearest point of the surface that it knows of.
+// Keeps for each voxel the nearest known point of the surface.
 class Sweeping {
  public:
   Sweeping(const std::vector<float>& values, const IndexBox& box, Vec3 cell, const StopFlag* stop)
       : cell_(cell), values_(values), stop_(stop) {
     for (size_t a = 0; a < 3; ++a) size_[a] = box.size(static_cast<int>(a));
     step_ = {1, size_[0], size_[0] * size_[1]};
-    // Row by row, since getting so much memory takes its time.
+    // Allocates row by row, so that it can be stopped: so much memory takes time to get.
     nearest_.reserve(values.size());
     for (int64_t row = 0; row < size_[1] * size_[2]; ++row) {
       design::check_stop(stop);
@@ -29,7 +29,7 @@ class Sweeping {
     each_cell([&](const Cell& at, size_t n) { begin(at, n); });
   }
 
-  // Twice in each of the eight directions.
+  // Sweeps twice in each of the eight directions.
   void run(const design::StageWork& work) {
     constexpr int rounds = 2, directions = 8;
     for (int n = 0; n < rounds * directions; ++n) {
@@ -75,9 +75,9 @@ class Sweeping {
     return sum;
   }
 
-  // Beside the surface the plane through its crossings with the lattice's lines has the nearest point.
+  // Next to the surface, the nearest point is that of the plane through the surface's intersections with lattice lines.
   void begin(const Cell& at, size_t n) {
-    Vec3 slope;  // of the plane: 1 over the way to the crossing along each axis
+    Vec3 slope;  // slope of the plane: 1 over the distance to the intersection along each axis
     for (size_t axis = 0; axis < 3; ++axis) {
       const double way = way_to_crossing(at, n, axis);
       if (way != 0) slope[static_cast<int>(axis)] = 1 / way;
@@ -89,9 +89,9 @@ class Sweeping {
     nearest_[n] = found;
   }
 
-  // With its sign; 0 where the neighbours are on the same side.
+  // Returns the signed distance to the intersection, or 0 if the neighbours are on the same side.
   double way_to_crossing(const Cell& at, size_t n, size_t axis) const {
-    constexpr double least = 1e-6;  // of a cell: a surface through the centre
+    constexpr double least = 1e-6;  // least distance in cells, for a surface through the centre
     double nearest = 0;
     for (const int side : {-1, 1}) {
       const int64_t next = at[axis] + side;
@@ -115,7 +115,7 @@ class Sweeping {
       }
   }
 
-  // Near the surface also of neighbours that touch by edges and corners: one point for each voxel lies sparsely there.
+  // Near the surface, neighbours across edges and corners are used, too, since one point per voxel is sparse there.
   void update(const Cell& at) {
     constexpr double near_cells = 3;
     constexpr size_t beside = 6;
@@ -144,7 +144,7 @@ class Sweeping {
 
   static double square(double v) { return v * v; }
 
-  // Those that touch by sides come first.
+  // Neighbours across sides come first.
   static std::vector<Cell> make_neighbours() {
     std::vector<Cell> ways;
     for (const int64_t sides : {1, 2, 3})

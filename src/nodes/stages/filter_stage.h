@@ -1,4 +1,4 @@
-// What stages that filter a solid's voxels have in common.
+// Base of stages that filter a solid's voxels.
 #pragma once
 
 #include "nodes/common/filter_stages.h"
@@ -6,8 +6,8 @@
 
 namespace ombre::nodes {
 
-// Reads fractions, attributes and "inside", in this order, as far as they are filtered, and gives channels in the order
-// materials, "share", attributes.
+// Reads fractions, attributes and "inside", in this order, as far as they are filtered. Its channels are the materials,
+// "share" and the attributes.
 class FilterStage : public design::HaloStage {
  public:
   FilterStage(const design::NodePtr& solid, FilterUse use) : solid_(solid), use_(std::move(use)) {}
@@ -24,13 +24,13 @@ class FilterStage : public design::HaloStage {
   const FilterUse& use() const { return use_; }
   Hash hash_with(const std::string& key) const;
 
-  // Numbers of channels.
+  // These functions return numbers of channels.
   size_t fractions(const design::StageValues& read) const { return read.channels() - 1 - use_.attributes.size(); }
   size_t attribute(const design::StageValues& read, size_t n) const { return fractions(read) + n; }
   static size_t inside(const design::StageValues& read) { return read.channels() - 1; }
   size_t made_share(const design::StageValues& made) const { return made.channels() - 1 - use_.attributes.size(); }
   size_t made_attribute(const design::StageValues& made, size_t n) const { return made_share(made) + 1 + n; }
-  // Void is a solid's first material, where it has void itself, and else comes after its materials.
+  // Void is the solid's first material if the solid contains void; otherwise it comes after the materials.
   size_t made_void(const design::StageValues& read, const design::StageValues& made) const {
     return made_share(made) == fractions(read) ? 0 : fractions(read);
   }

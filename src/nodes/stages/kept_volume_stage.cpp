@@ -1,4 +1,4 @@
-// A solid smoothed by a filter, whose volume stays.
+// A solid that is smoothed by a filter without changing its volume.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using design::StageValues;
 
-// The filter's sums over all cells; beyond them nothing is inside. Cells that are computed together lie in a slab.
+// Computes the filter's sums over all cells. Beyond the cells everything is outside. Cells are processed in slabs.
 class FilteredCells {
  public:
   FilteredCells(const LinearFilter& filter, const StageValues& read, std::vector<float>& sums)
@@ -34,7 +34,7 @@ class FilteredCells {
   }
 
  private:
-  // So many that what is read around a slab is no more than the slab.
+  // Returns the thickness of a slab, chosen so that the layers read around it are no more than the slab itself.
   int64_t slab_layers() const {
     constexpr int64_t least = 8;
     return std::max(least, filter_.below()[2] + filter_.above()[2]);
@@ -65,9 +65,9 @@ class FilteredCells {
   const IndexBox box_;
 };
 
-// Number `rank` of the values, none of which is negative, from the greatest down; 0 is the greatest.
+// Returns the value with the given rank in descending order; rank 0 is the greatest. No value may be negative.
 float ranked_value(const std::vector<float>& values, size_t rank) {
-  // The bits of such floats are in the order of the floats: first the upper half of the bits is found, then the lower.
+  // Bits of non-negative floats sort like the floats: finds the upper half of the bits first, then the lower.
   constexpr uint32_t half = 16, lowest = (1U << half) - 1;
   uint32_t upper = 0;
   for (const bool is_lower : {false, true}) {
@@ -85,8 +85,8 @@ float ranked_value(const std::vector<float>& values, size_t rank) {
   return 0;
 }
 
-// The level that as many of the values lie above as `wanted`, or, where several are equal there, as near that as can
-// be. No value is equal to it.
+// Returns a level above which lie `wanted` values, or as close to that number as equal values allow. No value equals
+// the level.
 float level_above(const std::vector<float>& values, size_t wanted) {
   const float last = ranked_value(values, wanted - 1);
   size_t above = 0, equal = 0;

@@ -30,7 +30,7 @@ class LinearStage final : public FilterStage {
         filter, stop, read, [&](size_t n) { return inside[n]; }, share);
     for (size_t c = 0; c < fractions(read); ++c) {
       const std::vector<float>& fraction = read.channel(c);
-      // Where there is one material alone its sums are those of "inside".
+      // If there is only one material, its sums are those of "inside".
       if (fraction == inside)
         made.channel(c) = share;
       else
@@ -73,7 +73,7 @@ class LinearStage final : public FilterStage {
       made[n] = static_cast<float>(static_cast<double>(made[n]) + sums.values[n]);
   }
 
-  // The sum of one voxel stands for all of them where all that is read is alike.
+  // If all values that are read are equal, the sum of one voxel is used for all.
   static void add_same(const LinearFilter& filter, double value, std::vector<float>& made) {
     if (value == 0) return;
     NumberGrid grid;

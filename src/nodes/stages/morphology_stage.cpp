@@ -10,13 +10,13 @@ namespace {
 using design::StageValues;
 using Flags = std::vector<uint8_t>;
 
-// A row of the ball: its place beside the middle, and how far it reaches along x, both ways.
+// A row of the ball: its offset from the centre, and its extent along x in both directions.
 struct BallRow {
   int64_t j = 0, k = 0, half = 0;
 };
 
 struct Ball {
-  std::array<int64_t, 3> radius{};  // cells
+  std::array<int64_t, 3> radius{};  // radius along each axis in cells
   std::vector<BallRow> rows;
 };
 
@@ -35,18 +35,20 @@ Ball make_ball(double radius_mm, Vec3 cell_mm) {
   return ball;
 }
 
-// Flags in a box of cells, x fastest.
+// Flags in a box of cells, with x varying fastest.
 struct FlagGrid {
   std::array<int64_t, 3> size{};
   Flags flags;
 };
 
-// Flags of cells near which a cell has the mark `wanted`; the result is smaller by the ball's radius on each side.
+// Flags the cells within the ball of a cell with the value `wanted`. The result is smaller than the grid by the ball's
+// radius on each side.
 FlagGrid near(const FlagGrid& grid, const Ball& ball, uint8_t wanted, const StopFlag* stop) {
   FlagGrid made;
   for (size_t axis = 0; axis < 3; ++axis) made.size[axis] = grid.size[axis] - 2 * ball.radius[axis];
   made.flags.assign(static_cast<size_t>(made.size[0] * made.size[1] * made.size[2]), 0);
-  std::vector<int64_t> before(static_cast<size_t>(grid.size[0]) + 1);  // wanted cells of a row before each
+  // For each cell of a row, the number of wanted cells before it.
+  std::vector<int64_t> before(static_cast<size_t>(grid.size[0]) + 1);
   for (int64_t k = 0; k < made.size[2]; ++k)
     for (int64_t j = 0; j < made.size[1]; ++j) {
       design::check_stop(stop);

@@ -1,4 +1,4 @@
-// Connected parts of a solid, and its hollows, by runs of voxels.
+// Connected parts of a solid and its hollows, found from runs of voxels.
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +10,13 @@ namespace {
 
 using design::StageValues;
 
-// Voxels [begin, end) of a row.
+// The voxels [begin, end) of a row.
 struct AlikeRun {
   int64_t begin = 0, end = 0;
-  size_t parent = 0;  // of the tree whose root stands for its part; a part's first run
+  size_t parent = 0;  // parent in a tree whose root, the part's first run, represents the part
 };
 
-// The runs of voxels with one mark, joined where they touch by their sides.
+// The runs of voxels with the same flag, joined where they share sides.
 class AlikeRuns {
  public:
   AlikeRuns(const std::vector<float>& flags, const IndexBox& box, bool wanted, const StopFlag* stop) : box_(box) {
@@ -41,14 +41,14 @@ class AlikeRuns {
   size_t rows() const { return first_.size() - 1; }
   size_t first(size_t row) const { return first_[row]; }
 
-  // Voxels of each part, at its root.
+  // Returns the number of voxels of each part, stored at its root.
   std::vector<int64_t> sizes() const {
     std::vector<int64_t> sizes(runs_.size(), 0);
     for (size_t n = 0; n < runs_.size(); ++n) sizes[root(n)] += runs_[n].end - runs_[n].begin;
     return sizes;
   }
 
-  // The root of the part that holds the voxel; nothing where none does.
+  // Returns the root of the part that contains the voxel, or nothing.
   std::optional<size_t> part_at(const std::array<int64_t, 3>& cell) const {
     for (size_t a = 0; a < 3; ++a)
       if (cell[a] < box_.lo[a] || cell[a] >= box_.hi[a]) return std::nullopt;
@@ -82,7 +82,7 @@ class AlikeRuns {
     }
   }
 
-  // The root is the part's first run; paths are halved on the way.
+  // Joins two parts. The root is the part's first run; paths are halved on the way.
   void unite(size_t a, size_t b) {
     const auto shortened = [&](size_t n) {
       while (runs_[n].parent != n) n = runs_[n].parent = runs_[runs_[n].parent].parent;
@@ -94,7 +94,7 @@ class AlikeRuns {
 
   IndexBox box_;
   std::vector<AlikeRun> runs_;
-  std::vector<size_t> first_;  // run of each row, and behind them the count
+  std::vector<size_t> first_;  // first run of each row, and the total number of runs
 };
 
 double cell_volume(const design::StageLattice& lattice) {
@@ -119,7 +119,7 @@ class FlagStage : public design::WholeStage {
 
   Box bounds() const override { return solid_->bounds(design::design_space()); }
   design::LatticeChoice lattice() const override { return {cell_mm_, false}; }
-  double bytes_of_cell() const override { return sizeof(AlikeRun); }  // at most half as many runs as cells
+  double bytes_of_cell() const override { return sizeof(AlikeRun); }  // there are at most half as many runs as cells
   std::vector<design::StageRead> reads() const override {
     design::StageRead read;
     read.solid = solid_;
@@ -208,7 +208,7 @@ class FillStage final : public FlagStage {
   }
 
  private:
-  // What reaches a side of the box is no hollow.
+  // Unmarks hollows that reach a side of the box, since they are open.
   static void leave_open(const AlikeRuns& runs, const IndexBox& box, std::vector<char>& filled) {
     const int64_t ny = box.size(1), nz = box.size(2);
     for (size_t row = 0; row < runs.rows(); ++row) {

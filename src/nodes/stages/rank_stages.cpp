@@ -1,4 +1,4 @@
-// Filters that choose one of the values in a box of voxels.
+// Filters that select one of the values in a box of voxels.
 #include <algorithm>
 
 #include "nodes/stages/filter_stage.h"
@@ -39,7 +39,7 @@ class BoxStage : public FilterStage {
         }
   }
 
-  // The places in `read` of the voxels in the box around a cell.
+  // Visits the positions in `read` of the voxels in the box around a cell.
   template <class Visit>
   void each_near(const StageValues& read, const Cell& cell, const Visit& visit) const {
     const Reach reach = this->reach({});
@@ -63,7 +63,7 @@ class MajorityStage final : public BoxStage {
   void compute(const StageValues& read, StageValues& made, Vec3, const StopFlag* stop) const override {
     const size_t count = fractions(read) + (use().count_void ? 1 : 0);
     const std::vector<float>& inside = read.channel(FilterStage::inside(read));
-    // Sums are taken in double precision and in one order.
+    // Sums are computed in double precision and always in the same order.
     std::vector<double> sums(count);
     each_cell(made.box(), stop, [&](const Cell& cell, size_t n) {
       std::ranges::fill(sums, 0.0);

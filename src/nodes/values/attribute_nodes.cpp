@@ -1,4 +1,4 @@
-// Named values that solids carry besides their material.
+// Named values that solids have besides their material.
 #include <algorithm>
 #include <cmath>
 
@@ -37,28 +37,29 @@ struct Attribute {
   std::optional<double> default_value;
   Choice overlap = "first";
   Choice type = "auto";
-  std::vector<std::pair<std::string, MaterialId>> held;  // materials of a mixture, found when the node is made
+  std::vector<std::pair<std::string, MaterialId>> held;  // materials of a mixture, set when the node is made
 
   static Spec<Attribute> spec() {
-    return {"attribute",
-            "attributes",
-            "Gives its child a named value, constant or by a formula: a number such as a density, a vector, a colour "
-            "or a mixture of materials.",
-            {{"name", &Attribute::name, "Its name; standard names such as modulus have a unit and a range", required()},
-             {"value", &Attribute::value,
-              "A number or an expression; three for a vector, four or \"#rrggbb\" for a colour, a material or a value "
-              "for a mixture. In expressions d is the signed distance of the child, t the place along its struts, and "
-              "attributes of the child are called by their names",
-              required(over_child())},
-             {"unit", &Attribute::unit_text, "Its unit, for whoever reads it; that of a standard name is known"},
-             {"default", &Attribute::default_value, "Its value where no solid gives one"},
-             {"overlap", &Attribute::overlap,
-              "How values combine where solids overlap, number by number; mix weighs them in blends",
-              one_of({overlap_names.begin(), overlap_names.end()})},
-             {"type", &Attribute::type, "What it is; auto: as the value says, or the standard name",
-              one_of({"auto", "number", "vector", "colour", "mixture"})}},
-            one_solid,
-            "attribute(\"modulus\", \"1000 + 100*z\") { cube(10); }"};
+    return {
+        "attribute",
+        "attributes",
+        "Gives its child a named value, constant or by a formula: a number such as a density, a vector, a colour "
+        "or a mixture of materials.",
+        {{"name", &Attribute::name, "Its name; standard names such as modulus have a unit and a range", required()},
+         {"value", &Attribute::value,
+          "A number or an expression; three of them for a vector, four or \"#rrggbb\" for a colour; a material or a "
+          "value for a mixture. In expressions d is the signed distance of the child and t the position along its "
+          "struts; its attributes are available by name",
+          required(over_child())},
+         {"unit", &Attribute::unit_text, "Its unit, as information for users of the value; standard names have one"},
+         {"default", &Attribute::default_value, "Its value where no solid sets it"},
+         {"overlap", &Attribute::overlap,
+          "Rule that combines values where solids overlap, number by number; mix weights them in blends",
+          one_of({overlap_names.begin(), overlap_names.end()})},
+         {"type", &Attribute::type, "Its type; auto: that of the value, or of the standard name",
+          one_of({"auto", "number", "vector", "colour", "mixture"})}},
+        one_solid,
+        "attribute(\"modulus\", \"1000 + 100*z\") { cube(10); }"};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -79,7 +80,7 @@ struct Attribute {
     return declared;
   }
 
-  // Attributes of other names come from the child.
+  // Other attributes come from the child.
   Field attribute(const Inputs& in, std::string_view wanted, const Point& p, Demand demand) const {
     if (attribute_of_part(wanted) != name) return in.attribute(0, wanted, p, demand);
     if (value.type == ValueType::mixture) return fraction(in, wanted, p);
@@ -103,7 +104,7 @@ struct Attribute {
     return true;
   }
 
-  // Makes the value what the type or the standard name says, where that has one meaning.
+  // Converts the value to the type of `type` or of the standard name, if the conversion is unambiguous.
   bool become_wanted(const StandardAttribute* standard, const Reader& reader) {
     if (standard && type != "auto" && type_called(type) != standard->type)
       return fail_type("the attribute \"" + name + "\" is " + with_article(standard->type) + ", not " +
@@ -133,7 +134,8 @@ struct Attribute {
     return false;
   }
 
-  // A unit of one's own is kept, since older designs have some; then nothing is known of the range.
+  // Takes the unit, range and default of a standard attribute. A different unit is kept with a warning, since older
+  // designs have some; then the range is unknown.
   void take_standard(const StandardAttribute* standard, const Reader& reader) {
     if (!default_value) default_value = standard ? standard->default_value : 0;
     if (!standard) return;
@@ -162,7 +164,7 @@ struct Attribute {
       held.emplace_back(reader.materials.all()[id].name, id);
   }
 
-  // Of the material that the part names.
+  // Returns the fraction of the material that the part names.
   Field fraction(const Inputs& in, std::string_view part, const Point& p) const {
     const std::string_view material = part.substr(std::min(part.size(), name.size() + 1));
     for (const auto& [id, share] : in.composition_of(value.mixture, p).fractions)

@@ -1,4 +1,4 @@
-// What solids are made of, and their attributes, as values.
+// Compositions and attributes of solids as values.
 #include <algorithm>
 
 #include "base/text/text.h"
@@ -25,23 +25,23 @@ void add_void(Composition& made, Field share) {
 struct AttributeOf {
   SolidName solid;
   std::string name;
-  AttributeDeclaration declared;                           // found when the node is made
-  std::vector<std::pair<MaterialId, std::string>> shares;  // of a mixture: its materials, and their numbers' names
+  AttributeDeclaration declared;                           // set when the node is made
+  std::vector<std::pair<MaterialId, std::string>> shares;  // materials of a mixture with the names of their numbers
 
   static Spec<AttributeOf> spec() {
-    return {
-        "attribute_of",
-        "values",
-        "An attribute of a solid, at the place where the value is used; outside of the solid, the attribute's default.",
-        {{"solid", &AttributeOf::solid, "The solid that has the attribute", required()},
-         {"name", &AttributeOf::name, "Of the attribute, or of one of its numbers such as \"fibre.x\"", required()}},
-        no_inputs,
-        "cube(9, mix(\"red\", \"blue\", attribute_of(attribute(\"hardness\", \"x/9 + 0.5\", cube(9)), "
-        "\"hardness\")));",
-        {{"value", &AttributeOf::value, "Of a number, the number; of a label, its number"},
-         {"vector", &AttributeOf::vector, "Of a vector or colour: x, y, z or red, green, blue"},
-         {"alpha", &AttributeOf::alpha, "Of a colour"},
-         {"mixture", &AttributeOf::mixture, "Of a mixture; where the solid is not, the void"}}};
+    return {"attribute_of",
+            "values",
+            "An attribute of a solid at the point where the value is used; outside the solid, the attribute's default.",
+            {{"solid", &AttributeOf::solid, "The solid that has the attribute", required()},
+             {"name", &AttributeOf::name, "Name of the attribute, or of one of its numbers such as \"fibre.x\"",
+              required()}},
+            no_inputs,
+            "cube(9, mix(\"red\", \"blue\", attribute_of(attribute(\"hardness\", \"x/9 + 0.5\", cube(9)), "
+            "\"hardness\")));",
+            {{"value", &AttributeOf::value, "Value of a number attribute; for a label, its number"},
+             {"vector", &AttributeOf::vector, "Numbers of a vector (x, y, z) or colour (red, green, blue)"},
+             {"alpha", &AttributeOf::alpha, "Opacity of a colour"},
+             {"mixture", &AttributeOf::mixture, "Value of a mixture attribute; void outside the solid"}}};
   }
 
   bool complete(const Reader& reader) {
@@ -84,7 +84,7 @@ struct AttributeOf {
   }
 
  private:
-  // Is the whole attribute asked for, and is it of this type?
+  // True if the whole attribute is wanted and has this type.
   bool is(ValueType type) const { return declared.type == type && name == declared.name; }
   Field part(const Ask& ask, size_t n) const { return number(ask, parts_of(declared)[n]); }
   Field number(const Ask& ask, std::string_view which) const {
@@ -104,18 +104,18 @@ struct AttributeOf {
 struct CompositionOf {
   SolidName solid;
   std::string of;
-  MaterialId wanted = no_material;  // found when the node is made
+  MaterialId wanted = no_material;  // set when the node is made
 
   static Spec<CompositionOf> spec() {
     return {"composition_of",
             "values",
-            "What a solid is made of, at the place where the value is used; outside of the solid, the void.",
+            "The composition of a solid at the point where the value is used; outside the solid, void.",
             {{"solid", &CompositionOf::solid, "The solid", required()},
-             {"of", &CompositionOf::of, "The material whose share is wanted; none: the mixture of all"}},
+             {"of", &CompositionOf::of, "Material whose share is wanted; none: the mixture of all"}},
             no_inputs,
             "cube(9, composition_of(fgrade([\"x/9 + 0.5\", \"0.5 - x/9\"], [\"red\", \"blue\"], cube(9))));",
-            {{"mixture", &CompositionOf::mixture, "Its materials"},
-             {"share", &CompositionOf::share, "Of the material, from 0 to 1", Interval(0, 1)}}};
+            {{"mixture", &CompositionOf::mixture, "The mixture of its materials"},
+             {"share", &CompositionOf::share, "Share of the material, from 0 to 1", Interval(0, 1)}}};
   }
 
   bool complete(const Reader& reader) {

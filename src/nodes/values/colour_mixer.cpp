@@ -12,8 +12,8 @@
 namespace ombre::nodes {
 namespace {
 
-// Of the vectors' span, those whose product with one of them is 1 and with the others 0; nothing where they are
-// dependent.
+// Returns vectors in the span of the given ones, each of which has product 1 with one of them and 0 with the others.
+// Returns nothing if the given ones are linearly dependent.
 std::optional<std::vector<Vec3>> dual_basis(const std::vector<Vec3>& e) {
   constexpr double least = 1e-12;  // squared lengths, areas and volumes of colours
   if (e.empty()) return std::vector<Vec3>{};

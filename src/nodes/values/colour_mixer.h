@@ -1,10 +1,10 @@
-// Mixtures of materials that show a colour.
+// Mixtures of materials that show a given colour.
 //
-// Small droplets side by side look like the mean of their light, so what materials can show together is the convex hull
-// of their colours in linear light. Of the mixtures that show a colour, the one is taken in which brightness varies
-// least from droplet to droplet (D. Shaked, N. Arad, A. Fitzhugh and I. Sobel, "Color Diffusion: Error-Diffusion for
-// Color Halftones", HP Laboratories 1996). Colours beyond the hull give way to the nearest of the hull, in linear
-// light.
+// Small droplets side by side look like the mean of their light. The colours that materials can show together are
+// therefore the convex hull of their colours in linear light. Of the mixtures with a given colour, the one with the
+// least variation of brightness between droplets is chosen (D. Shaked, N. Arad, A. Fitzhugh and I. Sobel, "Color
+// Diffusion: Error-Diffusion for Color Halftones", HP Laboratories 1996). Colours outside the hull are replaced by its
+// nearest colour in linear light.
 #pragma once
 
 #include <vector>
@@ -18,15 +18,15 @@ class ColourMixer {
  public:
   static constexpr size_t most_materials = 12;
 
-  // Red, green and blue in linear light, 0 to 1, of 1 to `most_materials` materials.
+  // `colours` are red, green and blue in linear light, 0 to 1, of 1 to `most_materials` materials.
   explicit ColourMixer(std::vector<Vec3> colours);
 
-  // A share for each material, together 1, for a colour in linear light.
+  // Returns a share for each material, with a sum of 1, for a colour in linear light.
   std::vector<double> shares(Vec3 colour) const;
 
  private:
-  // One to four materials, whose colours lie on no point, line or plane of fewer. Where `origin` is the first's colour,
-  // the shares of the others are the products of `slopes` with what is left of a colour.
+  // One to four materials whose colours are affinely independent. Relative to the first one's colour, the shares of the
+  // others are the products of `slopes` with a colour.
   struct Group {
     std::vector<size_t> members;
     std::vector<Vec3> slopes;
@@ -37,8 +37,8 @@ class ColourMixer {
   std::vector<Group> groups_;
 };
 
-// The mixer's shares over sRGB colours from 0 to 1: the channels "0", "1", ... of a table with 33 colours each way, and
-// straight between them.
+// Returns a table of the mixer's shares over sRGB colours from 0 to 1, with the channels "0", "1", ... It has 33
+// colours along each axis, with linear interpolation between them.
 program::SourceField make_colour_table(const ColourMixer& mixer, size_t materials);
 
 }  // namespace ombre::nodes

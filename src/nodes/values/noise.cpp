@@ -1,10 +1,10 @@
 // Gradient noise as a value.
 //
-// Ken Perlin, "Improving Noise", SIGGRAPH 2002: in each corner of a lattice stands one of twelve gradients, and a point
-// gets the mean of the eight linear functions around it, with weights whose first and second derivatives are 0 in the
-// corners. The corners' gradients come from the permutation polynomial (34 v + 1) v mod 289 of McEwan, Sheets,
-// Richardson and Gustavson, "Efficient computational noise in GLSL", Journal of Graphics Tools 16, 2012: its whole
-// numbers stay below 2^24, so that single precision holds them and every evaluator finds the same gradients.
+// Ken Perlin, "Improving Noise", SIGGRAPH 2002: each lattice corner has one of twelve gradients. A point gets the
+// weighted mean of the eight linear functions around it, with weights whose first and second derivatives are 0 at the
+// corners. Gradients are chosen by the permutation polynomial (34 v + 1) v mod 289 of McEwan, Sheets, Richardson and
+// Gustavson, "Efficient computational noise in GLSL", Journal of Graphics Tools 16, 2012. Its integers stay below 2^24,
+// so that single precision is exact and every evaluator finds the same gradients.
 #include <array>
 #include <cmath>
 
@@ -18,31 +18,31 @@ namespace {
 using namespace design;
 using program::Op;
 
-constexpr double noise_period = 289;  // cells
-// The greatest sum that twelve gradients can make: near (0.355, 0.481, 0.5) of a cell, when each corner has its best.
+constexpr double noise_period = 289;  // number of cells after which the noise repeats
+// The greatest possible sum of the gradients, near (0.355, 0.481, 0.5) of a cell, if each corner has its best gradient.
 constexpr double noise_peak = 1.0363538112118031;
 
-// Exact for whole numbers from 0 to 2^24, also in single precision.
+// Exact for integers from 0 to 2^24, also in single precision.
 Field remainder(Field v, double divisor) { return v - v.builder->apply(Op::floor, v / divisor) * divisor; }
 
-// Also of -v, which is the same class of remainders.
+// Returns the permutation of v. Any integer gives the same result as its remainder, negative ones included.
 Field permuted(Field v) { return remainder((v * 34 + 1) * v, noise_period); }
 
 Field mixed(Field a, Field b, Field weight) { return a + weight * (b - a); }
 
-using Corners = std::array<Field, 8>;  // by x + 2 y + 4 z
+using Corners = std::array<Field, 8>;  // values of the eight corners, indexed by x + 2 y + 4 z
 
-// A coordinate in cells.
+// A coordinate in units of cells.
 struct CellAxis {
-  std::array<Field, 2> corner;  // whole numbers
-  std::array<Field, 2> from;    // the way from each corner
-  Field weight, slope;          // of the upper corner, and how fast that grows
+  std::array<Field, 2> corner;  // integers
+  std::array<Field, 2> from;    // distance from each corner
+  Field weight, slope;          // weight of the upper corner, and its derivative
 
-  // `period`: after so many cells it repeats.
+  // Repeats after `period` cells.
   CellAxis(Field at, double offset, double period) {
     program::Builder& builder = *at.builder;
     const Field cell = builder.apply(Op::floor, at);
-    // The bounds are for intervals, which see no more than that both may be anything.
+    // The bounds inform intervals, which cannot see how `at` and `cell` are related.
     const Field t = min(max(at - cell, 0.0), builder.constant(1));
     if (period == noise_period) {
       corner[0] = remainder(cell + offset, noise_period);
@@ -65,33 +65,32 @@ struct Noise {
   double gain = 0.5, lacunarity = 2;
   bool turbulence = false;
   int period = 0;
-  program::SourceField source;  // of the kinds that are no formulas, made when the node is made
+  program::SourceField source;  // source of kinds without a formula; made with the node
 
   static Spec<Noise> spec() {
-    return {
-        "noise",
-        "values",
-        "Smooth random values, which vary over lengths of its size. The same seed gives the same values.",
-        {{"size", &Noise::size, "How far it is from one random gradient to the next", unit::positive_mm},
-         {"seed", &Noise::seed, "Whole number that tells noises apart", from_to(0, 1e9)},
-         {"kind", &Noise::kind,
-          "gradient (Perlin's), simplex (with less of a grid), or cellular (the distance to the nearest of scattered "
-          "points)",
-          one_of({"gradient", "simplex", "cellular"})},
-         {"octaves", &Noise::octaves, "How many noises are summed, each finer and weaker than the one before",
-          from_to(1, 12)},
-         {"gain", &Noise::gain, "How strong each is beside the one before", from_to(0, 1)},
-         {"lacunarity", &Noise::lacunarity, "How many times as fine each is", from_to(1, 8)},
-         {"turbulence", &Noise::turbulence, "Sum how far noises are from their mean, which gives creases"},
-         {"period", &Noise::period,
-          "Number of sizes after which it repeats along x, y and z, so that tiles fit; 0: 289 for gradient noise, none "
-          "for others",
-          from_to(0, 289)}},
-        no_inputs,
-        "sphere(8 + 2*noise(size=4));",
-        {{"value", &Noise::value, "From 0 to 1, 0.5 on the average (without turbulence, and not cellular)",
-          Interval(0, 1)},
-         {"slope", &Noise::slope, "How fast the value grows along x, y and z, in 1/mm; of gradient noise"}}};
+    return {"noise",
+            "values",
+            "Smooth random values that vary over lengths of about its size. The same seed gives the same values.",
+            {{"size", &Noise::size, "Distance from one random gradient to the next", unit::positive_mm},
+             {"seed", &Noise::seed, "Whole number that selects the noise", from_to(0, 1e9)},
+             {"kind", &Noise::kind,
+              "gradient (Perlin's), simplex (whose grid is less visible), or cellular (the distance to the nearest of "
+              "scattered points)",
+              one_of({"gradient", "simplex", "cellular"})},
+             {"octaves", &Noise::octaves, "Number of noises that are summed, each finer and weaker than the one before",
+              from_to(1, 12)},
+             {"gain", &Noise::gain, "Strength of each noise relative to the one before", from_to(0, 1)},
+             {"lacunarity", &Noise::lacunarity, "Fineness of each noise relative to the one before", from_to(1, 8)},
+             {"turbulence", &Noise::turbulence, "Sums the noises' distances from their mean, which gives creases"},
+             {"period", &Noise::period,
+              "Number of sizes after which it repeats along x, y and z, so that tiles match; 0: 289 for gradient "
+              "noise, none for others",
+              from_to(0, 289)}},
+            no_inputs,
+            "sphere(8 + 2*noise(size=4));",
+            {{"value", &Noise::value,
+              "Number from 0 to 1; 0.5 on average, except with turbulence and for cellular noise", Interval(0, 1)},
+             {"slope", &Noise::slope, "Derivatives of gradient noise along x, y and z, in 1/mm"}}};
   }
 
   bool complete(const Reader& reader) {
@@ -147,7 +146,7 @@ struct Noise {
 
   double size_of(int n) const { return n == 0 ? size : size / std::pow(lacunarity, n); }
   double period_of(int n) const { return period == 0 ? noise_period : std::round(period * std::pow(lacunarity, n)); }
-  // Of an octave's weight in the sum of all.
+  // Returns an octave's share of the total weight.
   double share(int n) const {
     double sum = 0;
     for (int k = 0; k < octaves; ++k) sum += std::pow(gain, k);
@@ -161,8 +160,8 @@ struct Noise {
 
   struct Lattice {
     std::array<CellAxis, 3> axes;
-    std::array<Corners, 3> gradients;  // by axis
-    Corners heights;                   // of the corners' linear functions at the point
+    std::array<Corners, 3> gradients;  // gradients at the corners, by axis
+    Corners heights;                   // values of the corners' linear functions at the point
 
     Lattice(const Noise& noise, const Point& p, int octave)
         : axes{axis_of(noise, p.x, 0, octave), axis_of(noise, p.y, 1, octave), axis_of(noise, p.z, 2, octave)} {
@@ -176,7 +175,8 @@ struct Noise {
     void add_corner(size_t n, size_t i, size_t j, size_t k) {
       const Field in_row = permuted(axes[0].corner[i]), in_layer = permuted(in_row + axes[1].corner[j]);
       const Field direction = remainder(permuted(in_layer + axes[2].corner[k]), 12);
-      // Along two of the axes it is 1 or -1, along the third 0: x and y for 0 to 3, x and z to 7, y and z to 11.
+      // A gradient is 1 or -1 along two axes and 0 along the third. Directions 0 to 3 use x and y, 4 to 7 use x and z,
+      // 8 to 11 use y and z.
       const Field in_xy = direction < 4, in_x = direction < 8, zero = direction.builder->constant(0);
       const Field first = 1 - 2.0 * remainder(direction, 2);
       const Field second = 1 - 2.0 * less_equal(direction.builder->constant(2), remainder(direction, 4));
@@ -195,7 +195,7 @@ struct Noise {
                  lattice.axes[2].weight);
   }
 
-  // The heights of the upper corners along an axis over those of the lower ones.
+  // Returns the interpolated difference between upper and lower corners along an axis.
   static Field rise(const Lattice& lattice, size_t axis) {
     const size_t step = size_t{1} << axis;
     Corners rises;
@@ -203,7 +203,7 @@ struct Noise {
     return trilinear(lattice, rises);
   }
 
-  // A seed moves the lattice by whole cells; each octave has its own.
+  // A seed moves the lattice by whole cells, differently for each octave.
   double offset(int axis, int n) const {
     // SplitMix64 of Steele, Lea and Flood, 2014.
     uint64_t z = static_cast<uint64_t>(seed) + static_cast<uint64_t>(n + 1) * 0x9E3779B97F4A7C15u;

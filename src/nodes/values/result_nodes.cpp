@@ -12,7 +12,7 @@ namespace {
 
 using namespace design;
 
-// Components by their names.
+// Returns the names of a field's components.
 std::vector<std::string> component_names(size_t count) {
   if (count == 3) return {"x", "y", "z"};
   if (count == 6) return {"xx", "yy", "zz", "xy", "yz", "zx"};
@@ -28,14 +28,14 @@ struct Results {
   Choice outside = "none", between = "weights";
   std::optional<double> within;
   double otherwise = 0, deform = 0;
-  std::shared_ptr<const ResultNumbers> loaded;  // when the node is made
-  size_t chosen = 0;                            // component
+  std::shared_ptr<const ResultNumbers> loaded;  // set when the node is made
+  size_t chosen = 0;                            // number of the chosen component
 
   static Spec<Results> spec() {
     return {
         "results",
         "values",
-        "Results of a simulation at the place where they are used: a field of a mesh's nodes or elements.",
+        "Results of a simulation at the point where they are used: a field of a mesh's nodes or elements.",
         {{"path", &Results::path,
           "The file: .vtu, as ombre fea writes it, .frd, .inp, or .csv; relative to the script, then to the working "
           "directory",
@@ -43,26 +43,29 @@ struct Results {
          {"field", &Results::field,
           "Name of the field, or its beginning: displacement, von_mises; empty: the only one"},
          {"component", &Results::component,
-          "Which number `value` is: of vectors x, y or z, empty: their length; of tensors xx, yy, zz, xy, yz or zx"},
+          "Component that `value` gives: x, y or z of a vector (empty: its length); xx, yy, zz, xy, yz or zx of a "
+          "tensor"},
          {"outside", &Results::outside,
-          "Where there is no element: none (no number, which the job warns of), that of the nearest place, or "
-          "`otherwise`",
+          "Value where there is no element: none (not a number, with a warning of the job), nearest (that of the "
+          "nearest point), or value (that of `otherwise`)",
           one_of({"none", "nearest", "value"})},
-         {"within", &Results::within, "How far the nearest place may be; none: however far", unit::positive_mm},
-         {"otherwise", &Results::otherwise, "The value outside, with outside=\"value\""},
+         {"within", &Results::within, "Greatest distance to the nearest point; none: no limit", unit::positive_mm},
+         {"otherwise", &Results::otherwise, "Value where there is no element, with outside=\"value\""},
          {"values", &Results::values,
-          "Of an .inp file: a .csv with the numbers of nodes or elements, and their values"},
+          "A .csv file for an .inp file, with the numbers of nodes or elements and their values"},
          {"between", &Results::between,
-          "Between points of a .csv file: means of the nearest eight, weighted by the inverse of their squared "
-          "distances, or the nearest point's value",
+          "Interpolation between points of a .csv file: weights (the mean of the nearest eight, weighted by their "
+          "inverse squared distances), or nearest (the nearest point's value)",
           one_of({"weights", "nearest"})},
-         {"deform", &Results::deform, "How many times the displacement moves the mesh, as of mesh(path, deform=5)"}},
+         {"deform", &Results::deform,
+          "Factor of the displacement by which the mesh is deformed, as in mesh(path, deform=5)"}},
         no_inputs,
         "sphere(8, mix(\"red\", \"blue\", results(\"models/bent_beam.vtu\", \"von_mises\", "
         "outside=\"nearest\").value / 20));",
-        {{"value", &Results::value, "The number: between nodes by the elements' shape functions, else the element's"},
-         {"vector", &Results::vector, "Of vectors, their x, y and z"},
-         {"magnitude", &Results::magnitude, "The root of the sum of the components' squares"},
+        {{"value", &Results::value,
+          "The number, interpolated between nodes by the elements' shape functions, or that of the element"},
+         {"vector", &Results::vector, "Components x, y and z of a vector"},
+         {"magnitude", &Results::magnitude, "Square root of the sum of the components' squares"},
          {"inside", &Results::is_inside, "1 where there is an element, else 0", {0, 1}}}};
   }
 
@@ -80,7 +83,7 @@ struct Results {
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;
-    path.content = loaded->source->content();  // of both files
+    path.content = loaded->source->content();  // includes the content of both files
     values = request.values.path;
     return choose(reader);
   }

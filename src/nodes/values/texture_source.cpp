@@ -64,7 +64,7 @@ class TextureSource final : public program::FieldSource {
   int64_t columns_, rows_;
   std::vector<uint8_t> rgba_;
   TextureUse use_;
-  std::array<double, 256> level_{};  // of a byte
+  std::array<double, 256> level_{};  // value of each byte, from 0 to 1
   Hash content_;
 };
 

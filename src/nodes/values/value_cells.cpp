@@ -1,7 +1,7 @@
 // Cells that fill space, and random numbers for them.
 //
-// A cell has an index of whole numbers, a place in it and a distance to its border. Hexagons and triangles stand
-// upright: they fill the plane, and along z there is one cell without end.
+// A cell has an integer index, a position within it, and a distance to its border. Hexagons and triangles fill the
+// plane; along z each has a single unbounded cell.
 #include <cmath>
 
 #include "base/system/assert.h"
@@ -17,16 +17,17 @@ using namespace design;
 
 constexpr double sqrt3 = 1.7320508075688772;
 
-constexpr std::string_view index_doc = "Which cell it is, whole numbers; the one at the origin is 0, 0, 0";
-constexpr std::string_view border_doc = "To the nearest border of the cell, mm";
+constexpr std::string_view index_doc = "Index of the cell, as whole numbers; the cell at the origin is 0, 0, 0";
+constexpr std::string_view border_doc = "Distance to the nearest border of the cell, mm";
 
-// Whole numbers q and r count hexagons along x and along a direction 60 degrees from it.
+// A position in a hexagonal grid. The integers q and r count hexagons along x and along a direction at 60 degrees to
+// it.
 struct HexPlace {
-  Field q, r;  // of the hexagon
-  Field x, y;  // from its middle, in widths
+  Field q, r;  // index of the hexagon
+  Field x, y;  // position relative to its centre, in widths
 };
 
-// The nearest of the middles, by rounding of cube coordinates: Amit Patel, "Hexagonal grids", 2013.
+// Finds the nearest centre by rounding cube coordinates: Amit Patel, "Hexagonal grids", 2013.
 HexPlace hexagon_at(const Point& p, double width) {
   const Field v = p.y * (2 / (sqrt3 * width)), u = p.x / width - v * 0.5, w = -(u + v);
   const auto whole = [](Field f) { return floor_of(f + 0.5); };
@@ -44,15 +45,15 @@ struct HexCells {
   static Spec<HexCells> spec() {
     return {"hex_cells",
             "values",
-            "Where a point is in a honeycomb of upright hexagons, one of which is centred on the origin; two of their "
-            "sides are across x.",
-            {{"size", &HexCells::width, "From side to side", unit::positive_mm}},
+            "The position of a point in a honeycomb of upright hexagons, one of which is centred on the origin. Two of "
+            "their sides are perpendicular to x.",
+            {{"size", &HexCells::width, "Distance from side to side", unit::positive_mm}},
             no_inputs,
             "cylinder(10, 4, mix(\"red\", \"blue\", hex_cells(5).distance));",
             {{"index", &HexCells::index, index_doc},
-             {"local", &HexCells::local, "The place in the cell in its sizes: x, y, and 0"},
+             {"local", &HexCells::local, "Position in the cell, in units of its size: x, y, and 0"},
              {"distance", &HexCells::distance, border_doc},
-             {"corner", &HexCells::corner, "To the nearest corner of the cell, mm"}}};
+             {"corner", &HexCells::corner, "Distance to the nearest corner of the cell, mm"}}};
   }
 
   VectorField index(const Ask& ask) const {
@@ -70,22 +71,22 @@ struct HexCells {
   }
   Field corner(const Ask& ask) const {
     const HexPlace at = hexagon_at(ask.p, width);
-    // Of a quarter of the hexagon: the corner at the top, and the one on the right.
+    // Distances to the corner at the top and to the one on the right, in a quarter of the hexagon.
     const Field x = abs(at.x), y = abs(at.y);
     return min(length(x, y - 1 / sqrt3), length(x - 0.5, y - 0.5 / sqrt3)) * width;
   }
 };
 
-// How far a point is along the three directions across a triangle's sides, in heights.
+// The position of a point along the three directions perpendicular to a triangle's sides, in heights.
 struct TrianglePlace {
   std::array<Field, 3> across;
-  std::array<Field, 3> strip;  // whole numbers
+  std::array<Field, 3> strip;  // integers
 };
 
 TrianglePlace triangle_at(const Point& p, double side) {
   const double height = side * sqrt3 / 2;
   TrianglePlace at;
-  // The three add up to 0, so that strips meet in triangles.
+  // The three add up to 0, so that strips intersect in triangles.
   at.across[0] = p.y / height;
   at.across[1] = p.x * (sqrt3 / 2 / height) - p.y * (0.5 / height);
   at.across[2] = -(at.across[0] + at.across[1]);
@@ -99,13 +100,13 @@ struct TriangleCells {
   static Spec<TriangleCells> spec() {
     return {"triangle_cells",
             "values",
-            "Where a point is in a pattern of upright triangles with equal sides, six of which meet in the origin.",
+            "The position of a point in a pattern of upright equilateral triangles, six of which meet at the origin.",
             {{"size", &TriangleCells::side, "Length of a side", unit::positive_mm}},
             no_inputs,
             "cylinder(10, 4, mix(\"red\", \"blue\", triangle_cells(6).distance));",
             {{"index", &TriangleCells::index,
-              "Whole numbers of the strips between parallel sides that cross in the triangle"},
-             {"local", &TriangleCells::local, "How far it is from each side, in heights, from 0 to 1"},
+              "Indices of the strips between parallel sides that intersect in the triangle"},
+             {"local", &TriangleCells::local, "Distance from each side, in heights of the triangle, from 0 to 1"},
              {"distance", &TriangleCells::distance, border_doc}}};
   }
 
@@ -124,7 +125,7 @@ struct TriangleCells {
   }
 
  private:
-  // In a triangle that points up, a strip's lower border is a side; in one that points down, its upper border.
+  // In a triangle that points up, a strip's lower border is a side; in one that points down, its upper border is.
   std::array<Field, 3> from_sides(const Point& p) const {
     const TrianglePlace at = triangle_at(p, side);
     const Field lower = less(p.constant(-1.5), at.strip[0] + at.strip[1] + at.strip[2]);
@@ -143,14 +144,14 @@ struct TetrahedronCells {
   static Spec<TetrahedronCells> spec() {
     return {"tetrahedron_cells",
             "values",
-            "Where a point is in a pattern of tetrahedra: cubes, one of which has a corner in the origin, cut in six "
-            "along a diagonal (Kuhn, 1960).",
+            "The position of a point in a pattern of tetrahedra: cubes, one of which has a corner at the origin, are "
+            "cut in six along a diagonal (Kuhn, 1960).",
             {{"size", &TetrahedronCells::size, "Side of a cube", unit::positive_mm}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", tetrahedron_cells(6).distance));",
-            {{"index", &TetrahedronCells::index, "Which cube it is, whole numbers along x, y and z"},
-             {"which", &TetrahedronCells::which, "Which of the cube's six, from 0 to 5", Interval(0, 5)},
-             {"local", &TetrahedronCells::local, "The place in the cube, from 0 to 1 along x, y and z"},
+            {{"index", &TetrahedronCells::index, "Index of the cube along x, y and z"},
+             {"which", &TetrahedronCells::which, "Index of the tetrahedron in its cube, from 0 to 5", Interval(0, 5)},
+             {"local", &TetrahedronCells::local, "Position in the cube, from 0 to 1 along x, y and z"},
              {"distance", &TetrahedronCells::distance, border_doc}}};
   }
 
@@ -162,7 +163,7 @@ struct TetrahedronCells {
     const VectorField at = local(ask);
     const Field x_first = logical_and(less_equal(at.y, at.x), less_equal(at.z, at.x));
     const Field y_first = logical_and(logical_not(x_first), less_equal(at.z, at.y));
-    // Two for each of the axes along which the place is farthest.
+    // There are two tetrahedra for each axis along which the position is greatest.
     const Field zero = ask.p.constant(0), two = ask.p.constant(2), four = ask.p.constant(4);
     const Field second = select(x_first, less(at.y, at.z), select(y_first, less(at.x, at.z), less(at.x, at.y)));
     return limited(select(x_first, zero, select(y_first, two, four)) + second, 0, 5);
@@ -171,7 +172,7 @@ struct TetrahedronCells {
     const VectorField at = local(ask);
     const Field greatest = max(at.x, max(at.y, at.z)), least = min(at.x, min(at.y, at.z));
     const Field middle = at.x + at.y + at.z - greatest - least;
-    // Two faces lie on the cube's, two on diagonal planes.
+    // Two faces lie on faces of the cube, two on diagonal planes.
     const Field on_cube = min(1.0 - greatest, least);
     const Field inside = min(greatest - middle, middle - least) * std::sqrt(0.5);
     return max(min(on_cube, inside), 0.0) * size;
@@ -184,22 +185,23 @@ struct TetrahedronCells {
 struct VoronoiValues {
   double size = 10, jitter = 1;
   int seed = 0;
-  program::SourceField cells;  // made when the node is made
+  program::SourceField cells;  // made with the node
 
   static Spec<VoronoiValues> spec() {
     return {"voronoi_cells",
             "values",
-            "Where a point is among the cells around scattered points, one of which lies in each cube of a lattice.",
-            {{"size", &VoronoiValues::size, "Side of the cubes, and about the size of a cell", unit::positive_mm},
-             {"seed", &VoronoiValues::seed, "Whole number that tells patterns apart", from_to(0, 1e9)},
-             {"jitter", &VoronoiValues::jitter, "How far points lie from the middles of their cubes; 0: they are cubes",
-              from_to(0, 1)}},
+            "The position of a point among the Voronoi cells of scattered points, one of which lies in each cube of a "
+            "lattice.",
+            {{"size", &VoronoiValues::size, "Side of the cubes, which is about the size of a cell", unit::positive_mm},
+             {"seed", &VoronoiValues::seed, "Whole number that selects the pattern", from_to(0, 1e9)},
+             {"jitter", &VoronoiValues::jitter,
+              "Greatest offset of points from the centres of their cubes; 0: cells are cubes", from_to(0, 1)}},
             no_inputs,
             "sphere(9, mix(\"red\", \"blue\", voronoi_cells(6).distance));",
             {{"index", &VoronoiValues::index, "A whole number from 0 to 16777215 for each cell", Interval(0, 16777215)},
-             {"local", &VoronoiValues::local, "The way from the cell's point, mm"},
+             {"local", &VoronoiValues::local, "Vector from the cell's point, mm"},
              {"distance", &VoronoiValues::distance, border_doc},
-             {"point", &VoronoiValues::point, "To the cell's point, mm"}}};
+             {"point", &VoronoiValues::point, "Distance to the cell's point, mm"}}};
   }
 
   bool complete(const Reader&) {
@@ -222,7 +224,7 @@ struct VoronoiValues {
   }
 };
 
-// A number that is drawn for three whole numbers; channel "value".
+// A random number for three integers, as channel "value".
 class CellRandom final : public program::FieldSource {
  public:
   explicit CellRandom(uint64_t seed) : seed_(seed), content_(hash_bytes("cell random " + std::to_string(seed))) {}
@@ -245,21 +247,21 @@ struct RandomOf {
   Numbers3 index;
   int seed = 0;
   double least = 0, greatest = 1;
-  program::SourceField drawn;  // made when the node is made
+  program::SourceField drawn;  // made with the node
 
   static Spec<RandomOf> spec() {
     return {"random",
             "values",
-            "A random number for each cell or part: the same wherever its index is the same.",
+            "A random number for each cell or part. Equal indices give equal numbers.",
             {{"index", &RandomOf::index,
-              "One number or three, which are rounded, such as the index of a cell or the label of a part",
+              "One or three numbers, which are rounded, such as the index of a cell or the label of a part",
               required(one_or_three())},
-             {"seed", &RandomOf::seed, "Whole number that tells draws apart", from_to(0, 1e9)},
-             {"lo", &RandomOf::least, "The least number"},
-             {"hi", &RandomOf::greatest, "The greatest number"}},
+             {"seed", &RandomOf::seed, "Whole number that selects the random numbers", from_to(0, 1e9)},
+             {"lo", &RandomOf::least, "Least number"},
+             {"hi", &RandomOf::greatest, "Greatest number"}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", random(cells((3, 3, 3)).index)));",
-            {{"value", &RandomOf::value, "Between the two, all alike"}}};
+            {{"value", &RandomOf::value, "Number between the two, uniformly distributed"}}};
   }
 
   bool complete(const Reader&) {

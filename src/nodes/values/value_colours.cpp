@@ -1,4 +1,4 @@
-// Values that are colours or mixtures: changes of colour space, images as textures, mixtures of many materials.
+// Values that are colours or mixtures: conversions of colour spaces, images as textures, mixtures of many materials.
 #include <cmath>
 #include <map>
 
@@ -30,13 +30,14 @@ Colour each(const Colour& colour, const Change& change) {
   return {change(colour[0]), change(colour[1]), change(colour[2])};
 }
 
-// IEC 61966-2-1.
+// The transfer function of IEC 61966-2-1.
 Field light_of_srgb(Field v) { return select(v <= 0.04045, v / 12.92, power_of((max(v, 0.0) + 0.055) / 1.055, 2.4)); }
 Field srgb_of_linear(Field v) {
   return select(v <= 0.0031308, v * 12.92, power_of(max(v, 0.0), 1 / 2.4) * 1.055 - 0.055);
 }
 
-// Hue in degrees; saturation and value from 0 to 1. A. R. Smith, "Color gamut transform pairs", SIGGRAPH 1978.
+// Converts from hue in degrees, and saturation and value from 0 to 1. A. R. Smith, "Color gamut transform pairs",
+// SIGGRAPH 1978.
 Colour rgb_of_hsv(const Colour& hsv) {
   const Field zero = hsv[0].builder->constant(0), one = hsv[0].builder->constant(1);
   const auto channel = [&](double n) {
@@ -57,7 +58,7 @@ Colour hsv_of_rgb(const Colour& rgb) {
   return {select(spread <= 0, zero, hue * 60.0), saturation, greatest};
 }
 
-// CIE 15: L*a*b* under D65, whose white is (0.95047, 1, 1.08883).
+// L*a*b* of CIE 15 under D65, whose white is (0.95047, 1, 1.08883).
 constexpr double white[] = {0.95047, 1, 1.08883};
 constexpr double xyz_of_rgb[3][3] = {
     {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
@@ -109,18 +110,18 @@ struct ColourValue {
   Choice from = "srgb", to = "srgb";
 
   static Spec<ColourValue> spec() {
-    return {
-        "colour",
-        "values",
-        "A colour in another space: sRGB, linear light, HSV or CIE L*a*b*.",
-        {{"numbers", &ColourValue::numbers,
-          "Red, green and blue from 0 to 1; of hsv hue in degrees, saturation and value; of lab L from 0 to 100, a, b",
-          required()},
-         {"space", &ColourValue::from, "The space of the numbers", colour_spaces()},
-         {"to", &ColourValue::to, "The space of what it gives", colour_spaces()}},
-        no_inputs,
-        "attribute(\"color_rgb\", colour([\"10*theta\", 1, 1], space=\"hsv\").colour) sphere(5);",
-        {{"colour", &ColourValue::colour, "Its three numbers"}}};
+    return {"colour",
+            "values",
+            "A colour converted between spaces: sRGB, linear light, HSV or CIE L*a*b*.",
+            {{"numbers", &ColourValue::numbers,
+              "Red, green and blue from 0 to 1; for hsv hue in degrees, saturation and value; for lab L from 0 to 100, "
+              "a, b",
+              required()},
+             {"space", &ColourValue::from, "Colour space of the numbers", colour_spaces()},
+             {"to", &ColourValue::to, "Colour space of the result", colour_spaces()}},
+            no_inputs,
+            "attribute(\"color_rgb\", colour([\"10*theta\", 1, 1], space=\"hsv\").colour) sphere(5);",
+            {{"colour", &ColourValue::colour, "The three numbers of the colour"}}};
   }
 
   VectorField colour(const Ask& ask) const {
@@ -139,15 +140,16 @@ struct ColourDifference {
   Choice space = "srgb";
 
   static Spec<ColourDifference> spec() {
-    return {"colour_difference",
-            "values",
-            "How different two colours look: the distance in CIE L*a*b* (Delta E of 1976); about 2 can just be seen.",
-            {{"a", &ColourDifference::a, "A colour", required()},
-             {"b", &ColourDifference::b, "Another", required()},
-             {"space", &ColourDifference::space, "The space of both", colour_spaces()}},
-            no_inputs,
-            "sphere(8, mix(\"red\", \"blue\", colour_difference([\"x/8\", 0, 0], [1, 0, 0]) / 50));",
-            {{"value", &ColourDifference::value, "From 0 on", Interval(0, 1e6)}}};
+    return {
+        "colour_difference",
+        "values",
+        "The visible difference of two colours: the distance in CIE L*a*b* (Delta E of 1976). About 2 is just visible.",
+        {{"a", &ColourDifference::a, "A colour", required()},
+         {"b", &ColourDifference::b, "Another colour", required()},
+         {"space", &ColourDifference::space, "Colour space of both", colour_spaces()}},
+        no_inputs,
+        "sphere(8, mix(\"red\", \"blue\", colour_difference([\"x/8\", 0, 0], [1, 0, 0]) / 50));",
+        {{"value", &ColourDifference::value, "Difference, 0 or more", Interval(0, 1e6)}}};
   }
 
   Field value(const Ask& ask) const {
@@ -176,23 +178,24 @@ struct Texture {
         "values",
         "An image over space, centred on the origin.",
         {{"path", &Texture::path, "A PNG file; relative to the script, then to the working directory", required()},
-         {"width", &Texture::width, "Of the image, mm; around a cylinder, along its circumference", unit::positive_mm},
+         {"width", &Texture::width, "Width of the image; around a cylinder, along its circumference",
+          unit::positive_mm},
          {"projection", &Texture::projection,
           "planar (along z), cylindrical (around z, upright), or triplanar (along the axis that the surface of `on` "
           "faces most)",
           one_of({"planar", "cylindrical", "triplanar"})},
-         {"wrap", &Texture::wrap, "Beside the image: repeat it, or go on with the pixels of its border",
+         {"wrap", &Texture::wrap, "Outside the image: repeat it, or continue the pixels of its border (clamp)",
           one_of({"repeat", "clamp"})},
-         {"encoding", &Texture::encoding, "What the numbers are: srgb (as in the file) or linear (light)",
+         {"encoding", &Texture::encoding, "Encoding of the numbers: srgb (as in the file) or linear (light)",
           one_of({"srgb", "linear"})},
-         {"on", &Texture::on, "The solid on which a triplanar image lies"},
-         {"sharpness", &Texture::sharpness, "How abruptly triplanar images change from one axis to the next",
+         {"on", &Texture::on, "Solid on which a triplanar image lies"},
+         {"sharpness", &Texture::sharpness, "Sharpness of the change of triplanar images from one axis to the next",
           from_to(1, 64)}},
         no_inputs,
         "cube(20, mix(\"red\", \"blue\", texture(\"models/leaf.png\", 20)));",
-        {{"value", &Texture::value, "How bright it is, from 0 to 1", Interval(0, 1)},
+        {{"value", &Texture::value, "Brightness, from 0 to 1", Interval(0, 1)},
          {"colour", &Texture::colour, "Red, green and blue, from 0 to 1"},
-         {"alpha", &Texture::alpha, "How opaque it is, from 0 to 1", Interval(0, 1)}}};
+         {"alpha", &Texture::alpha, "Opacity, from 0 to 1", Interval(0, 1)}}};
   }
 
   bool complete(const Reader& reader) {
@@ -219,7 +222,7 @@ struct Texture {
   Field alpha(const Ask& ask) const { return limited(channel(ask, "alpha"), 0, 1); }
 
  private:
-  // In pixels from the left lower corner.
+  // Reads a channel at a position in pixels from the lower left corner.
   Field at(Field across, Field up, const char* name) const {
     const int number = source->channel(name);
     ASSERT(number >= 0);
@@ -244,8 +247,8 @@ struct Texture {
   }
 };
 
-// A mixture by shares, of which negative ones and those that are no numbers count as 0; where all do, the first
-// material alone, of which the check `none` tells.
+// Returns a mixture by shares. Shares that are negative or NaN count as 0. If all do, the result is the first material
+// alone, and the check `none` is set.
 Composition by_shares(const Ask& ask, const SharedList<MaterialName>& materials, const std::vector<Field>& shares,
                       const std::string& none) {
   const Field zero = ask.p.constant(0);
@@ -270,13 +273,13 @@ struct MixMany {
   static Spec<MixMany> spec() {
     return {"mix_many",
             "values",
-            "A mixture of several materials or mixtures by their shares, of which negative ones count as 0.",
+            "A mixture of several materials or mixtures by their shares. Negative shares count as 0.",
             {{"materials", &MixMany::materials, "Materials or mixtures", required(mixable())},
-             {"shares", &MixMany::shares, "A number for each; they need not add up to 1", required()}},
+             {"shares", &MixMany::shares, "A number for each material; they need not add up to 1", required()}},
             no_inputs,
             "sphere(8, mix_many([\"red\", \"blue\", \"clear\"], [\"x^2\", \"y^2\", \"z^2\"]));",
             {{"mixture", &MixMany::mixture,
-              "Their mixture; where all shares are 0 or not numbers, the first alone, with a warning"}}};
+              "The mixture; where all shares are 0 or not numbers, the first material alone, with a warning"}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -299,7 +302,7 @@ struct MixMany {
   }
 
  private:
-  // Where there is a share above 0, but another one is no number.
+  // Sets a check where one share is above 0 and another is NaN.
   static void tell_of_lost(const Ask& ask, const std::vector<Field>& raw, Composition& made) {
     std::vector<Field> usable, counts;
     for (const Field share : raw) {
@@ -316,22 +319,22 @@ struct MixMany {
 struct ColourMixture {
   Numbers3 wanted;
   SharedList<MaterialName> materials;
-  std::vector<Vec3> colours;  // of the materials, in linear light; with the table, found when the node is made
+  std::vector<Vec3> colours;  // the materials' colours in linear light; set when the node is made, like the table
   program::SourceField table;
 
   static Spec<ColourMixture> spec() {
     return {"colour_mixture",
             "values",
-            "The mixture of materials that shows a colour: by the mean of their light, and with the least graininess.",
+            "The mixture of materials that shows a colour by the mean of their light, with the least graininess.",
             {{"colour", &ColourMixture::wanted, "Red, green and blue from 0 to 1 (sRGB)", required()},
              {"materials", &ColourMixture::materials,
-              "Those that may be mixed, 12 at most; their colours are those of the "
-              "materials file, without their opacity",
+              "Materials that may be mixed, at most 12; their colours in the materials file count, without opacity",
               required()}},
             no_inputs,
             "cube(20, colour_mixture(texture(\"models/leaf.png\", 20).colour, [\"red\", \"green\", \"white\", "
             "\"black\"]));",
-            {{"mixture", &ColourMixture::mixture, "Where no mixture shows the colour, that which comes nearest"},
+            {{"mixture", &ColourMixture::mixture,
+              "The mixture, or the one with the nearest colour if none shows the colour"},
              {"difference", &ColourMixture::difference,
               "Visible difference: the distance in CIE L*a*b* (Delta E of 1976)", Interval(0, 1e6)}}};
   }

@@ -1,4 +1,4 @@
-// Values from numbers: ramps, changes of range, tables.
+// Values computed from numbers: ramps, rescaling, tables.
 #include <cmath>
 
 #include "base/system/assert.h"
@@ -26,16 +26,16 @@ struct Ramp {
   static Spec<Ramp> spec() {
     return {"ramp",
             "values",
-            "0 up to one number, 1 from another on, and between them a line or a smooth curve.",
+            "A ramp: 0 up to one number, 1 from another on, and a line or a smooth curve between them.",
             {{"of", &Ramp::of, "The number, such as \"z\" or a value", required()},
-             {"lo", &Ramp::from, "Where it begins to rise, or to fall where it is the greater one"},
-             {"hi", &Ramp::to, "Where it ends"},
+             {"lo", &Ramp::from, "Number where it begins to rise; if it is the greater one, the ramp falls"},
+             {"hi", &Ramp::to, "Number where it ends"},
              {"shape", &Ramp::shape,
-              "linear; smooth (3t^2 - 2t^3); smoother (6t^5 - 15t^4 + 10t^3); step (from the middle on)",
+              "linear; smooth (3t^2 - 2t^3); smoother (6t^5 - 15t^4 + 10t^3); or step (1 from the middle on)",
               one_of({"linear", "smooth", "smoother", "step"})}},
             no_inputs,
             "cube(10, mix(\"red\", \"blue\", ramp(\"z\", -3, 3, \"smooth\")));",
-            {{"value", &Ramp::value, "From 0 to 1", Interval(0, 1)}}};
+            {{"value", &Ramp::value, "Number from 0 to 1", Interval(0, 1)}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -61,16 +61,16 @@ struct Rescale {
   static Spec<Rescale> spec() {
     return {"rescale",
             "values",
-            "From one range of numbers to another, by a straight line.",
+            "Maps one range of numbers linearly to another.",
             {{"of", &Rescale::of, "The number", required()},
-             {"from_lo", &Rescale::from_lo, "What becomes to_lo"},
-             {"from_hi", &Rescale::from_hi, "What becomes to_hi"},
-             {"to_lo", &Rescale::to_lo, "What from_lo becomes"},
-             {"to_hi", &Rescale::to_hi, "What from_hi becomes"},
-             {"clamp", &Rescale::clamped, "Keep within to_lo and to_hi"}},
+             {"from_lo", &Rescale::from_lo, "Number that is mapped to to_lo"},
+             {"from_hi", &Rescale::from_hi, "Number that is mapped to to_hi"},
+             {"to_lo", &Rescale::to_lo, "Result for from_lo"},
+             {"to_hi", &Rescale::to_hi, "Result for from_hi"},
+             {"clamp", &Rescale::clamped, "Keeps the result within to_lo and to_hi"}},
             no_inputs,
             "sphere(rescale(\"z\", -8, 8, 5, 8, clamp=true));",
-            {{"value", &Rescale::value, "The number in the other range"}}};
+            {{"value", &Rescale::value, "The mapped number"}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -98,34 +98,33 @@ struct TableValue {
   SharedList<Number> more;
   Choice mode = "linear", outside = "clamp";
   double otherwise = 0;
-  program::SourceField source;  // made when the node is made
-  std::vector<Interval> keys;   // of each input, from the least to the greatest
-  size_t given = 1;             // outputs
+  program::SourceField source;  // made with the node
+  std::vector<Interval> keys;   // range of each input's keys
+  size_t given = 1;             // number of outputs
 
   static Spec<TableValue> spec() {
-    return {
-        "table",
-        "values",
-        "What a table gives for one, two or three numbers: rows of keys, and then of values.",
-        {{"rows", &TableValue::rows,
-          "Rows such as [[0, 1], [10, 5]], or the path of a CSV file. Keys of one input ascend; of several there is "
-          "a row for each combination",
-          required()},
-         {"a", &TableValue::a, "The number for the first column", required()},
-         {"more", &TableValue::more, "One or two numbers for the columns after it"},
-         {"mode", &TableValue::mode,
-          "Between keys: linear, step (the value of the key below), or cubic (smooth, and monotone where the values "
-          "are; of one input)",
-          one_of({"linear", "step", "cubic"})},
-         {"outside", &TableValue::outside,
-          "Beyond the keys: clamp (the value of the nearest key), value (that of otherwise), or error (not a number "
-          "there, of which jobs warn)",
-          one_of({"clamp", "value", "error"})},
-         {"otherwise", &TableValue::otherwise, "The value beyond the keys with outside=\"value\""}},
-        no_inputs,
-        "cylinder(table([[-5, 2], [0, 4], [5, 3]], \"z\"), 10);",
-        {{"value", &TableValue::value, "Of the first column behind the keys"},
-         {"values", &TableValue::values, "Of the first three; 0 where there are fewer"}}};
+    return {"table",
+            "values",
+            "A table of values for one, two or three numbers. Its rows are keys followed by values.",
+            {{"rows", &TableValue::rows,
+              "Rows such as [[0, 1], [10, 5]], or the path of a CSV file. With one input, keys ascend; with several, "
+              "there is a row for each combination",
+              required()},
+             {"a", &TableValue::a, "Number for the first column", required()},
+             {"more", &TableValue::more, "One or two numbers for the next columns"},
+             {"mode", &TableValue::mode,
+              "Interpolation between keys: linear, step (the value of the key below), or cubic (smooth, and monotone "
+              "where the values are; for one input)",
+              one_of({"linear", "step", "cubic"})},
+             {"outside", &TableValue::outside,
+              "Value beyond the keys: clamp (that of the nearest key), value (that of otherwise), or error (not a "
+              "number, with a warning of the job)",
+              one_of({"clamp", "value", "error"})},
+             {"otherwise", &TableValue::otherwise, "Value beyond the keys, with outside=\"value\""}},
+            no_inputs,
+            "cylinder(table([[-5, 2], [0, 4], [5, 3]], \"z\"), 10);",
+            {{"value", &TableValue::value, "Value of the first column after the keys"},
+             {"values", &TableValue::values, "Values of the first three columns after the keys; 0 for missing ones"}}};
   }
 
   bool complete(const Reader& reader) {

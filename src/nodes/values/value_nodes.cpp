@@ -1,4 +1,4 @@
-// Values from other values, and from the place in a lattice of cells.
+// Values computed from other values, and from the position in a lattice of cells.
 #include <cmath>
 #include <map>
 
@@ -32,16 +32,17 @@ struct Mix {
   Number t = 0.5;
 
   static Spec<Mix> spec() {
-    return {"mix",
-            "values",
-            "Between two numbers, or two materials or mixtures of them: the share t of the second, 1 - t of the first.",
-            {{"a", &Mix::a, "What it is where t is 0 or less", required()},
-             {"b", &Mix::b, "What it is where t is 1 or more", required()},
-             {"t", &Mix::t, "The share of b"}},
-            no_inputs,
-            "sphere(8, mix(\"red\", \"blue\", noise(size=4)));",
-            {{"value", &Mix::value, "Of numbers, the number between them"},
-             {"mixture", &Mix::mixture, "Of materials, their mixture"}}};
+    return {
+        "mix",
+        "values",
+        "A mean of two numbers, or a mixture of two materials or mixtures, with the share t of the second and 1 - t of "
+        "the first.",
+        {{"a", &Mix::a, "Result where t is 0 or less", required()},
+         {"b", &Mix::b, "Result where t is 1 or more", required()},
+         {"t", &Mix::t, "Share of b"}},
+        no_inputs,
+        "sphere(8, mix(\"red\", \"blue\", noise(size=4)));",
+        {{"value", &Mix::value, "Number between two numbers"}, {"mixture", &Mix::mixture, "Mixture of two materials"}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -84,15 +85,16 @@ struct Cells {
     return {
         "cells",
         "values",
-        "Where a point is in a lattice of boxes side by side, one of which is centred on the origin: the cells of tile "
-        "with the same size.",
-        {{"size", &Cells::size, "Lengths of a cell; 0: one cell without end along that axis", unit::not_negative_mm}},
+        "The position of a point in a lattice of boxes, one of which is centred on the origin. They are the cells of "
+        "tile with the same size.",
+        {{"size", &Cells::size, "Size of a cell; 0: a single unbounded cell along that axis", unit::not_negative_mm}},
         no_inputs,
         "intersection() { sphere(10); tile((4, 4, 4)) { sphere(2.5, mix(\"red\", \"blue\", "
         "cells((4, 4, 4)).distance)); } }",
-        {{"index", &Cells::index, "Which cell it is, whole numbers along x, y and z; the one at the origin is 0, 0, 0"},
-         {"local", &Cells::local, "The place in the cell, from -0.5 to 0.5 along x, y and z"},
-         {"distance", &Cells::distance, "To the nearest border of the cell, mm"}}};
+        {{"index", &Cells::index,
+          "Index of the cell along x, y and z, as whole numbers; the cell at the origin is 0, 0, 0"},
+         {"local", &Cells::local, "Position in the cell, from -0.5 to 0.5 along x, y and z"},
+         {"distance", &Cells::distance, "Distance to the nearest border of the cell, mm"}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -127,7 +129,7 @@ struct Cells {
 
   Field local_along(const Point& p, int axis) const {
     if (size[axis] == 0) return p.constant(0);
-    // The bounds hold but for rounding; intervals cannot see them.
+    // The clamp changes only rounding errors; it tells intervals a bound that they cannot derive.
     return min(max(coordinate(p, axis) / size[axis] - index_along(p, axis), -0.5), p.constant(0.5));
   }
 };

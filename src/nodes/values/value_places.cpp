@@ -1,4 +1,4 @@
-// Values of the place: coordinates in frames, distances to solids, points and paths, values at other places.
+// Values of position: coordinates in frames, distances to solids, points and paths, values at other positions.
 #include <cmath>
 
 #include "base/system/assert.h"
@@ -22,15 +22,15 @@ bool refuse(const Reader& reader, const std::string& message, const Phrase& hint
 
 struct Coordinates {
   Vec3 origin, axis{0, 0, 1}, toward{1, 0, 0};
-  Affine frame_from_here;  // found when the node is made
+  Affine frame_from_here;  // set when the node is made
 
   static Spec<Coordinates> spec() {
     return {"coordinates",
             "values",
-            "Where a point is in a frame of its own: as a vector, around an axis, and around the origin.",
-            {{"origin", &Coordinates::origin, "Where the frame begins", unit::points},
-             {"axis", &Coordinates::axis, "The direction of its z"},
-             {"toward", &Coordinates::toward, "A direction that its x points to, as far as z lets it"}},
+            "The position of a point in another frame: as a vector, in cylindrical and in spherical coordinates.",
+            {{"origin", &Coordinates::origin, "Origin of the frame", unit::points},
+             {"axis", &Coordinates::axis, "Direction of the frame's z"},
+             {"toward", &Coordinates::toward, "Direction of the frame's x, as far as it is perpendicular to z"}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", coordinates(axis=(0, 1, 1)).rho / 8));",
             {{"place", &Coordinates::place, "x, y and z in the frame, mm"},
@@ -49,7 +49,7 @@ struct Coordinates {
                     "write for example " + spelled::parameter("axis", "(0, 0, 1)"));
     const Vec3 z = (1 / along) * axis;
     Vec3 x = toward - dot(toward, z) * z;
-    if (!(length(x) > 1e-9 * length(toward)))  // any direction will do
+    if (!(length(x) > 1e-9 * length(toward)))  // any perpendicular direction is acceptable
       x = std::abs(z.x) < 0.9 ? Vec3{1, 0, 0} - z.x * z : Vec3{0, 1, 0} - z.y * z;
     x = (1 / length(x)) * x;
     const Vec3 y = cross(z, x);
@@ -88,17 +88,16 @@ struct At {
   static Spec<At> spec() {
     return {"at",
             "values",
-            "A value as it is at another place, which may vary: values that are warped, repeated or projected.",
+            "A value at another point, which may vary. This warps, repeats or projects values.",
             {{"value", &At::what, "A number, an expression, a material or a mixture", required()},
-             {"place", &At::place, "Where it is evaluated, mm", required(any("mm"))}},
+             {"place", &At::place, "Point where it is evaluated", required(any("mm"))}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", at(noise(size=4), [\"x\", \"y\", \"z + 2*sin(x)\"])));",
-            {{"value", &At::value, "Of a number, the number there"},
-             {"mixture", &At::mixture, "Of a mixture, the mixture there"}}};
+            {{"value", &At::value, "Number at that point"}, {"mixture", &At::mixture, "Mixture at that point"}}};
   }
 
   bool gives(size_t output) const { return output == (what.material.is_given() ? 1 : 0); }
-  // What it asks lies at other points than itself.
+  // The value is evaluated at other points than the node itself.
   Traits traits() const { return {.most_evaluations_of_input = 2}; }
 
   Field value(const Ask& ask) const { return what.number(moved(ask.p)); }
@@ -119,16 +118,16 @@ struct DistanceTo {
   static Spec<DistanceTo> spec() {
     return {"distance_to",
             "values",
-            "The distance to the surface of a solid, and where that is.",
+            "The distance to the surface of a solid, and the nearest point of the surface.",
             {{"solid", &DistanceTo::solid,
               "A solid, such as sphere(5), translate([4, 0, 0], cube(2)) or mesh(\"a.stl\")", required()},
-             {"step", &DistanceTo::step, "Over which differences for normal and nearest are taken", unit::positive_mm}},
+             {"step", &DistanceTo::step, "Step of the differences that give normal and nearest", unit::positive_mm}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", distance_to(cube(6)) / 4));",
-            {{"distance", &DistanceTo::distance, "mm, negative inside"},
+            {{"distance", &DistanceTo::distance, "Distance in mm, negative inside"},
              {"inside", &DistanceTo::is_inside, "1 inside and on the surface, else 0", Interval(0, 1)},
-             {"normal", &DistanceTo::normal, "The direction away from the solid, of length 1"},
-             {"nearest", &DistanceTo::nearest_place, "The place on the surface that is nearest, mm"}}};
+             {"normal", &DistanceTo::normal, "Direction away from the solid, of length 1"},
+             {"nearest", &DistanceTo::nearest_place, "Nearest point on the surface, mm"}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -151,14 +150,15 @@ struct Mask {
   double width = 0;
 
   static Spec<Mask> spec() {
-    return {"mask",
-            "values",
-            "1 inside of a solid and 0 outside, with a border that may be soft.",
-            {{"solid", &Mask::solid, "The solid", required()},
-             {"width", &Mask::width, "Of the border, over which the value falls from 1 to 0", unit::not_negative_mm}},
-            no_inputs,
-            "cube(12, mix(\"red\", \"blue\", mask(sphere(7), width=1)));",
-            {{"value", &Mask::value, "From 0 to 1", Interval(0, 1)}}};
+    return {
+        "mask",
+        "values",
+        "1 inside a solid and 0 outside, with a border that may be soft.",
+        {{"solid", &Mask::solid, "The solid", required()},
+         {"width", &Mask::width, "Width of the border, over which the value falls from 1 to 0", unit::not_negative_mm}},
+        no_inputs,
+        "cube(12, mix(\"red\", \"blue\", mask(sphere(7), width=1)));",
+        {{"value", &Mask::value, "Number from 0 to 1", Interval(0, 1)}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -186,17 +186,17 @@ bool load_path(PathRequest request, program::SourceField& source, const Reader& 
 
 struct PointDistance {
   Points points;
-  program::SourceField source;  // made when the node is made
+  program::SourceField source;  // made with the node
 
   static Spec<PointDistance> spec() {
     return {"point_distance",
             "values",
-            "The distance to the nearest of some points, and which one that is.",
-            {{"points", &PointDistance::points, "One point or more", required(unit::points)}},
+            "The distance to the nearest of some points, and the index of that point.",
+            {{"points", &PointDistance::points, "One or more points", required(unit::points)}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", point_distance([[4, 0, 0], [-4, 2, 0]]) / 6));",
             {{"distance", &PointDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
-             {"index", &PointDistance::index, "The number of the nearest, from 0 on"}}};
+             {"index", &PointDistance::index, "Index of the nearest point, from 0 on"}}};
   }
 
   bool complete(const Reader& reader) {
@@ -214,18 +214,19 @@ struct PointDistance {
 struct PathDistance {
   Points points;
   bool closed = false;
-  program::SourceField source;  // made when the node is made
+  program::SourceField source;  // made with the node
 
   static Spec<PathDistance> spec() {
     return {"path_distance",
             "values",
-            "The distance to the straight lines from point to point, and how far along them the nearest place is.",
-            {{"points", &PathDistance::points, "Two points or more", required(unit::points)},
-             {"closed", &PathDistance::closed, "Does the last point lead back to the first?"}},
+            "The distance to the straight lines from point to point, and the position of the nearest point along them.",
+            {{"points", &PathDistance::points, "Two or more points", required(unit::points)},
+             {"closed", &PathDistance::closed, "Joins the last point to the first"}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", path_distance([[-6, 0, 0], [0, 5, 0], [6, 0, 0]]).along));",
             {{"distance", &PathDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
-             {"along", &PathDistance::share_along, "By length, 0 at the first point, 1 at the end", Interval(0, 1)}}};
+             {"along", &PathDistance::share_along, "Position by length, 0 at the first point, 1 at the end",
+              Interval(0, 1)}}};
   }
 
   bool complete(const Reader& reader) {

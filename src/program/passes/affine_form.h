@@ -1,4 +1,4 @@
-// Values that are affine in the inputs.
+// Detection of values that are affine in the inputs.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ inline AffineRow unit_form(size_t axis) {
   return form;
 }
 
-// Factors of x, y and z and a summand, if there are such of the instruction's operands: form_of(operand) gives theirs,
-// or nothing.
+// Returns the factors of x, y and z and the constant term of an instruction's value, if it is affine. form_of(operand)
+// returns those of an operand, or nothing.
 template <class FormOf>
 std::optional<AffineRow> affine_form(const Program& program, const Instruction& in, const FormOf& form_of) {
   const auto combine = [](const AffineRow& a, double fa, const AffineRow& b, double fb) {

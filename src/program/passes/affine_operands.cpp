@@ -1,4 +1,4 @@
-// Recognises operands that are affine in (x, y, z), so that sources can be placed on voxel rows.
+// Detects operands that are affine in (x, y, z), so that sources can be sampled along rows of voxels.
 #include "program/passes/affine_form.h"
 #include "program/passes/passes.h"
 

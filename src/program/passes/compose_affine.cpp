@@ -1,7 +1,7 @@
-// Values that are affine in the inputs are computed from the inputs at once.
+// Computes values that are affine in the inputs directly from the inputs.
 //
-// A turned frame within a turned view would be asked for the ranges of its coordinates through those of x, y and z, as
-// if these knew nothing of each other.
+// Nested rotations would otherwise compute ranges of coordinates from ranges of x, y and z as if these were
+// independent, and ranges would grow at each step.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +40,8 @@ class Composer {
     }
   }
 
-  // Of two values that are no constants: what is of one alone has ranges as narrow as that.
+  // True for an affine value of two different operands that are no constants. A value of one operand has a range that
+  // is already as narrow as possible.
   bool is_sum(ValueId id) const {
     if (!forms_[id]) return false;
     ValueId one = none;
@@ -53,7 +54,7 @@ class Composer {
     return has_two;
   }
 
-  // From the outputs on, through composed values to nothing: they need inputs alone.
+  // Marks needed values, starting from the outputs. The search ends at composed values, which need only inputs.
   void find_needed() {
     is_needed_.assign(from_.code.size(), 0);
     is_composed_.assign(from_.code.size(), 0);
@@ -96,7 +97,7 @@ class Composer {
     return push(in);
   }
 
-  // What changes least often comes first.
+  // Adds z before y before x, so that what changes least often is computed first.
   ValueId chain(const AffineRow& form) {
     ValueId sum = none;
     if (form[3] != 0) sum = constant(form[3]);

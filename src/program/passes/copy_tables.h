@@ -1,11 +1,11 @@
-// Moves an instruction from one program to another.
+// Copies an instruction's table entries from one program to another.
 #pragma once
 
 #include "program/program.h"
 
 namespace ombre::program {
 
-// What the instruction's aux names in `from` is added to `to`, and aux names it there.
+// Copies the table entry in `from` that the instruction's aux refers to into `to`, and updates aux.
 inline void copy_tables(const Program& from, Program& to, Instruction& in) {
   const auto copy = [&](const auto& source, auto& target) {
     target.push_back(source[in.aux]);

@@ -1,4 +1,4 @@
-// Writes out those of many parts that reach a region, as far as the program needs them.
+// Replaces ops of many parts by the code of the parts that reach a region, as far as the program needs them.
 #include <map>
 
 #include "program/evaluate.h"
@@ -9,16 +9,16 @@
 namespace ombre::program {
 namespace {
 
-// Fewer parts of the index are not tested for reaching a region.
+// If the index finds fewer parts than this, they are not filtered.
 constexpr size_t worth_asking = 3;
 
-// One part after the other, by intervals.
+// A filter that evaluates each part over the region with intervals.
 class PartByPart : public PartFilter {
  public:
   explicit PartByPart(Precision precision) : precision_(precision) {}
 
   void keep_reaching(const PartTable& table, const Box& where, std::vector<uint32_t>& parts) override {
-    std::map<uint32_t, PartTable::Excerpt> excerpts;  // by body
+    std::map<uint32_t, PartTable::Excerpt> excerpts;  // keyed by body
     std::erase_if(parts, [&](uint32_t part) {
       const auto [it, is_new] = excerpts.try_emplace(table.body_of(part));
       if (is_new) it->second = table.reach(it->first);
@@ -70,13 +70,13 @@ class Expander {
   }
 
  private:
-  // Parts at one place, written out.
+  // The code of the parts at one place.
   struct Expansion {
     const PartSet* set;
     std::array<ValueId, 3> at;
-    std::vector<std::vector<ValueId>> values;         // [part][slot]
-    std::vector<ValueId> slots;                       // combined; PartTable::none until asked for
-    std::map<uint32_t, PartTable::Excerpt> excerpts;  // by body
+    std::vector<std::vector<ValueId>> values;         // indexed [part][slot]
+    std::vector<ValueId> slots;                       // combined values; PartTable::none until they are needed
+    std::map<uint32_t, PartTable::Excerpt> excerpts;  // keyed by body
   };
 
   ValueId push(const Instruction& in) {
@@ -133,7 +133,7 @@ class Expander {
     if (found_.size() >= worth_asking) filter_.keep_reaching(set.table(precision_), where, found_);
   }
 
-  // Which slots are asked for at the place of an instruction.
+  // Returns the slots that the program needs at the place of an instruction.
   std::vector<bool> wanted(const Instruction& place) const {
     const PartSet& set = *from_.part_sets[place.aux];
     std::vector<bool> slots(set.slots.size(), false);

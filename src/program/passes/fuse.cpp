@@ -1,6 +1,6 @@
-// Multiplications followed by additions become one op that rounds once.
+// Fuses multiplications followed by additions into one op that rounds once.
 //
-// A product that depends on fewer axes than the sum stays by itself: it is computed once for many sums.
+// A product that depends on fewer axes than the sum is not fused, since it can be computed once for many sums.
 #include <algorithm>
 
 #include "program/passes/passes.h"
@@ -43,7 +43,7 @@ class Fuser {
     return builder_.apply(Op::fma, a, b, done[rest]);
   }
 
-  // What changes least often comes first: its partial sums are shared by rows and layers.
+  // Orders terms so that what changes least often is summed first and partial sums are shared by rows and layers.
   Field chain(const Instruction& in, const std::vector<Field>& done) {
     const AffineRow& row = program_.maps[in.aux];
     std::array<std::pair<ValueId, double>, 3> terms{{{in.a, row[0]}, {in.b, row[1]}, {in.c, row[2]}}};

@@ -1,4 +1,4 @@
-// Bodies are written where they are called. Equal calls share one copy.
+// Replaces calls by the code of their bodies. Equal calls share one copy.
 #include <map>
 
 #include "program/passes/passes.h"
@@ -13,7 +13,7 @@ class Inliner {
  public:
   explicit Inliner(Builder& builder) : builder_(builder) {}
 
-  // The fields of all of a program's instructions at the given inputs; each body and place only once.
+  // Returns the fields of all instructions of a program at the given inputs. Each body is expanded once for each place.
   const std::vector<Field>& expand(const Program& program, const Arguments& inputs) {
     auto [it, is_new] = done_.try_emplace({&program, inputs});
     if (!is_new) return it->second;
@@ -38,7 +38,8 @@ class Inliner {
   std::map<std::pair<const Program*, Arguments>, std::vector<Field>> done_;
 };
 
-// Every call is counted with its body, equal ones too: an upper bound.
+// Returns an upper bound of the size after inlining: calls are counted with their bodies, although equal calls in
+// different programs may share a copy.
 double expanded_size(const Program& program, std::map<const Program*, double>& sizes) {
   if (const auto known = sizes.find(&program); known != sizes.end()) return known->second;
   double size = 0;

@@ -1,4 +1,4 @@
-// What is left of a program in a region.
+// Specialisation of a program to a region.
 #pragma once
 
 #include "program/passes/passes.h"
@@ -7,15 +7,16 @@ namespace ombre::program {
 
 struct Remainder {
   Program program;
-  std::vector<Interval> ranges;  // of its instructions, in the region
+  std::vector<Interval> ranges;  // range of each instruction in the region
 };
 
-// The program for inputs in a box: what is settled there is a constant, what cannot matter is left out. What is left
-// has the same values, to the last bit. An instruction that may be NaN in the box is not settled, so NaN stays NaN.
+// Returns the program for inputs in a box. Values that are constant there become constants, and instructions that
+// cannot affect the outputs are removed. Results stay bit-identical. An instruction that may be NaN in the box is not
+// replaced, so NaN stays NaN.
 Remainder narrow(const Program& program, const Box& box, Precision precision = Precision::reference,
                  const SourceRanges& source_ranges = nullptr);
 
-// The same, with the code of those of many parts that reach the box.
+// Returns the program for inputs in a box, with many parts replaced by the code of those that reach it.
 Program narrow_to_parts(const Program& program, const Box& box, Precision precision = Precision::reference,
                         const SourceRanges& source_ranges = nullptr);
 

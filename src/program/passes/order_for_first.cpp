@@ -1,4 +1,4 @@
-// Puts what the first output needs in front.
+// Moves the instructions that the first output needs to the front.
 #include "program/passes/copy_tables.h"
 #include "program/passes/passes.h"
 

@@ -1,4 +1,4 @@
-// Passes: program in, equal program out.
+// Passes, which transform a program into an equivalent one.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,31 @@ Program inline_bodies(const Program& program);
 
 class PartTable;
 
-// Drops parts that cannot reach a box, more sharply than their boxes in an index do.
+// A filter that removes parts that cannot reach a box, more precisely than the index, which knows only boxes.
 class PartFilter {
  public:
   virtual ~PartFilter() = default;
-  // Parts of the table, in ascending order.
+  // Removes from `parts`, which are numbers in the table in ascending order, those that cannot reach the box.
   virtual void keep_reaching(const PartTable& table, const Box& where, std::vector<uint32_t>& parts) = 0;
 };
 
-// Replaces ops that stand for many parts by the code of those that reach a region, in which the
-// instructions have the given values. Without a filter, parts are queried one by one.
+// Replaces ops that stand for many parts by the code of the parts that reach a region. `values` are the ranges of the
+// instructions in that region. Without a filter, parts are tested one by one.
 Program expand_parts(const Program& program, const std::vector<Interval>& values, Precision precision,
                      PartFilter* filter = nullptr);
 
-// How many parts such ops stand for in the region: of the op with the most of them, or `most`.
+// Returns the largest number of parts that such an op stands for in the region, at most `most`.
 size_t parts_in_reach(const Program& program, const std::vector<Interval>& values, size_t most);
 
-// The program for a region in which the instructions have the given values: what is settled there
-// becomes a constant, what cannot win a min, max or select falls away.
-// `kept`, if given, gets the values of the instructions that are left.
+// Returns the program for a region in which the instructions have the given ranges. Values that are constant there
+// become constants; operands that cannot win a min, max or select are removed. If `kept` is given, it gets the ranges
+// of the remaining instructions.
 Program shorten(const Program& program, const std::vector<Interval>& values, std::vector<Interval>* kept = nullptr);
 
-// The same for many regions, with allocations kept from one to the next.
+// Shortens a program for many regions and reuses memory between them.
 class Shortener {
  public:
-  // The program outlives the regions.
+  // Sets the program, which must outlive all calls of shorten().
   void begin(const Program& program);
   void shorten(const std::vector<Interval>& values, Program& result, std::vector<Interval>& kept);
 
@@ -52,35 +52,35 @@ class Shortener {
 
   const Program* from_ = nullptr;
   const std::vector<Interval>* values_ = nullptr;
-  std::vector<uint8_t> zero_sign_matters_;  // empty: not looked for yet
+  std::vector<uint8_t> zero_sign_matters_;  // empty until first needed
   std::vector<ValueId> target_, renamed_;
   std::vector<uint8_t> needed_;
 };
 
-// Where a distance is only compared with zero, compares what decides its sign. Sets and materials stay
-// what they are but for rounding at boundaries.
+// Replaces values that are only compared with zero by cheaper ones of the same sign. Sets and materials do not change,
+// except for rounding at boundaries.
 Program sign_only(const Program& program);
 
-// Affine maps become chains of fused multiply-adds, and so do products that are only added to something.
+// Turns affine maps, and products that are only used in sums, into fused multiply-adds.
 Program fuse(const Program& program);
 
-// Both as above, with allocations kept from program to program (replay.h).
+// Versions that write to `result` and reuse memory between programs (replay.h).
 struct Workspace;
 void sign_only(const Program& program, Workspace& workspace, Program& result);
 void fuse(const Program& program, Workspace& workspace, Program& result);
 
-// Sums that are affine in the inputs are computed from these at once, not from each other. Equal but for rounding; the
-// ranges of such values are as narrow as can be.
+// Computes sums that are affine in the inputs directly from the inputs. Results are equal except for rounding, and
+// their ranges are as narrow as possible.
 Program compose_affine(const Program& program);
 
-// Moves what output 0 needs to the front and returns how many instructions that is.
+// Moves the instructions that output 0 needs to the front and returns their number.
 size_t order_for_first(Program& program);
 
-// How many instructions inline_bodies would give, at most; may be far beyond what memory holds.
+// Returns an upper bound of the number of instructions after inline_bodies, which may exceed memory by far.
 double inlined_size(const Program& program);
 
-// The affine map that takes (x, y, z) to operands a, b, c of the given instruction, if there is one. `base`: three
-// values that stand for x, y and z; by default the inputs.
+// Returns the affine map from (x, y, z) to operands a, b, c of the instruction, or nothing if there is none. `base`
+// holds three values that stand for x, y and z; by default these are the inputs.
 std::optional<Affine> affine_operands(const Program& program, const Instruction& instruction,
                                       std::span<const ValueId> base = {});
 

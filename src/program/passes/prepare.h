@@ -1,4 +1,4 @@
-// Which passes a program goes through before it is evaluated, and in which order.
+// The sequence of passes that prepares a program for evaluation.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 
 namespace ombre::program {
 
-// What a program in double precision is prepared for.
+// The evaluation for which a program in double precision is prepared.
 enum class Purpose : uint8_t {
-  ranges,  // its values in boxes, as batches would compute them
+  ranges,  // ranges of values in boxes, as batches would compute them
   batch,   // batches of voxels
   rays,    // batches along the rays of a picture, whose inputs are mapped first
 };
@@ -23,7 +23,7 @@ struct Pass {
 
 std::span<const Pass> passes_for(Purpose purpose);
 
-// Runs all passes for the purpose. `after`, if given, is called with what each of them made.
+// Runs all passes for the purpose. If `after` is given, it is called with the result of each pass.
 Program prepare(const Program& program, Purpose purpose,
                 const std::function<void(const Pass& pass, const Program& made)>& after = nullptr);
 

@@ -1,4 +1,4 @@
-// Writes a program's instructions into a builder, so that a pass can change some on the way.
+// Copies a program's instructions into a builder, so that a pass can replace some of them.
 #pragma once
 
 #include <array>
@@ -8,25 +8,26 @@
 
 namespace ombre::program {
 
-// The field to take for an instruction, given those of the instructions before it; nothing: a copy.
+// Returns the field that replaces an instruction, given the fields of all earlier instructions, or nothing to copy the
+// instruction.
 using Rewrite = std::function<std::optional<Field>(ValueId id, const std::vector<Field>& done)>;
 
-// What passes work in. Kept from program to program, it saves allocating.
+// Buffers of passes, reused between programs to avoid allocations.
 struct Workspace {
   Builder builder;
   std::vector<Field> fields;
   Outputs outputs;
 };
 
-// One field for each instruction. `program` may not hold calls.
+// Returns one field for each instruction. `program` may not hold calls.
 std::vector<Field> replay(Builder& builder, const Program& program, const std::array<Field, 3>& inputs,
                           const Rewrite& rewrite = nullptr);
 
-// The program with some instructions replaced, without what nothing needs any more. `rewrite` works with
-// the workspace's builder, which is empty before.
+// Replaces some instructions of a program and removes those that are no longer needed. `rewrite` uses the workspace's
+// builder, which must be empty at the start.
 void rewrite(const Program& program, Workspace& workspace, const Rewrite& rewrite, Program& result);
 
-// The same by a class with a constructor from program and builder, and a method `rewrite` as above.
+// Rewrites a program with a class that has a constructor from program and builder and a method `rewrite` as above.
 template <class Pass>
 void rewrite_by(const Program& program, Workspace& workspace, Program& result) {
   workspace.builder.clear();
@@ -42,7 +43,7 @@ Program rewritten_by(const Program& program) {
   return result;
 }
 
-// Which of x, y, z (bits 1, 2, 4) each instruction depends on.
+// Returns for each instruction the axes on which it depends, as bits: 1 for x, 2 for y, 4 for z.
 std::vector<uint8_t> axis_masks(const Program& program);
 
 }  // namespace ombre::program

@@ -1,4 +1,4 @@
-// Drops what a region has settled.
+// Removes instructions whose values are known in a region.
 #include <algorithm>
 #include <bit>
 
@@ -31,7 +31,7 @@ void Shortener::shorten(const std::vector<Interval>& values, Program& result, st
   result.output_names = from_->output_names;
 }
 
-// The operand that an instruction is sure to equal, or the instruction itself.
+// Returns the operand that is sure to equal the instruction's value, or the instruction itself.
 ValueId Shortener::settled(ValueId i) const {
   const Instruction& in = from_->code[i];
   const std::vector<Interval>& values = *values_;
@@ -49,7 +49,7 @@ ValueId Shortener::settled(ValueId i) const {
       if (values[in.a] == Interval(0)) return in.c;
       return i;
     case Op::add: {
-      // x + 0 is x, except that -0 + 0 is +0; this is left out where the sign of zero matters.
+      // x + 0 is x, except that -0 + 0 is +0, so this is skipped where the sign of zero matters.
       const bool any_zero = zero_sign_matters_[i] == 0;
       if (values[in.a] == Interval(0) && (any_zero || lacks_zero(values[in.b]))) return in.b;
       if (values[in.b] == Interval(0) && (any_zero || lacks_zero(values[in.a]))) return in.a;
@@ -67,14 +67,16 @@ ValueId Shortener::settled(ValueId i) const {
   }
 }
 
-// Neither is NaN; they may be equal where the result's zeros may have either sign.
+// True if `less` is surely below `greater`, and neither is NaN. Equal values are allowed if the sign of the result's
+// zeros does not matter.
 bool Shortener::is_at_most(ValueId less, ValueId greater, ValueId result) const {
   const Interval a = (*values_)[less], b = (*values_)[greater];
   if (a.is_everything() || b.is_everything()) return false;
   return a.hi < b.lo || (a.hi == b.lo && zero_sign_matters_[result] == 0);
 }
 
-// An `or` with a side that is surely false is its other side, and the like.
+// Returns the other operand of an `or` whose one operand is surely false, or of an `and` whose one operand is surely
+// true; else the instruction itself.
 ValueId Shortener::logical_target(ValueId i) const {
   const Instruction& in = from_->code[i];
   const std::vector<Interval>& values = *values_;
@@ -88,8 +90,8 @@ ValueId Shortener::logical_target(ValueId i) const {
   return i;
 }
 
-// Inputs stay what they are, also where the region is one point wide: others look for them. Intervals do not
-// know the sign of a 0.
+// True if the value is replaced by a constant. Inputs never are, even in a region of a single point, since other code
+// looks for them. Zeros are only if their sign does not matter, which intervals do not know.
 bool Shortener::is_known(ValueId i) const {
   const Op op = from_->code[i].op;
   const Interval value = (*values_)[i];
@@ -134,7 +136,7 @@ void Shortener::copy_needed(Program& to, std::vector<Interval>& kept) {
       each_operand(in, [&](ValueId& id) { id = renamed_[target_[id]]; });
       copy_tables(*from_, to, in);
     }
-    // Shares of what is absent here become the same, one after the other.
+    // Copies of parts that are absent in the region become identical, and follow each other.
     const bool is_repeated = !to.code.empty() && is_same(in, to.code.back());
     if (!is_repeated) {
       to.code.push_back(in);

@@ -1,4 +1,4 @@
-// Where a distance is only compared with zero, its value need not be computed.
+// Removes the computation of values that are only compared with zero.
 #include <algorithm>
 
 #include "program/passes/passes.h"
@@ -30,7 +30,7 @@ class SignOnly {
     return builder_.apply(compare_, (*done_)[id], builder_.constant(limit));
   }
 
-  // The truth value of v <= 0, or of v < 0.
+  // Returns the truth value of v <= 0, or of v < 0.
   Field negative(ValueId id) const {
     const Instruction& in = at(id);
     if (in.op == Op::max) return logical_and(negative(in.a), negative(in.b));
@@ -46,13 +46,14 @@ class SignOnly {
     return compared(id, 0);
   }
 
-  // sqrt(s) <= r where s <= r^2.
+  // Replaces sqrt(s) <= r by s <= r^2.
   Field below(ValueId id, double limit) const {
     if (is(id, Op::sqrt) && limit >= 0) return compared(at(id).a, limit * limit);
     return compared(id, limit);
   }
 
-  // The sides of length(max(a, 0), max(b, 0), ...) + min(max(a, b, ...), 0): the sum is positive where one is.
+  // Returns the operands a, b, ... of length(max(a, 0), max(b, 0), ...) + min(max(a, b, ...), 0). The sum is positive
+  // if one of them is.
   std::optional<std::vector<ValueId>> corner(const Instruction& in) const {
     if (in.op != Op::add || !is(in.a, Op::sqrt) || !is(in.b, Op::min) || !is_constant(at(in.b).b, 0))
       return std::nullopt;

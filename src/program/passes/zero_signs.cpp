@@ -3,7 +3,7 @@
 namespace ombre::program {
 namespace {
 
-// Is the result for an operand +0 the same as for -0?
+// True if the results for +0 and -0 are equal.
 bool forgets_sign(Op op) {
   return gives_truth(op) || op == Op::abs || op == Op::square || op == Op::cos || op == Op::cosh || op == Op::exp;
 }

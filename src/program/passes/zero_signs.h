@@ -1,4 +1,4 @@
-// Whether anything can tell +0 from -0.
+// Detection of instructions for which the sign of zero matters.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace ombre::program {
 
-// For each instruction: may the sign of its result, where that is 0, change an output by more than the sign of
-// a 0? Only divisions by it, atan2 and powers of it tell.
+// Returns for each instruction whether the sign of a zero result can change an output by more than the sign of a zero.
+// Only divisions by it, atan2 and its powers can do that.
 std::vector<uint8_t> zero_signs_that_matter(const Program& program);
 
 }  // namespace ombre::program
