@@ -83,7 +83,7 @@ Camera camera_around(const Box& box, const ViewOptions& options, double aspect) 
   const double radius = length(box.size()) / 2 + length(box.center() - camera.target);
   if (options.field_of_view_deg > 0) {
     const double half = options.field_of_view_deg * 3.14159265358979323846 / 360;
-    // At this distance the ball around the box is in view.
+    // The whole ball around the box is in view from this distance.
     camera.distance_mm = std::max(radius / std::sin(half), 1.01 * radius);
   }
   camera.height_mm = options.height_mm.value_or(border * height_for(camera, box, aspect)) / options.zoom;
