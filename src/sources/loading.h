@@ -38,8 +38,8 @@ class Loader : public design::SourceLoader {
   std::set<Hash> reported_;
 };
 
-// A key of everything that determines a source. Words are terminated, so that different lists of words give different
-// keys.
+// A key of everything that determines a source. Words are stored with their lengths, so that different lists of words
+// give different keys.
 class Key {
  public:
   explicit Key(std::string_view kind) { add(kind); }

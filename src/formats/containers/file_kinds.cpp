@@ -1,4 +1,4 @@
-// What files are that are given as meshes but are none.
+// Recognizes files that are given as meshes but have another format.
 #include "formats/containers/file_kinds.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ constexpr std::string_view other_mesh = "export a mesh: STL, OBJ, PLY, OFF, 3MF 
 constexpr std::string_view unpack = "unpack it";
 
 struct Kind {
-  std::string_view begin;  // of the file
+  std::string_view begin;  // first bytes of the file
   std::string_view what;
   std::string_view hint = {};
 };

@@ -1,4 +1,4 @@
-// Finds the reader for a mesh file.
+// Selects the reader for a mesh file.
 #include "formats/packages/read_mesh.h"
 
 #include "base/text/file_ending.h"
@@ -10,7 +10,7 @@
 namespace ombre::formats {
 namespace {
 
-// The outermost element, behind a declaration and comments.
+// Finds the root element after a declaration and comments.
 bool is_amf(std::string_view bytes) {
   constexpr size_t sniffed_bytes = 1024;
   const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
