@@ -22,7 +22,7 @@ constexpr int smallest_text = 11, largest_text = 64;
 constexpr double axes_strip = 6, scale_strip = 2.6, row = 1.6, margin = 1, gap = 0.5, swatch = 1, arm = 2;
 constexpr double legend_share = 0.3;  // greatest share of the picture's width
 constexpr double bar_share = 0.3;     // greatest share of the width of the contents
-constexpr double bar_lines = 14;      // greatest height of a bar of colours
+constexpr double bar_lines = 14;      // greatest height of a bar of colours, in text sizes
 constexpr Rgb dark_ink{45, 48, 54}, light_ink{235, 237, 240};
 
 int text_size(int64_t height) {

@@ -368,7 +368,7 @@ class RayCaster {
   RayBand& hits_;
   std::vector<size_t> met_;                   // numbers of the evaluated blocks to keep
   program::Program queried_;                  // the program of blocks_ while it is evaluated again
-  int64_t first_column_ = 0, first_row_ = 0;  // of the current tile
+  int64_t first_column_ = 0, first_row_ = 0;  // first column and row of the current tile
   std::array<uint8_t, largest_tile * largest_tile> is_open_{};
   std::vector<Ray> rays_, surfaces_, ends_;
 };

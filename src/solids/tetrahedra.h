@@ -40,7 +40,7 @@ struct TetrahedraRequest {
 struct Tetrahedra {
   std::vector<Vec3> points;  // mm
   std::vector<std::array<uint32_t, 4>> nodes;
-  std::vector<uint32_t> regions;         // of each tetrahedron
+  std::vector<uint32_t> regions;         // by tetrahedron: number of its region
   std::vector<Polyline> edges_left_out;  // the dropped sharp edges, which lie too close to others for the size
 };
 

@@ -13,8 +13,8 @@ namespace ombre::sources {
 design::Remark remark_on_gaps(const std::string& path, const std::vector<importing::OpenSolid>& open,
                               double tolerance_mm, bool is_exact);
 
-// Returns the remark on the time that an exact part takes for so many voxels; `tolerance_mm` is that of triangles as an
-// alternative.
+// Returns the remark on the time that an exact part takes for this number of voxels; `tolerance_mm` is that of
+// triangles as an alternative.
 design::Remark remark_on_time(const std::string& path, double voxels, double seconds, double tolerance_mm);
 
 }  // namespace ombre::sources

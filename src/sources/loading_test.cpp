@@ -25,7 +25,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  // Writes a file with a modification time so many seconds ago.
+  // Writes a file whose modification time is this many seconds ago.
   std::string write(const std::string& name, const std::string& text, int seconds_ago = 100) const {
     const fs::path path = path_ / name;
     std::ofstream(path, std::ios::binary) << text;

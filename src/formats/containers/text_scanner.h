@@ -32,8 +32,8 @@ class TextScanner {
   size_t position() const { return at_; }
   void go_to(size_t position) { at_ = position; }
   size_t remaining() const { return bytes_.size() - at_; }
-  bool at_end();       // skips blanks, empty lines and comments
-  bool at_line_end();  // skips blanks and comments
+  bool at_end();       // true at the end of the text, after skipping blanks, empty lines and comments
+  bool at_line_end();  // true at the end of the line, after skipping blanks and comments
   void next_line();    // skips the rest of this line
   // Returns true if at least this many lines with words follow, including the rest of this one.
   bool has_lines(uint64_t count) const;

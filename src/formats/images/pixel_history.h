@@ -44,8 +44,8 @@ class PixelHistory {
 
   uint32_t width_, colours_;
   KeyShape shape_;
-  // Pixels as numbers. Positions are bytes of the image data. Rows are stored contiguously as they are there; the
-  // filter byte before a row counts as a quarter of a pixel, rounded.
+  // Pixels as numbers. A position is an offset in bytes in the image data. Rows are contiguous, as in the image data;
+  // the filter byte before a row counts as a quarter of a pixel, rounded.
   std::vector<uint8_t> numbers_;
   size_t first_ = 0;
   uint32_t row_ = 0, next_row_ = 0;

@@ -15,7 +15,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int level = 6;  // of levels up to 12
+constexpr int level = 6;  // the highest level is 12
 constexpr size_t most_colours = 256;
 
 // The colours of a picture in the order of their first occurrence, if they are few, and each pixel's number among them.

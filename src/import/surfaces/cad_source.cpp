@@ -105,7 +105,7 @@ double distance_to(const Box& box, Vec3 p) {
   return length(beyond);
 }
 
-// A solid of which triangles decide what is inside, except near its surface.
+// A solid that decides what is inside by its triangles, except near its surface.
 class ExactSolid {
  public:
   ExactSolid(cad::SolidPtr solid, program::SourceField triangles, std::optional<FaceTree> faces, double doubt_mm)

@@ -5,8 +5,8 @@
 
 namespace ombre::surface {
 
-// Moves vertices that are not part of a cluster, if fewer triangles around them are folded afterwards. The surface must
-// be refreshed before.
+// Refreshes the surface, then moves vertices that are not part of a cluster if fewer triangles around them are folded
+// afterwards.
 void unfold(QuadSurface& surface);
 
 }  // namespace ombre::surface
