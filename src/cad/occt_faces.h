@@ -20,7 +20,7 @@ class FaceSurfaces {
  private:
   struct Face {
     BRepAdaptor_Surface surface;
-    bool is_turned;  // the surface's normal points into the solid
+    bool is_turned;  // true if the surface's normal points into the solid
   };
   std::vector<Face> faces_;
 };

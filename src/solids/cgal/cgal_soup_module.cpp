@@ -116,8 +116,8 @@ class Splitter {
     }
   }
 
-  // Returns the other triangle of the sector: a triangle that runs forward along the edge faces its outside in turning
-  // direction, so its sector ends at the last of the others.
+  // Returns the triangle that bounds the same sector. Turning from a triangle that runs forward along the edge leads
+  // outside, so its sector ends at the last of the others.
   std::vector<Use>::iterator partner_of(size_t a, size_t b, const Use& use, std::vector<Use>& others) const {
     const auto turn = [&](size_t apex) {
       return part_of_turn(points_[a], points_[b], points_[use.apex], points_[apex]);

@@ -242,7 +242,7 @@ class LevelBuilder {
   std::vector<int> euler_;
   std::vector<bool> may_join_;
   std::vector<uint32_t> tops_;                                      // by vertex: the topmost cluster above it
-  std::array<std::vector<LevelQuad>, grid_level + 1> later_quads_;  // by the higher level of the planes of their edges
+  std::array<std::vector<LevelQuad>, grid_level + 1> later_quads_;  // by level of their edges
   std::vector<LevelQuad> quads_;
   std::vector<uint32_t> fresh_, group_, number_, blocked_, arc_ends_;
   std::vector<Candidate> candidates_;

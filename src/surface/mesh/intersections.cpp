@@ -9,7 +9,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double nearly_one = 1 - 1e-6;  // cosine
+constexpr double nearly_one = 1 - 1e-6;  // magnitude of the cosine from which facets are parallel
 
 // All triangles of a surface.
 class Triangles {
