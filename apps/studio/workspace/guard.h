@@ -27,9 +27,8 @@ class Guard {
   Guard(std::string token, uint16_t port) : token_(std::move(token)), port_(port) {}
 
   // Returns null if the request is admitted. Checks in this order:
-  //   Host    It must be a name of this machine (127.0.0.1, localhost, [::1]); any port is allowed, because a tunnel
-  //   may
-  //           have another. Foreign names that point here (DNS rebinding) are refused.
+  //   Host    It must be a name of this machine (127.0.0.1, localhost, [::1]); any port is allowed, because a
+  //           tunnel may have another. Foreign names that point here (DNS rebinding) are refused.
   //   Origin  It must be absent, or the page's own: http:// and the same host.
   //   token   It must be in the cookie, in the address (?token=) or in "Authorization: Bearer".
   std::optional<Refusal> refuse(const RequestHead& head) const;
