@@ -22,7 +22,7 @@ class Pair {
         sides_{sample(before, box_, measured_voxels, stop), sample(after, box_, measured_voxels, stop)} {
     for (const SampledDesign& side : sides_) side.job.stages->prepare({});
   }
-  // Lists the materials of both by name, since another file of materials numbers them otherwise.
+  // Lists the materials of both designs by name, because their numbers differ between files of materials.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const SampledDesign& side : sides_)
@@ -61,7 +61,7 @@ std::vector<float> fractions(const SampledDesign& design, const std::vector<std:
           const int64_t row = ((k - slab.lo[2]) * slab.size(1) + j - slab.lo[1]) * slab.size(0);
           float* to = dense.data() + static_cast<size_t>(name) * voxels + row + (tile.box.lo[0] - slab.lo[0]);
           for (int64_t i = 0; i < tile.box.size(0); ++i, from += tile.is_uniform ? 0 : 1)
-            *to++ = *from > 0 ? *from : 0;  // NaN becomes 0
+            *to++ = *from > 0 ? *from : 0;  // maps NaN to 0
         }
     }
   return dense;
@@ -82,10 +82,11 @@ struct Sums {
   }
 
   double gained = 0, lost = 0, changed = 0, unchanged = 0;
-  std::vector<double> before, after;  // of each material
+  std::vector<double> before, after;  // by material
 };
 
-// In each voxel the lesser share of a material is unchanged, and what both designs fill beyond that has changed.
+// In each voxel, the lesser share of a material is unchanged; the rest of the volume that both designs fill has
+// changed.
 Sums compare_slab(const Pair& pair, const std::vector<std::string>& names, const TileBox& slab, const StopFlag& stop) {
   const std::vector<float> before = fractions(pair.side(0), names, slab, stop);
   const std::vector<float> after = fractions(pair.side(1), names, slab, stop);

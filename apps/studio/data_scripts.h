@@ -6,9 +6,9 @@
 
 namespace ombre::studio {
 
-// Each writes a `.vcad` script that shows the file, which the script calls `name` and which lies at `path`. The script
-// for a scan shows the solid that has at least a level; the script for results shows the mesh, moved by its
-// displacement, with an attribute for each number. They throw Error for a file that cannot be read.
+// These functions return a `.vcad` script that shows the file at `path`, which the script calls `name`. The script for
+// a scan shows the solid above a level; the script for results shows the mesh, moved by its displacement, with an
+// attribute for each number. They throw Error if the file cannot be read.
 std::string script_for_scan(const std::string& name, const std::filesystem::path& path);
 std::string script_for_results(const std::string& name, const std::filesystem::path& path);
 

@@ -1,4 +1,4 @@
-// The designs that are open, and what was planned of them.
+// The open designs, and the jobs planned for them.
 #pragma once
 
 #include <list>
@@ -21,10 +21,10 @@ struct CutDesign {
 };
 using CutDesignPtr = std::shared_ptr<const CutDesign>;
 
-// A design that was loaded. Thread-safe.
+// A loaded design. Thread-safe.
 class OpenDesign {
  public:
-  // The memory outlives it.
+  // Constructs an open design; the memory must outlive it.
   OpenDesign(std::string name, compile::LoadedPtr design, const Box& box, std::string program,
              design::SubDesignMemory& kept)
       : handle(std::move(name)), loaded(std::move(design)), bounds(box), memory(kept), program_(std::move(program)) {}
@@ -32,10 +32,10 @@ class OpenDesign {
   const std::string handle;
   const compile::LoadedPtr loaded;
   const Box bounds;
-  design::SubDesignMemory& memory;  // of what was made of the design's parts, and of other designs'
+  design::SubDesignMemory& memory;  // holds what was made of parts of this and other designs
 
-  // Planned when it is first asked for, and kept. Throws RequestError, which says what is wrong, when the design cannot
-  // be cut so.
+  // Returns the plan for these choices, made on first use and cached. Throws RequestError with the reason if the design
+  // cannot be sliced with them.
   CutDesignPtr cut(const JobChoices& choices);
 
  private:
@@ -45,27 +45,27 @@ class OpenDesign {
   };
   CutDesignPtr make(const JobChoices& choices) const;
 
-  std::string program_;  // that writes jobs: "ombre 0.1.0"
+  std::string program_;  // the program that writes jobs, such as "ombre 0.1.0"
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<Slot>> slots_;  // by the choices' key
+  std::map<std::string, std::shared_ptr<Slot>> slots_;  // by the key of the choices
 };
 using OpenDesignPtr = std::shared_ptr<OpenDesign>;
 
-// Keeps the designs that were loaded last, each by a handle. Thread-safe.
+// Keeps the most recently loaded designs, each by a handle. Thread-safe.
 class Designs {
  public:
   static constexpr size_t most = 12;
 
-  // The memory outlives all that is added.
+  // Constructs an empty collection; the memory must outlive all added designs.
   explicit Designs(design::SubDesignMemory& memory) : memory_(memory) {}
   OpenDesignPtr add(const compile::LoadedPtr& loaded, const Box& bounds, const std::string& program);
-  // Throws RequestError "gone" for one that is no longer kept: it is to be loaded again.
+  // Returns the design of a handle. Throws RequestError "gone" if it is no longer kept and has to be loaded again.
   OpenDesignPtr find(const std::string& handle);
 
  private:
   design::SubDesignMemory& memory_;
   std::mutex mutex_;
-  std::list<OpenDesignPtr> kept_;  // the most recently used first
+  std::list<OpenDesignPtr> kept_;  // most recently used first
   uint64_t count_ = 0;
 };
 

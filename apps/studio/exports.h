@@ -1,4 +1,4 @@
-// Jobs that the page started, of any kind: one at a time, each of which may pause.
+// Jobs of any kind that the page started. They run one at a time, and may be paused.
 #pragma once
 
 #include <condition_variable>
@@ -19,34 +19,35 @@ namespace ombre::studio {
 struct ExportRequest {
   OpenDesignPtr design;
   JobChoices choices;
-  std::string file;    // of the design, as the page knows it
-  std::string name;    // of the folder, likewise
-  std::string folder;  // its path
+  std::string file;    // file of the design, as the page names it
+  std::string name;    // name of the folder, as the page names it
+  std::string folder;  // path of the folder
   bool replace = false;
-  const jobs::JobKind* kind = nullptr;  // null: a slice stack by the choices
-  DataMembers members = {};             // of the kind's options, with whole paths
-  DataMembers shown = {};               // the same, as the page has them
+  const jobs::JobKind* kind = nullptr;  // kind of the job; null for a slice stack by the choices
+  DataMembers members = {};             // the kind's options, with absolute paths
+  DataMembers shown = {};               // the same options, as the page names them
 };
 
-// Thread-safe. A job writes the files that the command of its kind would. Of slice stacks and searches what is finished
-// stays when a job pauses, ends or the program is killed, and the same request goes on from there; others begin again.
+// Runs jobs, which write the same files as the command of their kind. Slice stacks and searches keep finished work when
+// they are paused, end, or the program is killed, and the same request continues from there; other jobs start again.
+// Thread-safe.
 class Exports {
  public:
-  // Called with a job's state when it changes, and now and then while it works, from any thread.
+  // Called with a job's state when it changes, and regularly while it works, from any thread.
   using Report = std::function<void(const DataMembers& job)>;
 
-  // `program` is for job.json: "ombre 0.1.0".
+  // Constructs a queue without jobs; `program` is written to job.json, such as "ombre 0.1.0".
   Exports(Report report, sources::SourceCache& cache, std::string program);
-  // Pauses what is at work, and waits for it.
+  // Pauses the running job and waits for it.
   ~Exports();
   Exports(const Exports&) = delete;
   Exports& operator=(const Exports&) = delete;
 
-  bool is_at_work() const;  // or has jobs that wait
+  bool is_at_work() const;  // true if a job is running or waiting
 
-  // The new job. Throws RequestError when the folder's job is at work or waits already.
+  // Starts a job and returns its description. Throws RequestError if a job for the folder is running or waiting.
   DataMembers start(const ExportRequest& request);
-  // Each throws RequestError when there is no such job, or it is in no state for that.
+  // These throw RequestError if there is no such job, or its state does not allow the change.
   void pause(int64_t id);
   void resume(int64_t id);
   void cancel(int64_t id);

@@ -10,17 +10,17 @@
 namespace ombre::studio {
 namespace {
 
-// Returns the density in g/cm3, or nothing where the material has none.
+// Returns the density in g/cm3, or null if the material has none.
 std::optional<double> density_of(const design::Material& material) {
   for (const auto& [name, value] : material.properties)
     if (name == "density" && value.number()) return *value.number();
   return std::nullopt;
 }
 
-// Adds up voxels by materials, and by parts where the design has labels of parts.
+// Sums voxels by material, and by part if the design has labels of parts.
 class Amounts {
  public:
-  // The grids are those of fractions, and behind them the label of parts, where there are names.
+  // Constructs empty sums. The grids are those of fractions, followed by the label of parts if there are names.
   Amounts(const compile::GridJob& job, const design::MaterialTable& materials, const std::vector<std::string>& parts) {
     if (!parts.empty()) part_names_.emplace_back("rest");
     part_names_.insert(part_names_.end(), parts.begin(), parts.end());
@@ -57,8 +57,8 @@ class Amounts {
 
  private:
   struct Amount {
-    double voxels = 0, weighed = 0;  // voxels times g/cm3
-    bool is_known = true;            // are all densities?
+    double voxels = 0, weighed = 0;  // weighed is in voxels times g/cm3
+    bool is_known = true;            // true if all densities are known
 
     void add(double share, const std::optional<double>& density) {
       voxels += share;
@@ -67,7 +67,7 @@ class Amounts {
     }
   };
 
-  // Returns the index of the part at a voxel; 0 stands for solids without a name.
+  // Returns the index of the part at a voxel; 0 for solids without a name.
   size_t part_at(const voxel::FieldTile& tile, int64_t n) const {
     const auto label = std::lround(tile.output(names_.size())[n]);
     return label > 0 && static_cast<size_t>(label) < of_part_.size() ? static_cast<size_t>(label) : 0;
@@ -87,7 +87,7 @@ class Amounts {
     return list;
   }
 
-  std::vector<std::string> names_, part_names_;  // no part names: the design has no labels of parts
+  std::vector<std::string> names_, part_names_;  // part names are empty if the design has no labels of parts
   std::vector<std::optional<double>> densities_;
   std::vector<Amount> of_material_, of_part_;
 };

@@ -1,20 +1,20 @@
-// Volumes of materials, and versions that are compared.
+// Tests of the volumes of materials, and of comparisons of versions.
 #include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {
 namespace {
 
-// A cube of 8 mm grows to 10 along x, loses 1 along z, and half of what stays (x < 4) is of another material.
+// A cube of 8 mm grows to 10 mm along x and shrinks by 1 mm along z; half of the rest (x < 4) changes its material.
 
-// Half red and half blue everywhere becomes three quarters red: a quarter of it is of another material.
+// A mixture that is half red and half blue becomes three quarters red, so a quarter of it changes its material.
 
 TEST_F(StudioTest, MeasuresABall) {
   const Data measured = ask("measure", R"("design": ")" + load(ball) + '"').first;
   const double volume = 4.0 / 3 * 3.14159265358979 * 27;
   EXPECT_NEAR(number_in(measured, "volume_mm3"), volume, 1e-3 * volume);
   ASSERT_EQ(measured.find("materials")->list()->size(), 2U);
-  for (const Data& material : *measured.find("materials")->list())  // by symmetry
+  for (const Data& material : *measured.find("materials")->list())  // equal by symmetry
     EXPECT_NEAR(number_in(material, "volume_mm3"), volume / 2, 1e-3 * volume);
 }
 

@@ -14,10 +14,11 @@ namespace {
 using design::Node;
 using design::NodePtr;
 
-// Solids that are evaluated at a point at once, each of which is compiled; bounds have left out most before.
+// Greatest number of solids evaluated at a point together, each of which has to be compiled; most others are excluded
+// by their bounds.
 constexpr size_t most_candidates = 64;
 
-// Is the shape that of its one input, as it is or in other places?
+// Returns true if the node's shape is that of its only input, unchanged or elsewhere.
 bool shows_its_input(const Node& node) {
   constexpr std::array<std::string_view, 3> elsewhere{"transforms", "warps", "arrays"};
   if (node.inputs().size() != 1) return false;
@@ -52,7 +53,7 @@ class Descent {
                                     : first_around({node.inputs().begin(), node.inputs().end()}, counts_last(node));
   }
 
-  // The solid where the nodes above put it.
+  // Returns the solid as placed by the nodes above it.
   NodePtr placed(NodePtr solid) const {
     for (const Node* above : around_) solid = above->type().with_inputs(*above, {solid});
     return solid;
@@ -74,7 +75,7 @@ class Descent {
     return found < candidates.size() ? candidates[found] : nullptr;
   }
 
-  // The number of the part, or one beyond the last.
+  // Returns the number of the first part that contains the point, or the number of parts.
   size_t first_inside(const design::Design& alone) const {
     if (stop_.requested()) throw Cancelled();
     compile::SampleQuery query;
@@ -92,7 +93,7 @@ class Descent {
   const design::Design& design_;
   const Vec3 point_;
   const StopFlag& stop_;
-  std::vector<const Node*> path_, around_;  // around_: those that show their input, the innermost first
+  std::vector<const Node*> path_, around_;  // around_: the nodes that show their input, innermost first
 };
 
 }  // namespace

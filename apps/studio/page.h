@@ -1,4 +1,4 @@
-// The page that npm bundled, in builds that have it.
+// The page as bundled by npm, in builds that include it.
 #pragma once
 
 #include <span>

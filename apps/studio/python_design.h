@@ -1,4 +1,4 @@
-// Designs in Python, which a process of their own makes.
+// Designs in Python, which run in a separate process.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace ombre::studio {
 
-// Runs the script at `path`, as it is on the disk, by `program`, the words that start Ombre's command line. Null, and
-// diagnostics, when something is wrong. Throws Error and Cancelled.
+// Runs the script at `path` as stored on disk; `program` is the command line that starts Ombre. Returns null, with
+// diagnostics, if it fails. Throws Error and Cancelled.
 compile::LoadedPtr load_python(const std::string& path, const std::vector<std::string>& program,
                                const compile::LoadOptions& options, Diagnostics& diagnostics);
 

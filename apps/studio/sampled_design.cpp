@@ -8,12 +8,12 @@
 namespace ombre::studio {
 namespace {
 
-// Cubes of such a size that about so many fill the box.
+// Returns the side of cubes of which about `voxels` fill the box.
 Pitch pitch_for(const Box& box, double voxels) {
   const Vec3 size = box.size();
   const double least = std::max({size.x, size.y, size.z}) / 1000;
   const double sides = std::max(size.x, least) * std::max(size.y, least) * std::max(size.z, least);
-  // Three digits are enough, and keep the lattice's arithmetic exact.
+  // Three digits suffice, and keep the lattice's arithmetic exact.
   const double side = std::cbrt(sides / voxels), unit = std::pow(10, std::floor(std::log10(side)) - 2);
   return Pitch::from_mm(std::ceil(side / unit) * unit).value_or(Pitch{});
 }

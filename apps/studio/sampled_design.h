@@ -1,4 +1,4 @@
-// Samples what a design is made of on a coarse lattice of cubes.
+// Samples designs on a coarse lattice of cubes.
 #pragma once
 
 #include "base/system/progress.h"
@@ -7,27 +7,27 @@
 
 namespace ombre::studio {
 
-constexpr double measured_voxels = 1e6;  // samples from which volumes are estimated
+constexpr double measured_voxels = 1e6;  // number of samples from which volumes are estimated
 
 struct SampledDesign {
   compile::Plan plan;
-  compile::GridJob job;  // the grids that were wanted
+  compile::GridJob job;  // the requested grids
 
   double pitch_mm() const { return plan.request.lattice.pitch[0].mm(); }
 };
 
-// A grid for each material: its fraction.
+// Returns a query for a grid of each material's fraction.
 inline compile::GridQuery all_fractions() {
   compile::GridQuery query;
   query.fractions = true;
   return query;
 }
 
-// About so many voxels fill the box: equal boxes and numbers give equal lattices. Throws RequestError for what cannot
-// be sampled, and Cancelled.
+// Samples a design with about `voxels` voxels in the box. Equal boxes and numbers give equal lattices. Throws
+// RequestError for designs that cannot be sampled, and Cancelled.
 SampledDesign sample(const OpenDesign& design, const Box& box, double voxels, const StopFlag& stop,
                      const compile::GridQuery& query = all_fractions());
-// Samples `form`, a changed copy of the design (one with labels of its parts, say), in the same way.
+// Samples `form`, a modified copy of the design such as one with labels of its parts, in the same way.
 SampledDesign sample(const OpenDesign& design, const compile::LoadedPtr& form, const Box& box, double voxels,
                      const StopFlag& stop, const compile::GridQuery& query);
 

@@ -1,4 +1,4 @@
-// OpenSCAD scripts as designs, so that the views can show them.
+// Loads OpenSCAD scripts as designs, so that the views can show them.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,8 @@
 
 namespace ombre::studio {
 
-// Runs the script and loads the solids that it makes, in the materials that they name, or else those of the nearest
-// colours. What the script echoes goes to the options' echo. Null, and diagnostics, when something is wrong. Throws
-// Error and Cancelled.
+// Runs the script and loads its solids, with the materials that they name, or those of the nearest colours. Its echo
+// output goes to the options' echo. Returns null, with diagnostics, if it fails. Throws Error and Cancelled.
 compile::LoadedPtr load_scad(const SourcePtr& script, const compile::LoadOptions& options, Diagnostics& diagnostics);
 
 }  // namespace ombre::studio

@@ -128,7 +128,7 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
             broadcast("job", {{"job", job}});
           },
           cache, options_.program),
-      // A few at once, so that short questions are answered while a long one is at work; each uses all cores.
+      // Several run at once, so that short requests are answered during a long one; each uses all cores.
       queue_(std::max(4, core_count())) {}
 
 Studio::~Studio() = default;
@@ -200,8 +200,8 @@ void Studio::answer(const ClientPtr& client, const Request& request, const Kind&
   }
 }
 
-// The allocator keeps what threads freed, each in a heap of its own, so that a server grows from edit to edit although
-// it holds no more.
+// Returns memory to the system. The allocator keeps freed memory in a heap per thread, so without this the server's
+// memory would grow with every edit.
 void Studio::give_memory_back() {
   constexpr double seconds_between = 3;
   if (!has_answered_ || given_back_.seconds() < seconds_between) return;
@@ -218,7 +218,7 @@ void Studio::check_disk() {
     broadcast("changed", {{"file", change.name}, {"version", change.version}});
 }
 
-// Lists the files of the folder: designs, and the data beside them.
+// Lists the files of the folder: designs, and data files.
 DataMembers Studio::listed() const {
   DataList data;
   for (const Workspace::DataFile& file : workspace_.list_data())
@@ -252,7 +252,7 @@ Answer Studio::hello(const Request&, const StopFlag&) {
 
 Answer Studio::list(const Request&, const StopFlag&) { return {listed(), {}}; }
 
-// The answer for a scan or for results has as text a script that shows them.
+// Answers "open". For a scan or results, the answer's text is a script that shows them.
 Answer Studio::open(const Request& request, const StopFlag&) {
   const std::string& name = request.text("file");
   const std::filesystem::path path = workspace_.path(name);
@@ -281,7 +281,7 @@ Answer Studio::save(const Request& request, const StopFlag&) {
   return {{{"saved", true}, {"version", version}}, {}};
 }
 
-// The answer names files as a script writes them, from its own folder on.
+// The answer names files as in scripts, relative to the script's folder.
 Answer Studio::files_ending_in(const Request& request, const StopFlag&) {
   const std::string& script = request.text("file");
   const std::filesystem::path from = std::filesystem::path(workspace_.name_of(workspace_.path(script))).parent_path();
@@ -319,7 +319,8 @@ Answer Studio::presets_answer(const std::string& file, DataList presets) {
   return {{{"presets", std::move(presets)}}, {}};
 }
 
-// A Python script is run when a person asks for it, not while it is typed: it may do anything.
+// Loads a design. A Python script, which may do anything, is run only when the user requests it, not while it is
+// edited.
 compile::LoadedPtr Studio::read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                                 Diagnostics& diagnostics) {
   const std::string& file = request.text("file");

@@ -1,11 +1,11 @@
-// The studio answers questions about its folder, about scripts and about their mistakes.
+// Tests of requests about the folder, about scripts and about their errors.
 #include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {
 namespace {
 
-// A turned design is the one that the script would turn, in its bounds and in what is sliced.
+// A rotated design has the bounds and slices of one rotated by the script.
 
 TEST_F(StudioTest, SaysWhatThereIs) {
   folder.write("b.vcad", ball);
@@ -32,7 +32,7 @@ TEST_F(StudioTest, TellsMistakesWithTheirPlaces) {
   const Data& first = loaded.find("diagnostics")->list()->front();
   EXPECT_EQ(text(first, "severity"), "error");
   EXPECT_EQ(number_in(first, "line"), 2);
-  EXPECT_EQ(number_in(first, "from"), 12);  // "rad", after 4 units, a line's end, and "sphere("
+  EXPECT_EQ(number_in(first, "from"), 12);  // position of "rad", after 4 units, a line end and "sphere("
 }
 
 TEST_F(StudioTest, LoadsWithVariables) {
@@ -44,7 +44,7 @@ TEST_F(StudioTest, LoadsWithVariables) {
   ASSERT_EQ(loaded.find("variables")->list()->size(), 1U);
   const Data& variable = loaded.find("variables")->list()->front();
   EXPECT_EQ(number_in(variable, "most"), 5);
-  EXPECT_EQ(number_in(variable, "value"), 3);  // of the text
+  EXPECT_EQ(number_in(variable, "value"), 3);  // value in the text
   EXPECT_EQ(number_in(variable, "from"), 9);
   EXPECT_EQ(number_in(variable, "to"), 10);
   const DataList& nodes = *loaded.find("nodes")->list();
@@ -89,7 +89,7 @@ TEST_F(StudioTest, ShowsOpenScadScripts) {
   EXPECT_EQ(*loaded.find("echo"), Data(DataList{"ECHO: 4"}));
   ASSERT_EQ(loaded.find("variables")->list()->size(), 1U);
   const Data measured = ask("measure", R"("design": ")" + text(loaded, "design") + '"').first;
-  EXPECT_NEAR(number_in(measured, "volume_mm3"), 65, 1);  // within half a voxel of its faces
+  EXPECT_NEAR(number_in(measured, "volume_mm3"), 65, 1);  // within half a voxel at its faces
   const Data& red = measured.find("materials")->list()->front();
   EXPECT_EQ(text(red, "name"), "red");
   EXPECT_NEAR(number_in(red, "volume_mm3"), 64, 1);

@@ -1,4 +1,4 @@
-// A studio for tests, and a client that asks it.
+// A studio for tests, and a client that sends requests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace ombre::studio {
 inline constexpr const char* ball =
     "radius = 3;  // [1:5]\n"
     "fgrade([\"0.5 + x / 6\", \"0.5 - x / 6\"], [red, blue]) sphere(radius);\n";
-// Remembers what it was sent.
+// A client that records the frames sent to it.
 class Listener : public Client {
  public:
   void send(Frame frame) override {
@@ -42,7 +42,7 @@ class Listener : public Client {
     news_.notify_all();
   }
 
-  // The first frame, and only it, for which the question holds; a null value after half a minute.
+  // Waits for the first frame that satisfies the predicate and removes it; returns a null value after 30 seconds.
   template <class Question>
   std::pair<Data, std::string> wait(const Question& is_it) {
     std::unique_lock lock(mutex_);
@@ -90,7 +90,7 @@ class StudioTest : public testing::Test {
     EXPECT_TRUE(loaded.find("design")) << print_json(loaded);
     return text(loaded, "design");
   }
-  // The job when it is in that state.
+  // Waits for a job in this state and returns it.
   Data job_in(const std::string& state) {
     const auto event = client->wait([&](const Data& data) {
       const Data* job = data.find("job");
@@ -100,7 +100,7 @@ class StudioTest : public testing::Test {
   }
 
   TestFolder folder;
-  std::vector<std::string> opened;  // folders that were to be shown
+  std::vector<std::string> opened;  // folders that the studio was to show
   sources::SourceCache cache;
   Studio studio{folder.path,
                 {"ombre test", {}, "", 60, [this](const std::string& shown) { return opened.push_back(shown), true; }},

@@ -1,4 +1,4 @@
-// Loads the module of CAD files when the first is read.
+// Loads the module for CAD files when the first is read.
 #include "cad/solids.h"
 
 #include <algorithm>

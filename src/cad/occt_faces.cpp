@@ -1,4 +1,4 @@
-// The surfaces of a shape's faces: how far they are, and on which side.
+// The surfaces of a shape's faces: distances to them, and their sides.
 #ifdef OMBRE_CAD
 
 #include "cad/occt_faces.h"
@@ -14,7 +14,7 @@
 namespace ombre::cad {
 namespace {
 
-// The place on a surface that is nearest to a point, and how tightly the surface is curved there.
+// The point of a surface nearest to a point, and the radius of curvature there.
 struct Foot {
   double u = 0, v = 0;
   double radius_mm = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// The surfaces of a shape's faces. Only for this folder: it includes the library's headers.
+// The surfaces of a shape's faces. Only for this folder, because it includes the library's headers.
 #pragma once
 
 #include <BRepAdaptor_Surface.hxx>
@@ -11,16 +11,16 @@ namespace ombre::cad {
 
 class FaceSurfaces {
  public:
-  // The faces are in the order of triangles_of().
+  // Constructs the surfaces of the faces, in the order of triangles_of().
   explicit FaceSurfaces(const TopoDS_Shape& shape);
 
-  // The answer is that of Query::side_of_face().
+  // Returns the result of Query::side_of_face().
   std::optional<FaceSide> side(uint32_t face, Vec3 p, double least_radius_mm) const;
 
  private:
   struct Face {
     BRepAdaptor_Surface surface;
-    bool is_turned;  // the solid lies where the surface's normal points
+    bool is_turned;  // true if the surface's normal points into the solid
   };
   std::vector<Face> faces_;
 };

@@ -1,4 +1,4 @@
-// What Open CASCADE throws, as an Error.
+// Calls f, and converts exceptions of Open CASCADE to Error.
 #pragma once
 
 #include <Standard_Failure.hxx>

@@ -1,4 +1,4 @@
-// CAD files by Open CASCADE: the module.
+// The module that reads CAD files by Open CASCADE.
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
@@ -14,7 +14,8 @@
 namespace ombre::cad {
 namespace {
 
-// Good files take a second or two for each megabyte, and some tens of times their size.
+// Limits of the helper process. Valid files take one or two seconds per megabyte, and memory of some tens of times
+// their size.
 constexpr double least_seconds = 10, seconds_for_a_byte = 10e-6;
 constexpr size_t least_memory = size_t{2} << 30, memory_for_a_byte = 200;
 
@@ -37,14 +38,14 @@ std::string read_and_pack(const std::string& path, const std::string& what) {
 }  // namespace
 }  // namespace ombre::cad
 
-// In a helper process, since broken files make the library crash, or go on for ever.
+// Reads files in a helper process, because broken files may crash the library or make it run forever.
 void ombre_read_cad(const std::string* path, const ombre::StopFlag* stop, std::vector<ombre::cad::SolidPtr>* solids) {
   using namespace ombre;
   using namespace ombre::cad;
-  // The library's readers share settings.
+  // The library's readers share global settings.
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
-  // It would tell of its progress on the console.
+  // Without this, the library prints its progress on the console.
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
   const std::string what = "cannot read " + *path;
   const HelperLimits limits = limits_for(*path);

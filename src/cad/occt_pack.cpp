@@ -1,4 +1,4 @@
-// Shapes as bytes, which a helper process hands over.
+// Serializes shapes, for the transfer from a helper process.
 #ifdef OMBRE_CAD
 
 #include <BRep_Builder.hxx>

@@ -1,4 +1,4 @@
-// Shapes, names and colours of STEP and IGES files.
+// Reads shapes, names and colours of STEP and IGES files.
 #ifdef OMBRE_CAD
 
 #include <BRepBuilderAPI_MakeSolid.hxx>
@@ -29,13 +29,13 @@
 namespace ombre::cad {
 namespace {
 
-// Edges of two faces that lie so close to one another are one; mm.
+// Distance in mm below which edges of two faces count as one.
 constexpr double sewing_tolerance = 1e-3;
 
 using Colour = std::array<uint8_t, 4>;
 using OptionalColour = std::optional<Colour>;
 
-// A document of the library's, which an application keeps until it is closed.
+// A document of the library; its application keeps it until it is closed.
 class Document {
  public:
   Document() : application_(XCAFApp_Application::GetApplication()) {
@@ -54,7 +54,7 @@ class Document {
 
 uint8_t byte(double share) { return static_cast<uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))); }
 
-// As files and screens have colours: with sRGB's curve.
+// Returns a colour encoded as sRGB, as in files and on screens.
 Colour colour_of(const Quantity_ColorRGBA& rgba) {
   double red = 0, green = 0, blue = 0;
   rgba.GetRGB().Values(red, green, blue, Quantity_TOC_sRGB);
@@ -71,7 +71,7 @@ std::string name_of(const TDF_Label& label) {
   return utf8;
 }
 
-// Collects the solids of a document, and the faces that belong to none.
+// Collects the solids of a document, and the faces that belong to no solid.
 class Collector {
  public:
   explicit Collector(const opencascade::handle<TDocStd_Document>& document)
@@ -89,7 +89,7 @@ class Collector {
  private:
   void add(const TDF_Label& label, const TopLoc_Location& place, const std::string& outer_name,
            const OptionalColour& outer_colour) {
-    // An instance's own colour goes before that of what it is an instance of.
+    // An instance's own colour takes precedence over that of the shape that it instantiates.
     const OptionalColour own = colour_of_label(label);
     const OptionalColour colour = outer_colour ? outer_colour : own;
     TDF_Label referred;
@@ -138,7 +138,7 @@ class Collector {
     return std::nullopt;
   }
 
-  // Many programs give colours to faces alone.
+  // Many programs assign colours only to faces.
   OptionalColour first_colour(const TopoDS_Shape& solid) const {
     for (TopExp_Explorer e(solid, TopAbs_FACE); e.More(); e.Next())
       if (const OptionalColour colour = colour_of_shape(e.Current())) return colour;
@@ -149,7 +149,7 @@ class Collector {
   opencascade::handle<XCAFDoc_ColorTool> colours_;
 };
 
-// Solids of closed shells that the faces make together.
+// Returns the solids of closed shells into which the faces can be sewn.
 std::vector<NamedShape> sewn(const std::vector<NamedShape>& faces) {
   BRepBuilderAPI_Sewing sewing(sewing_tolerance);
   for (const NamedShape& face : faces) sewing.Add(face.shape);
@@ -162,7 +162,7 @@ std::vector<NamedShape> sewn(const std::vector<NamedShape>& faces) {
     TopTools_IndexedMapOfShape own;
     TopExp::MapShapes(e.Current(), TopAbs_FACE, own);
     solids.push_back({"", {}, solid});
-    // Open CASCADE 7.8 does not know the colours of all faces of an IGES file.
+    // Open CASCADE 7.8 does not report the colours of all faces of an IGES file.
     for (const NamedShape& face : faces) {
       if (!own.Contains(sewing.Modified(face.shape))) continue;
       if (solids.back().name.empty()) solids.back().name = face.name;

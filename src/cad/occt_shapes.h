@@ -1,4 +1,4 @@
-// Shapes of Open CASCADE. Only for this folder: it includes the library's headers.
+// Shapes of Open CASCADE. Only for this folder, because it includes the library's headers.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -10,31 +10,31 @@
 
 namespace ombre::cad {
 
-// A solid as a file has it.
+// A solid as stored in a file.
 struct NamedShape {
   std::string name;
   std::optional<std::array<uint8_t, 4>> colour;
   TopoDS_Shape shape;
 };
 
-// Throws Error, and what the library throws.
+// Reads the shapes of a file. Throws Error, and exceptions of the library.
 std::vector<NamedShape> read_shapes(const std::string& path);
 
-// A solid whose faces look outward, and how large it is.
+// A solid whose faces are oriented outward, with its size.
 struct MeasuredShape {
   NamedShape named;
   double volume_mm3 = 0;
   Box bounds;
 };
 
-// Throws what the library throws.
+// Orients and measures a solid. Throws exceptions of the library.
 MeasuredShape measured(NamedShape named);
 
-// Shapes as bytes, for this version of the library and this kind of machine. Parts that shapes share stay shared.
+// Serializes shapes for this version of the library and this kind of machine. Parts shared between shapes stay shared.
 std::string pack_shapes(const std::vector<MeasuredShape>& shapes);
 std::vector<MeasuredShape> unpack_shapes(const std::string& bytes);
 
-// Throws what the library throws.
+// Returns a solid that answers queries. Throws exceptions of the library.
 SolidPtr make_solid(const MeasuredShape& shape);
 
 }  // namespace ombre::cad

@@ -26,18 +26,18 @@
 namespace ombre::cad {
 namespace {
 
-// Facets turn by no more than so many radians along a curve, so that small roundings keep their shape.
+// Greatest angle in radians between neighbouring facets along a curve, which preserves small fillets.
 constexpr double facet_angle = 0.5;
-// Points so close to the surface lie on it; mm.
+// Distance in mm below which a point lies on the surface.
 constexpr double surface_tolerance = 1e-9;
-// Cutting a solid into triangles may take so long.
+// Time limits for the triangulation of a solid.
 constexpr double seconds_to_cut = 20, seconds_to_cut_a_face = 0.2;
 
 TopoDS_Shape copy_of(const TopoDS_Shape& shape, bool with_geometry) {
   return BRepBuilderAPI_Copy(shape, with_geometry, false).Shape();
 }
 
-// The faces alone: a solid is at no distance from what is inside.
+// Returns only the faces: the library's distance to a solid is 0 for points inside of it.
 TopoDS_Shape skin_of(const TopoDS_Shape& solid) {
   TopoDS_Compound skin;
   const BRep_Builder builder;
@@ -87,7 +87,7 @@ double volume_of(const TopoDS_Shape& shape) {
   return properties.Mass();
 }
 
-// Splines get a margin of a ten-millionth of a mm, for which a job would need a layer more.
+// Rounds away the margin of 1e-7 mm around splines, because of which a job would need an additional layer.
 double without_noise(double mm) {
   const double even = std::round(mm * 1e6) / 1e6;
   return std::abs(mm - even) < 2e-7 ? even : mm;
@@ -121,7 +121,7 @@ class OcctSolid final : public Solid {
     bounds = shape.bounds;
   }
 
-  // On a copy: a mesh that is there would be kept where it is fine enough.
+  // Triangulates a copy, because an existing mesh would be kept if it is fine enough.
   Triangles triangulate(double deflection_mm) const override {
     const std::lock_guard lock(mutex_);
     const auto cut = [&] {
@@ -155,7 +155,7 @@ class OcctSolid final : public Solid {
     return triangles;
   }
 
-  // A query copies the geometry, since the library's surfaces keep their last query.
+  // Copies the geometry, because the library's surfaces cache their last query.
   std::unique_ptr<Query> query() const override {
     const std::lock_guard lock(mutex_);
     return guarded(what(), [&] { return std::make_unique<OcctQuery>(copy_of(shape_, true), what()); });
@@ -174,7 +174,7 @@ MeasuredShape measured(NamedShape named) {
   MeasuredShape shape;
   shape.named = std::move(named);
   shape.volume_mm3 = volume_of(shape.named.shape);
-  // Faces of mirrored instances, too, turn inwards.
+  // Faces of mirrored instances may be oriented inward, too.
   if (shape.volume_mm3 < 0) {
     shape.named.shape.Reverse();
     shape.volume_mm3 = -shape.volume_mm3;

@@ -1,4 +1,4 @@
-// Triangles of a shape that was meshed: the meshes of its faces, joined along their edges.
+// Joins the triangulated faces of a shape along their edges.
 #ifdef OMBRE_CAD
 
 #include "cad/occt_triangles.h"
@@ -31,7 +31,7 @@ class Joiner {
     of_corners_.resize(static_cast<size_t>(corners_.Extent()), unknown);
   }
 
-  // False when the face has no triangles.
+  // Adds a face. Returns false if it has no triangles.
   bool add(const TopoDS_Face& face) {
     TopLoc_Location place;
     const opencascade::handle<Poly_Triangulation> mesh = BRep_Tool::Triangulation(face, place);
@@ -50,7 +50,7 @@ class Joiner {
   Triangles take() { return std::move(result_); }
 
  private:
-  // The edge's nodes have the same places in its order whichever face gives them.
+  // The nodes of an edge have the same order and positions in both faces.
   void join(const TopoDS_Edge& edge, const opencascade::handle<Poly_Triangulation>& mesh,
             const TopLoc_Location& place) {
     const opencascade::handle<Poly_PolygonOnTriangulation> polygon =
@@ -74,7 +74,7 @@ class Joiner {
 
   size_t corner(const TopoDS_Vertex& vertex) const { return static_cast<size_t>(corners_.FindIndex(vertex) - 1); }
 
-  // Of a node of the face.
+  // Returns the number of the vertex of a node of the face.
   uint32_t number(Standard_Integer node) {
     uint32_t& known = numbers_[static_cast<size_t>(node - 1)];
     if (known != unknown) return known;
@@ -84,7 +84,7 @@ class Joiner {
     return known;
   }
 
-  // Those with two equal corners lie at a point where an edge has no length.
+  // Adds a triangle unless two of its corners are equal, as at edges of length 0.
   void add_triangle(const Poly_Triangle& triangle, bool is_turned) {
     Standard_Integer a = 0, b = 0, c = 0;
     triangle.Get(a, b, c);
@@ -98,12 +98,12 @@ class Joiner {
   TopTools_IndexedMapOfShape edges_, corners_;
   std::vector<std::vector<uint32_t>> of_edges_;
   std::vector<uint32_t> of_corners_;
-  // Of the face that is added:
+  // State of the face that is being added:
   const Poly_Triangulation* mesh_ = nullptr;
   gp_Trsf move_;
-  std::vector<uint32_t> numbers_;  // vertices of its nodes
+  std::vector<uint32_t> numbers_;  // by node: number of its vertex
   Triangles result_;
-  uint32_t face_count_ = 0;  // that were added before
+  uint32_t face_count_ = 0;  // number of faces added before
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Triangles of a shape that was meshed. Only for this folder: it includes the library's headers.
+// Triangles of a meshed shape. Only for this folder, because it includes the library's headers.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -7,8 +7,8 @@
 
 namespace ombre::cad {
 
-// Faces that meet in an edge get the same vertices there. Throws Error when a face has no triangles; `what` is the
-// shape, for messages.
+// Returns the triangles; faces share the vertices of their common edges. Throws Error if a face has no triangles;
+// `what` names the shape in messages.
 Triangles triangles_of(const TopoDS_Shape& shape, const std::string& what);
 
 }  // namespace ombre::cad

@@ -50,7 +50,7 @@ double volume(const Triangles& mesh) {
   return sum;
 }
 
-// Each edge is passed once in each direction.
+// Returns true if each edge is traversed once in each direction.
 bool is_closed(const Triangles& mesh) {
   std::map<std::pair<uint32_t, uint32_t>, int> passes;
   for (const auto& t : mesh.triangles)
@@ -126,7 +126,7 @@ TEST_F(Cad, TrianglesAreClosedAndNearTheSurface) {
       const SolidPtr solid = read(name)[0];
       const Triangles mesh = solid->triangulate(deflection);
       EXPECT_TRUE(is_closed(mesh)) << name;
-      // The volume between two surfaces is at most their area times their distance; no area is above 1000 mm2.
+      // The volume between two surfaces is at most their area times their distance; no area exceeds 1000 mm2.
       EXPECT_NEAR(volume(mesh), solid->volume_mm3, 1000 * deflection) << name;
     }
   for (const Vec3& p : read("cylinder.step")[0]->triangulate(0.1).vertices)
@@ -182,15 +182,15 @@ TEST_F(Cad, WhatIsNoSolidIsReported) {
   EXPECT_NE(message_for("ISO-10303-21; nonsense", ".stp"), "");
   EXPECT_NE(message_for(bytes_of("cylinder.step").substr(0, 3000), ".step"), "");
   EXPECT_NE(message_for(bytes_of("block.iges").substr(0, 9000), ".iges"), "");
-  // An entity of another type in place of each point: the library follows null pointers.
+  // An entity of another type replaces each point: the library follows null pointers.
   std::string pointless = bytes_of("cylinder.step");
   for (size_t at = 0; (at = pointless.find("CARTESIAN_POINT", at)) != std::string::npos;) pointless.erase(at + 10, 1);
   EXPECT_NE(message_for(pointless, ".step"), "");
-  // And goes on to read what is right.
+  // Valid files can be read afterwards.
   EXPECT_EQ(read("cylinder.step").size(), 1u);
 }
 
-// A direction of infinite length makes the library look for a point on a line without end.
+// The library searches a line without end for a point because a direction has infinite length.
 TEST(CadFiles, AreStoppedWhileTheyAreRead) {
   std::string bytes = bytes_of("cylinder.step");
   const std::string direction = "#40 = DIRECTION('',(1.,0.));";

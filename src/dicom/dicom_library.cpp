@@ -1,4 +1,4 @@
-// Loads the module of DICOM files when the first is read.
+// Loads the module for DICOM files when the first is read.
 #include "dicom/series.h"
 
 #include "base/system/module_loader.h"

@@ -1,4 +1,4 @@
-// DICOM files by GDCM: the module.
+// The module that reads DICOM files by GDCM.
 #include <gdcmTrace.h>
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace ombre::dicom {
 namespace {
 
-// Compressed files grow some tens of times.
+// Limits of the helper process. Compressed files expand by a factor of some tens.
 constexpr double least_seconds = 20, seconds_for_a_byte = 1e-6;
 constexpr size_t least_memory = size_t{2} << 30, memory_for_a_byte = 60;
 
@@ -29,12 +29,12 @@ HelperLimits limits_for(const std::vector<std::string>& files) {
 }  // namespace
 }  // namespace ombre::dicom
 
-// In a helper process, since broken files make the library crash.
+// Reads files in a helper process, because broken files may crash the library.
 void ombre_read_dicom(const std::string* name, const std::vector<std::string>* files, const std::string* choice,
                       const ombre::StopFlag* stop, ombre::dicom::Series* series) {
   using namespace ombre;
   using namespace ombre::dicom;
-  // It would tell of its progress on the console.
+  // Without this, the library prints its progress on the console.
   gdcm::Trace::WarningOff();
   gdcm::Trace::ErrorOff();
   gdcm::Trace::DebugOff();

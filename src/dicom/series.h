@@ -1,4 +1,4 @@
-// Series of DICOM files: the slices of a scan, or one file with all of them, by GDCM.
+// Series of DICOM files, by GDCM: the slices of a scan, or one file with all of them.
 #pragma once
 
 #include <array>
@@ -12,26 +12,28 @@
 
 namespace ombre::dicom {
 
-// Values are numbers as they are meant, such as Hounsfield units: slope and intercept are applied.
+// A series with calibrated values, such as Hounsfield units: slope and intercept are applied.
 struct Series {
   std::array<int64_t, 3> count{};  // columns, rows, slices
-  // x fastest, as many as voxels. Whole ones where all values are whole numbers of 16 bits, else floats.
+  // The values of all voxels, x fastest: in `whole` if all are 16-bit integers, else in `real`.
   std::vector<int16_t> whole;
   std::vector<float> real;
-  double slope = 1, intercept = 0;  // that the first slice's numbers went through
-  Affine lps_from_index;            // of voxels' centres, in mm; x to the patient's left, y to the back, z to the head
+  double slope = 1, intercept = 0;  // slope and intercept of the first slice
+  // maps indices of voxels to their centres in mm; x to the patient's left, y to the back, z to the head
+  Affine lps_from_index;
   std::vector<std::string> warnings;
 };
 
-// Does the file begin as one of DICOM?
 FileFormat file_format();
+// Returns true if the bytes begin like a DICOM file.
 bool is_dicom(std::string_view bytes);
 
-// `files` are those of a folder, in any order; what is no DICOM image is passed over. `choice` is the number or the UID
-// of one series, where the files belong to several; empty: the only one. Throws Error, naming `name`: when there are no
-// images or several series, when slices are missing, are of different sizes or lie unevenly, when their pixels are in
-// colour, packed in a way that is not known, or damaged, and when this was built without the library. Neither names nor
-// other identifiers of patients are read. Cancelled once `stop`, which may be null, is set.
+// Reads a series. `files` are those of a folder, in any order; files other than DICOM images are skipped. `choice` is
+// the number or UID of a series if there are several; empty for the only one.
+// Throws Error, naming `name`, if there are no images or several series, if slices are missing, differ in size or are
+// unevenly spaced, and if pixels are in colour, damaged or in an unknown encoding. Also throws Error in builds without
+// the library, and Cancelled once `stop`, which may be null, is set. Names and other identifiers of patients are not
+// read.
 Series read_series(const std::string& name, const std::vector<std::string>& files, const std::string& choice,
                    const StopFlag* stop);
 

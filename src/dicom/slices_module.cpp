@@ -49,7 +49,7 @@ class Reading {
   struct Slice {
     std::string path;
     Vec3 place;
-    std::array<Vec3, 2> directions;  // of columns and rows
+    std::array<Vec3, 2> directions;  // directions of rows and columns
     std::array<double, 3> spacing{};
     std::array<int64_t, 3> count{};
     double instance = 0, slope = 1, intercept = 0;
@@ -71,7 +71,7 @@ class Reading {
         const char* value = scanner.GetValue(path.c_str(), tag);
         return value ? std::string(trim(value)) : std::string();
       };
-      if (text(rows).empty() || text(columns).empty()) continue;  // no image: a directory, a report
+      if (text(rows).empty() || text(columns).empty()) continue;  // not an image: a directory or a report
       const auto instance = parse_number(text(instance_number));
       files_.push_back({path, text(series_uid), text(series_number), text(modality), text(columns) + " x " + text(rows),
                         instance.value_or(0)});
@@ -108,7 +108,7 @@ class Reading {
     gdcm::ImageReader reader;
     reader.SetFileName(file.path.c_str());
     const std::string remarks = remarks_of([&] { is_read_ = reader.Read(); });
-    // The library fills up with zeros what is cut off, and only remarks on it.
+    // The library fills truncated pixels with zeros, and only prints a remark.
     if (remarks.find("Incomplete") != std::string::npos)
       fail("cannot be read: the pixels of \"" + file.path + "\" are cut off");
     if (!is_read_) fail("cannot be read: \"" + file.path + "\" is damaged, or packed in a way that is not known");
@@ -131,7 +131,7 @@ class Reading {
     slices_.push_back(std::move(slice));
   }
 
-  // What the library says while it works.
+  // Returns the library's remarks during the work.
   template <class Work>
   static std::string remarks_of(const Work& work) {
     std::ostringstream stream;
@@ -242,7 +242,7 @@ class Reading {
     std::vector<double> sorted = steps;
     std::ranges::sort(sorted);
     const double usual = sorted[sorted.size() / 2];
-    constexpr double tolerance = 0.05;  // scanners round places to hundredths of a millimetre
+    constexpr double tolerance = 0.05;  // scanners round positions to hundredths of a millimetre
     for (size_t n = 0; n < steps.size(); ++n) {
       if (std::abs(steps[n] - usual) <= tolerance * usual) continue;
       const double missing = steps[n] / usual - 1;

@@ -1,4 +1,4 @@
-// Series as bytes, for the way out of a helper process.
+// Serializes series, for the transfer from a helper process.
 #pragma once
 
 #include "dicom/series.h"

@@ -1,4 +1,4 @@
-// Where systems keep the fonts that pictures are labelled with.
+// Locations of the system's fonts, with which pictures are labelled.
 #include "draw/font_files.h"
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 namespace ombre::draw {
 namespace {
 
-// Places of Debian, Fedora, Arch and macOS. Plain fonts without serifs, those with many letters first.
+// Paths on Debian, Fedora, Arch and macOS: plain sans-serif fonts, those with many letters first.
 constexpr const char* files[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",

@@ -1,4 +1,4 @@
-// Where systems keep the fonts that pictures are labelled with.
+// Finds the system's fonts, with which pictures are labelled.
 #pragma once
 
 #include <optional>
@@ -6,9 +6,9 @@
 
 namespace ombre::draw {
 
-// DejaVu Sans, of which the pictures of documents and tests are made.
+// Returns true for DejaVu Sans, with which the pictures of the documentation and of tests are made.
 bool is_usual(const std::string& font_file);
-// The first there is, DejaVu Sans if possible.
+// Returns the first font that exists, preferably DejaVu Sans.
 std::optional<std::string> find_font_file();
 
 }  // namespace ombre::draw

@@ -18,7 +18,7 @@ using Pattern = std::unique_ptr<FcPattern, DestroyPattern>;
 
 const FcChar8* letters(const std::string& text) { return reinterpret_cast<const FcChar8*>(text.c_str()); }
 
-// The language is set too: else it comes from the locale.
+// The language is set explicitly; otherwise it would come from the locale.
 Pattern wanted_font(const std::string& family, bool bold, bool italic) {
   Pattern wanted(FcPatternCreate());
   if (!wanted) return nullptr;

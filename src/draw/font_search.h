@@ -8,13 +8,14 @@ namespace ombre::draw {
 
 struct FoundFont {
   std::string file;
-  int index = 0;  // of the face in the file
+  int index = 0;  // index of the face in the file
   std::string family;
-  bool has_name = false;  // it is of the family that was asked for
+  bool has_name = false;  // whether it belongs to the requested family
   bool is_bold = false, is_italic = false;
 };
 
-// What the system has that comes nearest, by fontconfig. Nothing when there is no font, or this was built without text.
+// Returns the system's font that fontconfig finds most similar; null if there is no font, or if this build does not
+// support text.
 std::optional<FoundFont> search_font(const std::string& family, bool bold, bool italic);
 
 }  // namespace ombre::draw

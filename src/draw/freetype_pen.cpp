@@ -1,4 +1,4 @@
-// The pen by FreeType: outlines of letters, and its rasteriser for everything that is filled.
+// The pen by FreeType: outlines of letters, and its rasterizer for all filled shapes.
 #include "draw/pen.h"
 
 #ifdef OMBRE_FREETYPE
@@ -18,10 +18,10 @@
 namespace ombre::draw {
 namespace {
 
-constexpr double units = 64;        // of FreeType, in a pixel
-constexpr double farthest = 30000;  // pixels; its rasteriser counts in 32 bits
+constexpr double units = 64;        // FreeType's units per pixel
+constexpr double farthest = 30000;  // pixels; the limit of its 32-bit rasterizer
 
-// A pixel with another colour over it. Clear pixels have no colour of their own.
+// Blends a colour over a pixel. Fully transparent pixels have no colour of their own.
 void lay_over(uint8_t* pixel, Rgb colour, unsigned cover) {
   const unsigned below = pixel[3] * (255 - cover), alpha = cover * 255 + below;
   if (alpha == 0) return;
@@ -35,7 +35,7 @@ struct Ink {
   Rgb colour{};
 };
 
-// Called by FreeType with the parts of a row that an outline covers. Its rows count from below.
+// FreeType calls this with the spans of a row that an outline covers; its rows count from the bottom.
 void lay_spans(int y, int count, const FT_Span* spans, void* user) {
   const Ink& ink = *static_cast<const Ink*>(user);
   uint8_t* const row = ink.canvas->rgba->data() + (ink.canvas->height - 1 - y) * ink.canvas->width * 4;
@@ -57,7 +57,7 @@ void render(FT_Library library, FT_Outline& outline, const Canvas& canvas, Rgb c
 
 FT_Pos to_units(double pixels) { return std::lround(std::clamp(pixels, -farthest, farthest) * units); }
 
-// Calls each(code point); bytes that are none count as the sign for that.
+// Calls each(code point); invalid bytes count as the replacement character.
 template <class Each>
 void each_letter(std::string_view text, const Each& each) {
   constexpr uint32_t replacement = 0xFFFD;
@@ -82,7 +82,7 @@ struct Pen::Parts {
 
   void set_size(int size) { FT_Set_Pixel_Sizes(face, 0, static_cast<FT_UInt>(size)); }
 
-  // Loads its outline, without hints, which depend on the library's version and settings.
+  // Loads a letter's outline without hinting, which depends on the library's version and settings.
   bool load(uint32_t letter) {
     return FT_Load_Glyph(face, FT_Get_Char_Index(face, letter), FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) == 0 &&
            face->glyph->format == FT_GLYPH_FORMAT_OUTLINE;
@@ -141,7 +141,7 @@ void Pen::fill(const Canvas& canvas, std::span<const Spot> corners, Rgb colour) 
   for (const Spot spot : corners)
     points.push_back({to_units(spot.right), to_units(static_cast<double>(canvas.height) - spot.down)});
   FT_Outline outline{};
-  // FreeType 2.13 made the numbers below unsigned.
+  // FreeType 2.13 changed these types to unsigned.
   using Tag = std::remove_reference_t<decltype(*outline.tags)>;
   using Index = std::remove_reference_t<decltype(*outline.contours)>;
   std::vector<Tag> tags(points.size(), FT_CURVE_TAG_ON);

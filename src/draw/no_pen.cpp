@@ -1,4 +1,4 @@
-// The pen of builds without FreeType: there is none.
+// The pen of builds without FreeType: its constructor throws.
 #include "draw/pen.h"
 
 #ifndef OMBRE_FREETYPE

@@ -13,41 +13,41 @@ namespace ombre::draw {
 
 using Rgb = std::array<uint8_t, 3>;
 
-// Pixels from the left upper corner of the picture.
+// A point in pixels from the upper left corner of the picture.
 struct Spot {
   double right = 0, down = 0;
 };
 
-// Rows from the top, 4 bytes of RGBA a pixel; colours are not premultiplied.
+// A picture with rows from the top and 4 bytes of RGBA per pixel; colours are not premultiplied.
 struct Canvas {
   int64_t width = 0, height = 0;
   std::vector<uint8_t>* rgba = nullptr;
 };
 
-// False where this was built without the library that draws.
+// Returns false if this build lacks the drawing library.
 bool can_draw();
 
-// The same calls give the same pixels. Not thread-safe.
+// Draws on canvases. The same calls give the same pixels. Not thread-safe.
 class Pen {
  public:
-  // With the letters of a font file; "" takes the first there is of the usual ones. Throws Error when there is none, or
-  // this was built without the library.
+  // Constructs a pen with the letters of a font file; "" uses the first usual font that exists. Throws Error if there
+  // is none, or if this build lacks the library.
   explicit Pen(const std::string& font_file = "");
   ~Pen();
   Pen(Pen&&) noexcept;
   Pen& operator=(Pen&&) noexcept;
 
   const std::string& font_file() const;
-  bool is_usual_font() const;  // of which the pictures of documents and tests are made
-  // Whether the font has all letters of a text in UTF-8. What it lacks is drawn as a box.
+  bool is_usual_font() const;  // true for the font of the documentation's and tests' pictures
+  // Returns true if the font has all letters of a UTF-8 text. Missing letters are drawn as boxes.
   bool has_letters(std::string_view text) const;
 
-  // Sizes are pixels from line to line or so.
+  // Returns the width of a text in pixels; `size` is the approximate height of a line in pixels.
   double text_width(std::string_view text, int size);
-  // From `left` on, standing on a line.
+  // Writes a text that starts at `left`, on the baseline.
   void write(const Canvas& canvas, Spot left, std::string_view text, int size, Rgb colour);
 
-  // What lies outside the picture is cut off. Corners in any direction.
+  // Fills a polygon with corners in either direction; parts outside the picture are clipped.
   void fill(const Canvas& canvas, std::span<const Spot> corners, Rgb colour);
   void rectangle(const Canvas& canvas, Spot upper_left, Spot lower_right, Rgb colour);
   void line(const Canvas& canvas, Spot from, Spot to, double width, Rgb colour);

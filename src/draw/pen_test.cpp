@@ -1,4 +1,4 @@
-// The pen: areas that shapes cover, and letters.
+// Tests of the pen: areas covered by shapes, and letters.
 #include "draw/pen.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST_F(Pens, CoverWhatTheyShould) {
   EXPECT_NEAR(sheet.alpha(2, 4), 128, 1);
   EXPECT_NEAR(sheet.alpha(4, 6), 64, 1);
   EXPECT_EQ(sheet.alpha(1, 4), 0);
-  EXPECT_EQ(sheet.at(2, 4, 0), 255);  // half covered, but red
+  EXPECT_EQ(sheet.at(2, 4, 0), 255);  // half covered, but fully red
   EXPECT_NEAR(sheet.area(), 4.5 * 3.25, 0.05);
 }
 
@@ -54,7 +54,7 @@ TEST_F(Pens, LinesHaveTheirWidthInAnyDirection) {
   for (const Spot to : {Spot{90, 50}, Spot{50, 90}, Spot{20, 23}, Spot{80, 11}}) {
     Sheet sheet(100, 100);
     pen.line(sheet.canvas, {50, 50}, to, 3, red);
-    // Corners lie at 64ths of a pixel.
+    // Corners are rounded to 1/64 of a pixel.
     EXPECT_NEAR(sheet.area() / (3 * std::hypot(to.right - 50, to.down - 50)), 1, 0.01);
   }
 }
@@ -99,7 +99,7 @@ TEST_F(Pens, TakeAnyBytesAsText) {
   Pen pen;
   Sheet sheet(100, 20);
   EXPECT_TRUE(pen.has_letters("Größe µm Ω"));
-  EXPECT_FALSE(pen.has_letters("\xF0\xB0\x80\x80"));  // no usual font has that ideograph
+  EXPECT_FALSE(pen.has_letters("\xF0\xB0\x80\x80"));  // no usual font has this ideograph
   for (const char* text : {"\xFF\xFE", "\xC3", "a\xE2\x82", "", "\n\t"})
     pen.write(sheet.canvas, {1, 15}, text, 12, red);
   EXPECT_NEAR(pen.text_width("Ä", 20), pen.text_width("A", 20), 0.01);

@@ -30,7 +30,7 @@ namespace ombre::draw {
 namespace {
 
 constexpr double tolerance_em = 1.0 / 2000;
-constexpr double usual_capital_em = 0.7;  // where a font has no H
+constexpr double usual_capital_em = 0.7;  // for fonts without an H
 
 template <auto destroy>
 struct Destroy {
@@ -40,7 +40,7 @@ struct Destroy {
   }
 };
 
-// A font for both libraries; lengths are its own units.
+// A font opened by both libraries; lengths are in its own units.
 class Face {
  public:
   Face(const std::string& bytes, int index) {
@@ -66,7 +66,7 @@ class Face {
   double line_height() const { return face_->height > 0 ? face_->height : 1.2 * em(); }
   hb_font_t* shaper() const { return shaper_.get(); }
 
-  // Null when the glyph cannot be had.
+  // Returns the outline, or null if the glyph cannot be loaded.
   FT_Outline* outline(uint32_t glyph) const {
     if (FT_Load_Glyph(face_, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) return nullptr;
     return face_->glyph->format == FT_GLYPH_FORMAT_OUTLINE ? &face_->glyph->outline : nullptr;
@@ -89,8 +89,8 @@ class Face {
 
 struct PlacedGlyph {
   uint32_t glyph;
-  Vec2 at;         // from the beginning of its line
-  uint32_t place;  // of its letter in the text
+  Vec2 at;         // relative to the beginning of its line
+  uint32_t place;  // position of its letter in the text
 };
 
 struct Line {
@@ -101,7 +101,7 @@ struct Line {
 Line shape(const Face& face, const std::string& text) {
   const std::unique_ptr<hb_buffer_t, Destroy<hb_buffer_destroy>> buffer(hb_buffer_create());
   hb_buffer_add_utf8(buffer.get(), text.data(), static_cast<int>(text.size()), 0, static_cast<int>(text.size()));
-  hb_buffer_set_language(buffer.get(), hb_language_from_string("en", -1));  // else it comes from the locale
+  hb_buffer_set_language(buffer.get(), hb_language_from_string("en", -1));  // otherwise it would come from the locale
   hb_buffer_guess_segment_properties(buffer.get());
   hb_shape(face.shaper(), buffer.get(), nullptr, 0);
   unsigned count = 0;
@@ -117,12 +117,12 @@ Line shape(const Face& face, const std::string& text) {
   return line;
 }
 
-// Collects the rings of a glyph as FreeType goes along them.
+// Collects the rings of a glyph while FreeType decomposes its outline.
 struct RingMaker {
   std::vector<Ring>* rings;
-  Vec2 at;           // of the glyph
-  double tolerance;  // in units of the font
-  int chords = 0;    // of each curve; 0: as many as the tolerance needs
+  Vec2 at;           // position of the glyph
+  double tolerance;  // in the font's units
+  int chords = 0;    // chords per curve; 0: as many as the tolerance requires
 
   Vec2 place(const FT_Vector& v) const { return {at.x + static_cast<double>(v.x), at.y + static_cast<double>(v.y)}; }
   Ring& ring() const { return rings->back(); }
@@ -156,7 +156,7 @@ struct RingMaker {
   }
 };
 
-// Without points that repeat, and rings of fewer than three.
+// Removes repeated points, and rings of fewer than three points.
 void tidy(std::vector<Ring>& rings) {
   for (Ring& ring : rings) {
     ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
@@ -173,7 +173,7 @@ void append_rings(const Face& face, uint32_t glyph, Vec2 at, std::vector<Ring>& 
   FT_Outline_Decompose(outline, &calls, &maker);
 }
 
-// Control characters have no letters.
+// Splits a text into lines and removes control characters.
 std::vector<std::string> lines_of(std::string text) {
   std::erase(text, '\r');
   std::replace(text.begin(), text.end(), '\t', ' ');
@@ -203,7 +203,7 @@ void note_missing(const std::string& text, size_t place, std::vector<std::string
   if (std::find(missing.begin(), missing.end(), letter) == missing.end()) missing.push_back(letter);
 }
 
-// A glyph of a run, and by how much it moves the next.
+// A glyph of a run, with the advance to the next.
 struct RunGlyph {
   uint32_t glyph;
   Vec2 offset, advance;
@@ -215,7 +215,7 @@ std::vector<RunGlyph> shape_run(const Face& face, const std::string& text, const
   hb_buffer_set_direction(buffer.get(), hb_direction_from_string(layout.direction.c_str(), -1));
   hb_buffer_set_language(buffer.get(), hb_language_from_string(layout.language.c_str(), -1));
   hb_buffer_set_script(buffer.get(), hb_script_from_string(layout.script.c_str(), -1));
-  hb_buffer_guess_segment_properties(buffer.get());  // what these did not say
+  hb_buffer_guess_segment_properties(buffer.get());  // properties that are not set above
   hb_shape(face.shaper(), buffer.get(), nullptr, 0);
   unsigned count = 0;
   const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer.get(), &count);
@@ -228,7 +228,7 @@ std::vector<RunGlyph> shape_run(const Face& face, const std::string& text, const
   return run;
 }
 
-// The lowest and the highest of the letters, in units of the font.
+// Returns the lowest and the highest extent of the letters, in the font's units.
 std::pair<double, double> reach_of(const Face& face, const std::vector<RunGlyph>& run) {
   double low = 0, high = 0;
   bool is_first = true;

@@ -1,4 +1,4 @@
-// Texts as polygons: areas by the curves of the font, places by its measures.
+// Tests of texts as polygons: areas against the font's curves, positions against its metrics.
 #include "draw/text_outlines.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ double area_of(const std::vector<Ring>& rings) {
 }
 
 #ifdef OMBRE_TEXT
-// The area within curves, from x dy - y dx along each, in closed form.
+// The area enclosed by curves, as the integral of x dy - y dx along each in closed form.
 struct CurveArea {
   double area = 0;
   FT_Vector at{};
@@ -86,7 +86,8 @@ struct CurveArea {
     of(user).at = *to;
     return 0;
   }
-  static int cubic(const FT_Vector*, const FT_Vector*, const FT_Vector*, void*) { return 1; }  // of other fonts
+  // used by other fonts only
+  static int cubic(const FT_Vector*, const FT_Vector*, const FT_Vector*, void*) { return 1; }
 };
 
 double curve_area(const std::string& font, uint32_t letter) {
@@ -151,7 +152,7 @@ TEST_F(Texts, StandWhereTheyShould) {
   EXPECT_NEAR(extent(TextSide::left, TextLevel::first_line).hi.y, 10, 1e-9);
   const Extent middle = extent(TextSide::center, TextLevel::center);
   EXPECT_NEAR(middle.lo.y, -middle.hi.y, 1e-9);
-  // 2384 units from line to line, by the font's table.
+  // The font's table has a line distance of 2384 units.
   EXPECT_NEAR(middle.hi.y - middle.lo.y, 10 + 10 * 2384.0 / 1493, 1e-9);
   TextLayout wide;
   wide.line_spacing = 2;
@@ -160,22 +161,22 @@ TEST_F(Texts, StandWhereTheyShould) {
 }
 
 TEST_F(Texts, AreShaped) {
-  // A and V stand closer than their widths say.
+  // Kerning moves A and V closer together than their widths.
   const auto width = [&](const std::string& text) {
     const Extent e = extent_of(outlined(text).rings);
     return e.hi.x - e.lo.x;
   };
   EXPECT_LT(width("AVA"), width("A") + width("V") + width("A") - 1);
-  // Letters with marks apart are the ones with marks.
+  // Letters with combining marks equal the precomposed letters.
   EXPECT_EQ(outlined("a\u0308").rings, outlined("\u00e4").rings);
-  // Arabic letters change where they join: the two of "beh beh" are not twice the single one.
+  // Arabic letters change their form when joined: "beh beh" is not twice the single letter.
   EXPECT_NE(outlined("\u0628\u0628").rings.size(), 0u);
   EXPECT_GT(std::abs(area_of(outlined("\u0628\u0628").rings) - 2 * area_of(outlined("\u0628").rings)), 1);
 }
 
 TEST_F(Texts, TellWhatIsMissing) {
   EXPECT_TRUE(outlined("Größe Ω µ").missing.empty());
-  const auto text = outlined("a\xF0\xB0\x80\x80 \xF0\xB0\x80\x80");  // no usual font has that ideograph
+  const auto text = outlined("a\xF0\xB0\x80\x80 \xF0\xB0\x80\x80");  // no usual font has this ideograph
   EXPECT_EQ(text.missing, (std::vector<std::string>{"\xF0\xB0\x80\x80"}));
   EXPECT_TRUE(outlined(" \n\t").rings.empty());
   for (const char* bytes : {"\xFF\xFE", "\xC3", "a\xE2\x82", ""}) outlined(bytes);

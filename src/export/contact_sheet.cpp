@@ -1,4 +1,4 @@
-// A grid of layers as one picture, in true proportions.
+// Draws layers in a grid as one picture, in true proportions.
 #include "export/contact_sheet.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Crop {
   uint32_t height() const { return bottom - top; }
 };
 
-// How the tiles stand on the sheet.
+// Layout of the tiles on the sheet.
 struct Grid {
   uint32_t columns = 1, rows = 1, tile_width = 1, tile_height = 1;
 
@@ -56,7 +56,7 @@ void lay_over(Picture& picture, const SheetImage& sheet_image, const formats::Pn
         picture.set(column, row, sheet_image.ink.value_or(colour));
 }
 
-// Its images, one over the other.
+// Reads the images of a layer, laid over each other.
 formats::PngImage read(const SheetLayer& layer, const SheetStyle& style) {
   formats::PngImage first = read(layer.images.front().file);
   if (layer.images.size() == 1 && !layer.images.front().ink) return first;
@@ -91,13 +91,13 @@ Crop occupied(const std::vector<SheetLayer>& layers, const SheetStyle& style) {
 Grid arrange(uint32_t count, double width_mm, double height_mm) {
   Grid grid;
   grid.columns = std::min<uint32_t>(count, static_cast<uint32_t>(std::ceil(std::sqrt(count * 1.5))));
-  // A little narrower where that fills all rows.
+  // Uses fewer columns if that fills all rows.
   for (uint32_t fewer = grid.columns; fewer * fewer >= count; --fewer)
     if (count % fewer == 0) {
       grid.columns = fewer;
       break;
     }
-  // Tall parts stand in one row as long as their tiles stay wide enough to be seen.
+  // Tall parts are placed in one row as long as their tiles remain wide enough to be visible.
   if (height_mm > 2 * width_mm) grid.columns = std::min<uint32_t>(count, 2 * grid.columns);
   grid.rows = (count + grid.columns - 1) / grid.columns;
   const uint32_t widest = (sheet_width - margin) / grid.columns - margin;
@@ -107,14 +107,14 @@ Grid arrange(uint32_t count, double width_mm, double height_mm) {
   return grid;
 }
 
-// The range of source pixels under pixel i of n, at least one.
+// Returns the range of source pixels under pixel i of n; it contains at least one.
 std::pair<uint32_t, uint32_t> sources(uint32_t i, uint32_t n, uint32_t begin, uint32_t count) {
   const auto first = static_cast<uint32_t>(uint64_t{i} * count / n);
   const auto last = static_cast<uint32_t>((uint64_t{i} + 1) * count / n);
   return {begin + first, begin + std::max(last, first + 1)};
 }
 
-// The mean over a box of pixels, each laid over the tile's white.
+// Returns the mean colour of a box of pixels, each blended over the tile's white.
 formats::Rgba mean(const formats::PngImage& image, std::pair<uint32_t, uint32_t> columns,
                    std::pair<uint32_t, uint32_t> rows) {
   std::array<uint64_t, 3> sums{};
@@ -142,7 +142,7 @@ void draw_tile(Picture& sheet, const Grid& grid, uint32_t tile, const formats::P
   const std::string number = std::to_string(layer.layer), height = format_rounded(layer.z_mm) + " mm";
   const uint32_t baseline = grid.top(tile) + grid.tile_height + label_gap;
   draw_text(sheet, grid.left(tile), baseline, number, label_scale, ink);
-  // The height joins where there is room for it.
+  // The label includes the height if there is room for it.
   const uint32_t needed = text_width(height, label_scale);
   if (text_width(number, label_scale) + label_gap + needed <= grid.tile_width)
     draw_text(sheet, grid.left(tile) + grid.tile_width - needed, baseline, height, label_scale, ink);

@@ -8,10 +8,10 @@
 
 namespace ombre::exporting {
 
-// Width in pixels at `scale`; what the font lacks is a gap.
+// Returns the width in pixels at `scale`; characters missing from the font are blank.
 uint32_t text_width(std::string_view text, uint32_t scale);
 uint32_t text_height(uint32_t scale);
-// With its top left corner at (column, row); what lies outside the picture is cut off.
+// Draws a text with its top left corner at (column, row); parts outside the picture are clipped.
 void draw_text(Picture& picture, uint32_t column, uint32_t row, std::string_view text, uint32_t scale,
                formats::Rgba colour);
 

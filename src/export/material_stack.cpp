@@ -1,10 +1,10 @@
-// The images of a layer: one of all materials, or one of each.
+// Encodes the images of a layer: one of all materials, or one per material.
 #include "export/material_stack.h"
 
 namespace ombre::exporting {
 namespace {
 
-// The layer with all but one material taken for void.
+// Returns the layer with all other materials replaced by void.
 RunLayer only(const RunLayer& layer, MaterialId material) {
   RunLayer result(layer.width());
   std::vector<MaterialId> row(layer.width());

@@ -1,4 +1,4 @@
-// The images of a layer: one of all materials, or one of each.
+// Encodes the images of a layer: one of all materials, or one per material.
 #pragma once
 
 #include <string>
@@ -16,23 +16,23 @@ struct StackMaterial {
   formats::Rgba colour{};
 };
 
-// Everything that decides the bytes of a layer's files.
+// All settings that determine the bytes of a layer's files.
 struct MaterialStack : voxel::Images {
-  std::vector<StackMaterial> materials;  // those of the job, without void
+  std::vector<StackMaterial> materials;  // the job's materials, without void
   Pitch pitch_x, pitch_y;
 
-  // One PNG file, or one for each material, in their order; in those the others are void. Throws Error when memory runs
-  // out.
+  // Returns one PNG file, or one for each material in their order, in which the others are void. Throws Error if memory
+  // runs out.
   std::vector<std::string> encode(const RunLayer& layer) const;
-  // One PNG file in 65,536 shades of gray.
+  // Returns one PNG file with 65,536 shades of gray.
   std::string encode_shades(const RunLayer& upper_bytes, const RunLayer& lower_bytes) const;
 };
 
-// What an image of this format shows for a colour: with `gray` its brightness, 0.299 r + 0.587 g + 0.114 b
+// Returns the colour that an image of this format shows for a colour: with `gray` its luma, 0.299 r + 0.587 g + 0.114 b
 // (ITU-R BT.601), else the colour itself.
 formats::Rgba shown(formats::Rgba colour, ImageFormat format);
 
-// What is void in masks.
+// The colour of void in masks.
 inline constexpr formats::Rgba mask_off{0, 0, 0, 255};
 
 }  // namespace ombre::exporting

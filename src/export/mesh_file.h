@@ -1,4 +1,4 @@
-// Meshes as files for other programs.
+// Writes meshes as files for other programs.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace ombre::exporting {
 
 using formats::MeshFormat;
 
-// The path of the second file of a mesh, such as part.mtl for part.obj; empty for formats that have none.
+// Returns the path of the second file of a mesh, such as part.mtl for part.obj; "" for formats of one file.
 std::string companion_path(const std::string& path, const MeshFormat& format);
 
-// Writes a file that appears whole or not at all, and its companion if the document has materials. `flavour` is for
-// 3MF. Throws Error with the path, the reason and what to do.
+// Writes a file atomically: it appears complete or not at all. A companion is written if the document has materials.
+// `flavour` applies to 3MF. Throws Error with the path, the reason and what to do.
 void write_mesh_file(const std::string& path, const formats::MeshDocument& document, const MeshFormat& format,
                      formats::SlicerFlavour flavour = formats::SlicerFlavour::generic);
 

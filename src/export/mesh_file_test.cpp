@@ -82,7 +82,7 @@ TEST_F(MeshFile, FailuresNameThePathAndLeaveWhatWasThere) {
   }
 }
 
-// /dev/full takes no byte, as a full disk does.
+// /dev/full accepts no byte, like a full disk.
 TEST_F(MeshFile, FullDisksAreReported) {
   for (const char* name : {"a.stl", "a.amf", "a.obj"}) {
     fs::create_symlink("/dev/full", path(name) + ".part");
@@ -94,7 +94,7 @@ TEST_F(MeshFile, FullDisksAreReported) {
   EXPECT_TRUE(names().empty());
 }
 
-// What a process may write is cut to a few bytes.
+// The process's limit on file sizes is lowered to a few bytes.
 TEST_F(MeshFile, FullDisksLeaveNoArchive) {
   if (!formats::can_write_3mf()) GTEST_SKIP() << "no 3MF in this build";
   rlimit usual{};

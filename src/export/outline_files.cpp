@@ -1,4 +1,4 @@
-// Outlines of layers as files: one for each layer, or one for all.
+// Writes outlines of layers: one file per layer, or one for all.
 #include "export/outline_files.h"
 
 #include <algorithm>
@@ -82,7 +82,7 @@ class CliFile : public OutlineFiles {
   NewFile file_;
 };
 
-// A folder; if it is new, it goes away again unless something stays in it.
+// A folder; if it did not exist before, it is removed again unless it contains something.
 class NewFolder {
  public:
   explicit NewFolder(const std::string& path) : path_(path) {
@@ -92,7 +92,7 @@ class NewFolder {
   }
   ~NewFolder() {
     std::error_code ignored;
-    if (is_new_) fs::remove(path_, ignored);  // only if it is empty
+    if (is_new_) fs::remove(path_, ignored);  // succeeds only if it is empty
   }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;

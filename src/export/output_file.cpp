@@ -1,4 +1,4 @@
-// Files that appear whole or not at all.
+// Writes files atomically: they appear complete or not at all.
 #include "export/output_file.h"
 
 #include <fcntl.h>
@@ -85,7 +85,7 @@ void NewFile::write_at(uint64_t offset, std::string_view bytes) {
 void NewFile::close(Durability durability) {
   int error = 0;
   if (durability == Durability::flushed && ::fsync(descriptor_) != 0) error = errno;
-  // Network disks report a full disk only here.
+  // Network file systems report a full disk only when a file is closed.
   if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) error = errno;
   if (error != 0) throw write_error(file_.path(), error);
 }

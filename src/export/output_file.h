@@ -1,4 +1,4 @@
-// Files that appear whole or not at all.
+// Writes files atomically: they appear complete or not at all.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 namespace ombre::exporting {
 
-inline constexpr std::string_view part_suffix = ".part";  // of a file being written
+inline constexpr std::string_view part_suffix = ".part";  // ending of a file that is being written
 
-// `flushed` survives a loss of power; without it a file survives the end of this program alone.
+// A `flushed` file survives a power failure; a `closed` one survives only the end of this program.
 enum class Durability { closed, flushed };
 
-// Writes beside `path`, then renames, replacing what has that name. On failure nothing is left
-// behind and what was there before stays. Throws Error with the path, the reason and what to do.
+// Writes to a file beside `path`, then renames it, replacing a file of that name. On failure nothing is left behind,
+// and an existing file stays unchanged. Throws Error with the path, the reason and what to do.
 void write_file(const std::string& path, std::string_view bytes, Durability durability = Durability::closed);
 
-// A name beside `path` for a file that is being written by others; what has it goes away unless it is committed.
+// A temporary name beside `path` for a file that other code writes; the file is removed unless it is committed.
 class PendingFile {
  public:
   explicit PendingFile(std::string path) : path_(std::move(path)), part_(path_ + std::string(part_suffix)) {}
@@ -29,7 +29,7 @@ class PendingFile {
 
   const std::string& path() const { return path_; }
   const std::string& part() const { return part_; }
-  // Gives it its name, replacing what has that. Throws Error.
+  // Renames the file to its final name, replacing a file of that name. Throws Error.
   void commit();
 
  private:
@@ -40,19 +40,19 @@ class PendingFile {
 // A file that is written piece by piece.
 class NewFile {
  public:
-  // Throws Error, as do the others.
+  // Creates the temporary file. Throws Error, as do the other functions.
   explicit NewFile(std::string path);
   ~NewFile();
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
   void append(std::string_view bytes);
-  // Anywhere; what lies before it and was not written is 0.
+  // Writes at any offset; unwritten bytes before it are 0.
   void write_at(uint64_t offset, std::string_view bytes);
-  // The pieces so far are the file, which keeps its name of old until it is committed.
+  // Completes the file, which keeps its temporary name until it is committed.
   void close(Durability durability = Durability::closed);
   void commit() { file_.commit(); }
-  // Its name until then.
+  // Returns the temporary name.
   const std::string& part() const { return file_.part(); }
 
  private:
@@ -60,10 +60,10 @@ class NewFile {
   int descriptor_ = -1;
 };
 
-// Adds lines to the end of a file. Each append reaches the system in one call.
+// Adds lines to the end of a file, each in one write call.
 class AppendFile {
  public:
-  // Creates the file where it is missing. Throws Error.
+  // Opens the file, or creates it. Throws Error.
   explicit AppendFile(std::string path);
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
@@ -76,7 +76,7 @@ class AppendFile {
   int descriptor_ = -1;
 };
 
-// "cannot write PATH: REASON; WHAT TO DO", from an errno.
+// Returns an error with the message "cannot write PATH: REASON; WHAT TO DO" for an errno.
 Error write_error(const std::string& path, int error);
 
 }  // namespace ombre::exporting

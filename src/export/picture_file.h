@@ -8,7 +8,7 @@
 
 namespace ombre::exporting {
 
-// Square pixels of a picture, 4 bytes of RGBA each, rows from the top.
+// A picture with square pixels of 4 bytes of RGBA each, rows from the top.
 struct Picture {
   uint32_t width = 0, height = 0;
   std::vector<uint8_t> rgba;

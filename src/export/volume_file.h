@@ -1,4 +1,4 @@
-// Grids of numbers as files for other programs, layer by layer.
+// Writes grids of numbers as files for other programs, layer by layer.
 #pragma once
 
 #include <array>
@@ -16,18 +16,18 @@
 namespace ombre::exporting {
 
 enum class VolumeFormat {
-  raw,        // the numbers alone
-  npy,        // NumPy's array of shape (z, y, x)
+  raw,        // only the numbers
+  npy,        // a NumPy array of shape (z, y, x)
   nrrd,       // with spacing and origin
   nrrd_gzip,  // compressed
 };
 
-// A grid, x fastest, then y, then z; numbers low byte first.
+// A grid, x fastest, then y, then z; numbers are little-endian.
 struct Volume {
-  bool is_float = false;           // numbers of 32 bits, else bytes
+  bool is_float = false;           // 32-bit floats, else bytes
   std::array<int64_t, 3> count{};  // along x, y, z
   Vec3 spacing_mm, origin_mm;      // the origin is the centre of the first voxel
-  DataMembers about;               // what the numbers are, for people and programs
+  DataMembers about;               // meaning of the numbers, for people and programs
 
   uint64_t number_bytes() const { return is_float ? 4 : 1; }
   uint64_t layer_bytes() const {
@@ -36,19 +36,19 @@ struct Volume {
   uint64_t bytes() const { return layer_bytes() * static_cast<uint64_t>(count[2]); }
 };
 
-// Describes the numbers to a program: sizes, places and what they are.
+// Returns a machine-readable description of the numbers: sizes, positions and meaning.
 DataMembers describe(const Volume& volume);
 
-// Does a description lie beside the file, since it has no place for spacing, origin and names?
+// Returns true if the format cannot hold spacing, origin and names, so that a description is written beside the file.
 bool has_description(VolumeFormat format);
 std::string description_path(const std::string& path);
 
-// Appears under its name when it is committed, and is gone when it is not. All throw Error.
+// A file that appears under its name when it is committed, and is removed otherwise. All functions throw Error.
 class VolumeFile {
  public:
   VolumeFile(const std::string& path, VolumeFormat format, const Volume& volume);
 
-  // The numbers of the next layers.
+  // Appends the numbers of the next layers.
   void append(std::string_view numbers);
   void close();
   void commit();

@@ -1,4 +1,4 @@
-// Grids of several arrays as one file of VTK image data, layers in any order.
+// Writes grids of several arrays as one file of VTK image data, layers in any order.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace ombre::exporting {
 
-// Appears under its name when it is committed, and is gone when it is not. All throw Error.
+// A file that appears under its name when it is committed, and is removed otherwise. All functions throw Error.
 class VtiFile {
  public:
   VtiFile(const std::string& path, formats::VtiGrid grid);
 
-  // The numbers of an array from a layer on, as they lie in memory.
+  // Writes numbers of an array from a layer on, as they are stored in memory.
   void write(size_t array, int64_t first_layer, std::string_view numbers);
   void close();
   void commit() { file_.commit(); }

@@ -1,4 +1,4 @@
-// Axes, a scale bar and a legend beside what a picture shows.
+// Draws axes, a scale bar and a legend beside the contents of a picture.
 #include "render/annotations.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@ using draw::Pen;
 using draw::Rgb;
 using draw::Spot;
 
-// Of the picture's height is a line of text, within these pixels.
+// Height of a line of text as a share of the picture's height, and its limits in pixels.
 constexpr double text_share = 1.0 / 40;
 constexpr int smallest_text = 11, largest_text = 64;
-// In sizes of the text:
+// Lengths in units of the text size.
 constexpr double axes_strip = 6, scale_strip = 2.6, row = 1.6, margin = 1, gap = 0.5, swatch = 1, arm = 2;
-constexpr double legend_share = 0.3;  // of the picture's width, at most
-constexpr double bar_share = 0.3;     // of the width of what is shown, at most
-constexpr double bar_lines = 14;      // the height of a bar of colours, at most
+constexpr double legend_share = 0.3;  // greatest share of the picture's width
+constexpr double bar_share = 0.3;     // greatest share of the width of the contents
+constexpr double bar_lines = 14;      // greatest height of a bar of colours, in text sizes
 constexpr Rgb dark_ink{45, 48, 54}, light_ink{235, 237, 240};
 
 int text_size(int64_t height) {
@@ -37,7 +37,7 @@ Rgb ink_on(const Background& background) {
   return 299 * c[0] + 587 * c[1] + 114 * c[2] > half_bright ? dark_ink : light_ink;
 }
 
-// Text that is too long ends in dots.
+// Shortens text that is too long, and ends it in an ellipsis.
 std::string shortened(const std::string& text, double width, int size, Pen& pen) {
   if (pen.text_width(text, size) <= width) return text;
   std::string kept = text;
@@ -49,7 +49,7 @@ std::string shortened(const std::string& text, double width, int size, Pen& pen)
   return kept + "…";
 }
 
-// One of them at work.
+// Draws the annotations of one picture.
 class Annotator {
  public:
   Annotator(const Canvas& picture, const Layout& layout, Rgb ink, Pen& pen)
@@ -57,7 +57,7 @@ class Annotator {
 
   void draw_axes(const Camera& camera) {
     const Spot origin{unit_ * axes_strip / 2, static_cast<double>(picture_.height) - unit_ * axes_strip / 2};
-    std::array<int, 3> order{0, 1, 2};  // what points away is drawn first
+    std::array<int, 3> order{0, 1, 2};  // axes that point away are drawn first
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return camera.forward[a] > camera.forward[b]; });
     for (const int axis : order) draw_axis(axis, origin, camera.right[axis], camera.down[axis]);
   }
@@ -81,7 +81,7 @@ class Annotator {
     const double room = static_cast<double>(picture_.width) - unit_ * margin - text_left;
     const auto rows = static_cast<size_t>(std::max(1.0, (static_cast<double>(picture_.height) / unit_ - margin) / row));
     const size_t shown = legend.size() <= rows ? legend.size() : rows - 1;
-    double line = unit_ * (margin + swatch);  // on which the text stands
+    double line = unit_ * (margin + swatch);  // baseline of the text
     for (size_t n = 0; n < shown; ++n, line += unit_ * row) {
       draw_swatch({left, line - unit_ * swatch}, legend[n].colour);
       write({text_left, line - unit_ * 0.14}, shortened(legend[n].name, room, layout_.text_size, pen_));
@@ -123,7 +123,7 @@ class Annotator {
     const double seen = std::hypot(right, down), thick = std::max(1.5, unit_ / 7);
     const Spot tip{origin.right + unit_ * arm * right, origin.down + unit_ * arm * down};
     pen_.line(picture_, origin, tip, thick, colour);
-    // Seen from its end, an axis is a square.
+    // An axis seen from its end is a square.
     pen_.rectangle(picture_, {tip.right - thick, tip.down - thick}, {tip.right + thick, tip.down + thick}, colour);
     constexpr double edge_on = 0.2;
     const Spot away = seen > edge_on ? Spot{right / seen, down / seen} : Spot{-0.7, 0.7};
@@ -134,7 +134,7 @@ class Annotator {
                name, layout_.text_size, colour);
   }
 
-  // With an outline, for those in the background's colour.
+  // The outline makes swatches in the background's colour visible.
   void draw_swatch(Spot upper_left, Rgba8 colour) {
     const Spot from{std::round(upper_left.right), std::round(upper_left.down)};
     const double size = std::round(unit_ * swatch);

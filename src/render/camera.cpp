@@ -7,7 +7,7 @@
 namespace ombre::render {
 namespace {
 
-constexpr double border = 1.08;  // of the picture over the part
+constexpr double border = 1.08;  // ratio of the picture's size to the part's
 
 struct NamedView {
   std::string_view name;
@@ -23,7 +23,7 @@ std::array<Vec3, 8> corners(const Box& box) {
   return points;
 }
 
-// The height that shows all corners, seen from so far away.
+// Returns the height that shows all corners of the box from the camera's distance.
 double height_for(const Camera& camera, const Box& box, double aspect) {
   double height = 0;
   for (const Vec3 corner : corners(box)) {
@@ -73,17 +73,17 @@ std::vector<std::string> view_names() {
 Camera camera_around(const Box& box, const ViewOptions& options, double aspect) {
   Camera camera;
   camera.target = options.target.value_or(box.center());
-  // The eye stands at -y and turns around z, then rises.
+  // The eye stands at -y, turns around z, then rises.
   const Affine turn =
       Affine::rotation({0, 0, 1}, options.azimuth_deg) * Affine::rotation({1, 0, 0}, -options.elevation_deg);
   camera.forward = turn.linear({0, 1, 0});
   camera.right = turn.linear({1, 0, 0});
   camera.down = turn.linear({0, 0, -1});
-  // The ball around the target that holds the box has this radius.
+  // Radius of the ball around the target that contains the box.
   const double radius = length(box.size()) / 2 + length(box.center() - camera.target);
   if (options.field_of_view_deg > 0) {
     const double half = options.field_of_view_deg * 3.14159265358979323846 / 360;
-    // Far enough that the ball around the box is in view.
+    // The whole ball around the box is in view from this distance.
     camera.distance_mm = std::max(radius / std::sin(half), 1.01 * radius);
   }
   camera.height_mm = options.height_mm.value_or(border * height_for(camera, box, aspect)) / options.zoom;

@@ -6,9 +6,10 @@ namespace ombre::render {
 namespace {
 
 constexpr TileSize together{64, 32, 32};       // steps, columns, rows
-constexpr int64_t behind = fine_per_step / 2;  // a surface, its colour is taken
+constexpr int64_t behind = fine_per_step / 2;  // distance behind a surface at which its colour is taken
 
-// By rows, columns, then depth; films and rays are far shorter than the numbers that these bits hold.
+// Returns the sort key of an end's group: row, column, then depth. Numbers of films and rays are far smaller than these
+// bit fields.
 uint64_t group_of(const Ray& end) {
   const auto depth = static_cast<uint64_t>(end.first / (together[0] * fine_per_step));
   const auto column = static_cast<uint64_t>(end.column / together[1]),
@@ -16,7 +17,7 @@ uint64_t group_of(const Ray& end) {
   return row << 42 | column << 21 | depth;
 }
 
-// In fine steps.
+// Returns the box around the ends in fine steps.
 TileBox around(std::span<const Ray> ends) {
   TileBox fine{{ends[0].first, ends[0].column, ends[0].row}, {}};
   for (const Ray& end : ends) {
@@ -43,7 +44,7 @@ void EndColours::take(const voxel::StripSources& sources, const std::function<bo
   ends_.clear();
 }
 
-// How many ends each group has, in order. Keys are sorted, which is faster than sorting ends.
+// Sorts the ends by group and returns the size of each group. Sorting keys is faster than sorting ends.
 std::vector<size_t> EndColours::sort_by_group() {
   keys_.clear();
   for (const Ray& end : ends_) keys_.emplace_back(group_of(end), static_cast<uint32_t>(keys_.size()));
@@ -73,8 +74,8 @@ void EndColours::take(const std::vector<Group>& groups, const voxel::StripSource
   }
 }
 
-// A little behind the surface, if the solid is thick enough: where surfaces of two materials coincide, rounding
-// decides which is met first.
+// Takes colours slightly behind the surface if the solid is thick enough: where surfaces of two materials coincide,
+// rounding decides which a ray meets first.
 void EndColours::take(Group group, const voxel::StripSources& sources) {
   thin_.clear();
   queried_.assign(group.begin(), group.end());

@@ -13,13 +13,14 @@ namespace ombre::render {
 
 class EndColours {
  public:
-  // `whole` says colours; all outlive this.
+  // Constructs an empty list of ends; `whole` is the program that evaluates colours. All arguments must outlive this
+  // object.
   EndColours(const program::Program& whole, const RaySteps& steps, RayBand& hits)
       : whole_(whole), hits_(hits), batch_(steps), all_(steps), each_(steps) {}
 
-  // It begins where it ends.
+  // Adds a ray's end; the ray begins at its end.
   void note(const Ray& end) { ends_.push_back(end); }
-  // Those that were noted get their colours, those that lie together at a time.
+  // Evaluates the colours of all added ends; neighbouring ends are evaluated together.
   void take(const voxel::StripSources& sources, const std::function<bool()>& is_stopped);
 
  private:
@@ -28,7 +29,7 @@ class EndColours {
   std::vector<size_t> sort_by_group();
   void take(const std::vector<Group>& groups, const voxel::StripSources& sources,
             const std::function<bool()>& is_stopped);
-  // By what is left of the program in each_.
+  // Evaluates a group with the shortened program in each_.
   void take(Group group, const voxel::StripSources& sources);
 
   const program::Program& whole_;
@@ -36,7 +37,7 @@ class EndColours {
   RayBatch batch_;
   QueriedTiles all_, each_;
   std::vector<Ray> ends_, queried_, thin_;
-  std::vector<std::pair<uint64_t, uint32_t>> keys_;  // of groups, and numbers of ends
+  std::vector<std::pair<uint64_t, uint32_t>> keys_;  // keys of groups, with numbers of ends
 };
 
 }  // namespace ombre::render

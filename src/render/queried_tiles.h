@@ -1,4 +1,4 @@
-// A program with its intervals over some tiles, and what is left of it in one of them or some.
+// A program with its intervals over some tiles, and the program shortened for one or several of them.
 #pragma once
 
 #include <algorithm>
@@ -25,15 +25,15 @@ struct QueriedTiles {
     intervals.values(tiles, values);
     shortener.shorten(values, left, kept);
   }
-  // No intervals of what is left are known then, until it is evaluated again.
+  // Unrolls the parts of the shortened program. Its intervals are unknown afterwards, until it is evaluated again.
   void write_out_parts() {
     const bool are_turned = has_turned_parts();
     left = program::expand_parts(left, kept, program::Precision::batch, &reach);
     if (are_turned) left = program::compose_affine(left);
     kept.assign(left.code.size(), Interval::everything());
   }
-  // Whether there are parts that are not evaluated at the inputs themselves. The others have composed what is affine
-  // already.
+  // Returns true if some parts are not evaluated at the inputs themselves. The affine maps of the others are already
+  // composed.
   bool has_turned_parts() const {
     return std::ranges::any_of(left.code, [&](const program::Instruction& in) {
       return in.op == program::Op::parts && left.code[in.a].op != program::Op::input;

@@ -7,7 +7,7 @@
 namespace ombre::render {
 namespace {
 
-// Of as many as are sampled together; false also where a zero has a sign.
+// Returns true if steps_together samples are all +0; -0 counts as different.
 bool are_all_zero(const float* values) {
   std::array<uint64_t, steps_together * sizeof(float) / sizeof(uint64_t)> words;
   std::memcpy(words.data(), values, sizeof words);
@@ -34,7 +34,7 @@ void RayBatch::evaluate(std::span<const Ray> rays, int64_t stride, size_t width,
   stride_ = stride;
   width_ = width;
   for (std::vector<float>* coordinates : {&depths_, &rights_, &downs_}) coordinates->resize(rays.size() * width);
-  // Loops of a known length are faster.
+  // Loops of a constant length are faster.
   if (width == steps_together)
     place<steps_together>();
   else if (width == 1)
@@ -48,7 +48,7 @@ void RayBatch::evaluate(std::span<const Ray> rays, int64_t stride, size_t width,
   for (size_t n = 0; n < outputs_.size(); ++n) outputs_[n] = batch_.output(n);
 }
 
-// With 0 for a width that is not known beforehand.
+// Places the samples of all rays; known_width is 0 if the width is not a constant.
 template <size_t known_width>
 void RayBatch::place() {
   const size_t width = known_width > 0 ? known_width : width_;
@@ -59,7 +59,7 @@ void RayBatch::place() {
     if (known_width > 1 && n > 0 && ray.first == rays_[n - 1].first) {
       std::copy_n(depths - width, width, depths);
     } else {
-      // Whole numbers of doubles, so as exact as those of steps.
+      // Fine steps are integers in doubles, so they are exact.
       const auto first = static_cast<double>(ray.first);
       for (int i = 0; i < static_cast<int>(width); ++i) depths[i] = steps_.sample(first + apart * i);
     }

@@ -1,4 +1,4 @@
-// Samples along rays, many at a time.
+// Samples along rays, evaluated in batches.
 #pragma once
 
 #include <span>
@@ -11,28 +11,29 @@
 
 namespace ombre::render {
 
-// Samples begin at the fine place `first`.
+// A ray whose samples begin at the fine step `first`.
 struct Ray {
   int64_t column = 0, row = 0, first = 0;
 };
 
-// What a program says at samples of rays.
+// The values of a program at samples of rays.
 class RayBatch : private eval::SourceRows {
  public:
   explicit RayBatch(const RaySteps& steps) : steps_(steps), batch_(eval::kernel_sets().front()) {}
 
-  // `ranges` are the program's, which outlives this, wherever it is evaluated. At most so many samples at a time.
+  // Prepares a program. `ranges` must hold wherever it is evaluated, and it must outlive this object. Batches have at
+  // most most_samples samples.
   void compile(const program::Program& program, const std::vector<Interval>& ranges, size_t most_samples,
                const voxel::StripSources& sources);
-  // `width` samples of each ray, `stride` fine places apart. Only the program's output 0, or all of them.
+  // Evaluates `width` samples of each ray, `stride` fine steps apart; only the program's output 0, or all outputs.
   void evaluate(std::span<const Ray> rays, int64_t stride, size_t width, bool all_outputs);
 
-  // Of sample `i` of ray `n`. What floats cannot hold counts as 0.
+  // Returns the value at sample `i` of ray `n`; NaN counts as 0.
   float value(Scene::Output output, size_t n, size_t i) const {
     const float value = outputs_[output][n * width_ + i];
     return std::isnan(value) ? 0 : value;
   }
-  // The first of a ray's samples at or behind `from` whose value is not 0; `width` if there is none.
+  // Returns the first of a ray's samples from `from` on whose value is not 0, or `width` if there is none.
   size_t first_set(Scene::Output output, size_t n, size_t from) const;
   Colour colour(size_t n, size_t i) const {
     return {value(Scene::red, n, i), value(Scene::green, n, i), value(Scene::blue, n, i)};
@@ -51,9 +52,9 @@ class RayBatch : private eval::SourceRows {
   const voxel::StripSources* sources_ = nullptr;
   std::span<const Ray> rays_;
   int64_t stride_ = 1;
-  size_t width_ = 0;  // samples of a ray
+  size_t width_ = 0;  // samples per ray
   std::vector<eval::Values> outputs_;
-  std::vector<float> depths_, rights_, downs_;  // of the samples at work, ray by ray
+  std::vector<float> depths_, rights_, downs_;  // coordinates of the current samples, ray by ray
 };
 
 }  // namespace ombre::render

@@ -23,18 +23,19 @@ namespace {
 
 using voxel::StripSources;
 
-// Rays are evaluated in blocks of samples; those of a leaf together.
+// Rays are evaluated in blocks of samples; the blocks of a leaf are evaluated together.
 constexpr TileSize leaf{64, 32, 16}, block{steps_together, 8, 8};
-constexpr TileSize fine_block{steps_together, 4, 4};  // of programs that ask sources, sample by sample
-constexpr size_t most_samples = 512;                  // at a time
+constexpr TileSize fine_block{steps_together, 4, 4};  // for programs that query sources sample by sample
+constexpr size_t most_samples = 512;                  // per batch
 static_assert((leaf[0] / block[0]) * (leaf[1] / block[1]) * (leaf[2] / block[2]) <= most_pieces);
 static_assert(leaf[1] * leaf[2] <= most_samples, "all rays of a leaf are followed together");
-constexpr int64_t largest_tile = 128, smallest_tile = 64;  // edges of the picture's tiles, in rays
-constexpr int64_t enough_tiles = 4;                        // for all threads to have work
-constexpr size_t many_parts = 12;  // while so many reach a tile, it is cut before they are written out
-constexpr float dark = 0.01F;      // less light than that is none
+constexpr int64_t largest_tile = 128, smallest_tile = 64;  // sides of the picture's tiles, in rays
+constexpr int64_t enough_tiles = 4;                        // number of tiles that keeps all threads busy
+// number of parts within reach from which a tile is divided before its parts are unrolled
+constexpr size_t many_parts = 12;
+constexpr float dark = 0.01F;  // a share of light below this counts as none
 
-// For batches. While surfaces are looked for, colours matter in translucent material only.
+// The programs of a scene for batches. The search for surfaces needs colours only in translucent material.
 struct Programs {
   program::Program whole, traversal;
   Programs(const Scene& scene, const program::Program& reference)
@@ -49,16 +50,16 @@ bool reads_sources(const program::Program& program) {
   return std::ranges::any_of(program.code, [](const program::Instruction& in) { return in.op == program::Op::source; });
 }
 
-// The ends of a band's rays: known, or to be found.
+// The ends of a band's rays: known from an earlier picture, or to be found.
 struct BandEnds {
-  int64_t begin = 0, width = 0;  // row, rays of a row
+  int64_t begin = 0, width = 0;  // first row; number of rays per row
   std::shared_ptr<const RayEnds> known = {};
-  std::shared_ptr<RayEnds> found = {};  // null: not to be kept
+  std::shared_ptr<RayEnds> found = {};  // null if the ends are not to be kept
 
   size_t place(int64_t column, int64_t row) const { return static_cast<size_t>((row - begin) * width + column); }
 };
 
-// One thread's.
+// Casts the rays of tiles, for one thread.
 class RayCaster {
  public:
   RayCaster(const Scene& scene, const Programs& programs, const RaySteps& steps, const Clarity& clarity,
@@ -89,7 +90,7 @@ class RayCaster {
   }
 
  private:
-  // Ends that are known, without a sample.
+  // Sets the known ends of a tile's rays without sampling.
   void recall(const TileBox& tile) {
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
       for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column) {
@@ -101,7 +102,7 @@ class RayCaster {
       }
   }
   RayHit& hit(const Ray& ray) { return hits_.at(ray.column, ray.row); }
-  // 1 until an end of the ray is found.
+  // Flag of a ray: 1 until its end is found.
   uint8_t& is_open(int64_t column, int64_t row) {
     return is_open_[static_cast<size_t>((row - first_row_) * largest_tile + column - first_column_)];
   }
@@ -112,7 +113,7 @@ class RayCaster {
     }
     return true;
   }
-  // The least part of a tile that has all its open rays, of which there are some.
+  // Returns the smallest part of a tile that contains all its open rays; there must be some.
   TileBox around_open(const TileBox& tile) {
     TileBox open = tile;
     open.lo[1] = tile.hi[1], open.hi[1] = tile.lo[1];
@@ -135,13 +136,13 @@ class RayCaster {
     is_open(ray.column, ray.row) = 0;
   }
 
-  // Those of a tile, from its first step on.
+  // Lists the open rays of a tile, from its first step on.
   void list_open(const TileBox& tile) {
     for (int64_t row = tile.lo[2]; row < tile.hi[2]; ++row)
       for (int64_t column = tile.lo[1]; column < tile.hi[1]; ++column)
         if (is_open(column, row)) rays_.push_back({column, row, RaySteps::fine_of(tile.lo[0])});
   }
-  // f(some of the listed rays), as many as may have so many samples each at a time.
+  // Calls f with the listed rays in groups, such that `width` samples of each ray fit into a batch.
   template <class F>
   void each_batch(size_t width, F f) {
     const size_t most = most_samples / width;
@@ -154,7 +155,7 @@ class RayCaster {
     return levels_[depth];
   }
 
-  // The near pieces first, which may hide the others.
+  // Visits the nearest pieces first, because they may hide the others.
   void descend(const program::Program& program, const TileBox& tile, size_t depth) {
     if (is_stopped_()) return;
     const std::vector<TileBox> pieces = cut(around_open(tile), leaf);
@@ -178,7 +179,7 @@ class RayCaster {
     return fine;
   }
 
-  // Of the tiles that were evaluated together, number `n`.
+  // Enters tile number `n` of those evaluated together.
   void enter(const program::Program& program, QueriedTiles& queried, size_t n, const TileBox& tile, bool is_murky,
              size_t depth) {
     if (!is_murky && is_small(tile, false)) return sample(program, tile);
@@ -202,7 +203,7 @@ class RayCaster {
     return true;
   }
 
-  // Of one colour and opacity throughout.
+  // Absorbs light through a tile with a constant colour and opacity.
   template <class Range>
   void absorb_all(const TileBox& tile, Range range) {
     const auto value = [&](Scene::Output output) { return static_cast<float>(range(output).lo); };
@@ -214,7 +215,7 @@ class RayCaster {
     for (const Ray& ray : rays_) absorb(ray, opacity, tile.size(0), depth, colour);
   }
 
-  // A few samples for many steps.
+  // Samples translucent material with one sample for many steps.
   void sample_murk(const program::Program& program, const TileBox& tile) {
     blocks_.ask(program, {fine_box(tile)}, *sources_);
     blocks_.shorten(size_t{0});
@@ -236,7 +237,7 @@ class RayCaster {
     });
   }
 
-  // The blocks of a leaf in which something may be met.
+  // Samples the blocks of a leaf that may contain something.
   void sample(const program::Program& program, const TileBox& tile) {
     std::vector<TileBox> pieces = cut(around_open(tile), block);
     std::erase_if(pieces, [&](const TileBox& piece) { return is_hidden(piece); });
@@ -255,7 +256,7 @@ class RayCaster {
     batch_.compile(blocks_.left, blocks_.kept, most_samples, *sources_);
     surfaces_.clear();
     ends_.clear();
-    // Of those at one depth together.
+    // Blocks at the same depth are sampled together.
     for (size_t n = 0; n < pieces.size();) {
       const int64_t depth = pieces[n].lo[0];
       rays_.clear();
@@ -274,13 +275,13 @@ class RayCaster {
     pieces = std::move(finer);
   }
 
-  // What is left of the program.
+  // Evaluates the shortened program again.
   void evaluate_again(std::vector<TileBox>& pieces) {
     std::swap(queried_, blocks_.left);
     keep_met(queried_, pieces);
   }
 
-  // Those in which something may be; blocks_ is evaluated, and its program shortened for them.
+  // Keeps the pieces that may contain something; evaluates blocks_, and shortens its program for these pieces.
   void keep_met(const program::Program& program, std::vector<TileBox>& pieces) {
     blocks_.ask(program, fine_boxes(pieces), *sources_);
     met_.clear();
@@ -293,7 +294,7 @@ class RayCaster {
     if (!pieces.empty()) blocks_.shorten(met_);
   }
 
-  // Notes behind which samples rays meet a surface, for a closer look, and what the light loses at each.
+  // Notes the samples after which rays enter a surface, to refine them later, and absorbs light at each sample.
   void find_hits(std::span<const Ray> rays) {
     constexpr auto width = static_cast<size_t>(steps_together);
     batch_.evaluate(rays, fine_per_step, width, scene_.is_translucent);
@@ -314,7 +315,7 @@ class RayCaster {
     }
   }
 
-  // True: no light is left.
+  // Absorbs light over some steps. Returns true if none is left.
   bool absorb(const Ray& ray, float opacity, int64_t steps, float depth, const Colour& here) {
     RayHit& found = hit(ray);
     const float through = clarity_.through(opacity, steps);
@@ -329,7 +330,8 @@ class RayCaster {
     return true;
   }
 
-  // From places up to a step before a surface to the fine step behind it. An opaque surface also ends its ray.
+  // Moves rays from a place up to a step before a surface to the fine step behind it. An opaque surface also ends its
+  // ray.
   void refine(std::vector<Ray>& rays, Scene::Output what) {
     for (int64_t half = fine_per_step / 2; half > 0; half /= 2) {
       rays_ = rays;
@@ -364,14 +366,14 @@ class RayCaster {
   std::deque<QueriedTiles> levels_;
   QueriedTiles blocks_;
   RayBand& hits_;
-  std::vector<size_t> met_;                   // of the blocks that were evaluated
-  program::Program queried_;                  // the program of blocks_ when it is evaluated again
-  int64_t first_column_ = 0, first_row_ = 0;  // of the tile
+  std::vector<size_t> met_;                   // numbers of the evaluated blocks to keep
+  program::Program queried_;                  // the program of blocks_ while it is evaluated again
+  int64_t first_column_ = 0, first_row_ = 0;  // first column and row of the current tile
   std::array<uint8_t, largest_tile * largest_tile> is_open_{};
   std::vector<Ray> rays_, surfaces_, ends_;
 };
 
-// Casters that wait for work, one for each thread that asked for one at the same time.
+// Idle casters; as many are made as threads request at the same time.
 class RayCasters {
  public:
   explicit RayCasters(std::function<std::unique_ptr<RayCaster>()> make) : make_(std::move(make)) {}
@@ -397,7 +399,7 @@ class RayCasters {
   std::vector<std::unique_ptr<RayCaster>> idle_;
 };
 
-// Drops the outputs that are there for this alone.
+// Places the sources of a program, and drops the outputs that only serve that purpose.
 voxel::RowSamplers place_sources(program::Program& program, const Scene& scene, const RaySteps& steps) {
   if (scene.eye_mm == 0) {
     Affine view_from_index = Affine::scaling(steps.step());
@@ -412,8 +414,8 @@ voxel::RowSamplers place_sources(program::Program& program, const Scene& scene, 
 
 int64_t tiles_along(int64_t rays, int64_t edge) { return (rays + edge - 1) / edge; }
 
-// Small pictures have smaller tiles. The size does not depend on the number of threads: sums over translucent material
-// show it.
+// Returns the size of tiles, which are smaller in small pictures. It does not depend on the number of threads, because
+// sums over translucent material depend on it.
 int64_t tile_edge(int64_t columns, int64_t rows) {
   int64_t edge = largest_tile;
   while (edge > smallest_tile && tiles_along(columns, edge) * tiles_along(rows, edge) < enough_tiles) edge /= 2;
@@ -424,7 +426,7 @@ int64_t tile_edge(int64_t columns, int64_t rows) {
 
 namespace {
 
-// Nothing where the ends are not to be kept.
+// Returns the key of a band's ends, or null if they are not to be kept.
 std::optional<Hash> key_of_band(const program::Program& shape, const Scene& scene, const RaySteps& steps, int64_t begin,
                                 int64_t end) {
   if (steps.steps >= std::numeric_limits<int32_t>::max() / fine_per_step) return std::nullopt;

@@ -1,4 +1,4 @@
-// Casts a ray through each pixel of a picture and notes what it meets.
+// Casts a ray through each pixel of a picture and records its hits.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@ namespace ombre::render {
 
 class KnownEnds;
 
-// Of rows [begin, end), which may lie beyond the film. The same whatever the band, but for sums over translucent
-// material, and the number of threads.
-// Surfaces are found to some thousandths of a pixel of the picture; what is thinner than a quarter of one along the
-// ray may be missed. `is_stopped` is called now and then; if it says so, the rest is left unset.
-// Of a scene without translucent material whose rays' ends are known, only the colours are evaluated; others are kept
-// there. It changes no hit.
+// Returns the hits of rows [begin, end), which may lie beyond the film. They do not depend on the number of threads,
+// nor, except for sums over translucent material, on the band.
+// Surfaces are found to a few thousandths of a pixel of the picture; parts thinner than a quarter of a pixel along the
+// ray may be missed. `is_stopped` is called now and then; once it returns true, the rest is left unset.
+// If `known` has the ends of the rays of a scene without translucent material, only colours are evaluated; otherwise
+// the ends are stored there. It does not change any hit.
 RayBand cast_rays(const Scene& scene, const Film& film, int64_t begin, int64_t end, int threads,
                   const std::function<bool()>& is_stopped, KnownEnds* known = nullptr);
 

@@ -8,7 +8,7 @@
 namespace ombre::render {
 namespace {
 
-// The bytes of some numbers, one after the other.
+// Collects the bytes of numbers.
 class Bytes {
  public:
   template <class... Numbers>

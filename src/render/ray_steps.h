@@ -1,4 +1,4 @@
-// Where rays are sampled, and what light loses from sample to sample.
+// Sampling steps along rays, and the loss of light between samples.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace ombre::render {
 
-// Rays are sampled in steps. Where one finds a surface, the step is halved until a fine one is left.
-inline constexpr double steps_per_pixel = 4;  // of the picture
+// Rays are sampled in steps. Where a ray enters a surface, the step is halved down to a fine step.
+inline constexpr double steps_per_pixel = 4;  // pixel of the picture
 inline constexpr int64_t fine_per_step = 512;
-// So many steps of a ray are sampled together.
+// Number of steps of a ray that are sampled together.
 inline constexpr int64_t steps_together = 8;
-// Within translucent material, where no surface is, one sample stands for so many steps.
+// Number of steps that one sample stands for inside of translucent material, away from surfaces.
 inline constexpr int64_t murky_steps = 8;
 
-// Samples along rays, one after the other; places are counted in fine steps, of which a step has 512.
+// Samples along rays. Places are counted in fine steps, of which a step has 512.
 struct RaySteps {
   double near_mm = 0, fine_mm = 0;
   int64_t steps = 0;
@@ -41,10 +41,10 @@ struct RaySteps {
   Vec3 step() const { return {fine_mm, film.pixel_mm, film.pixel_mm}; }
 };
 
-// The share of light that comes through some steps, by opacity in thousandths or so.
+// The share of light that passes through some steps, tabulated by opacity in steps of 1/1024.
 class Clarity {
  public:
-  // What a material lets through whose opacity is o: 1 - o along a way of 1 / `step` steps.
+  // Constructs the table: a material of opacity o passes the share 1 - o along 1 / `step` steps.
   explicit Clarity(double step) {
     for (size_t n = 0; n < one_.size(); ++n) {
       const double clear = 1 - static_cast<double>(n) / grades;

@@ -7,7 +7,7 @@ namespace {
 
 int64_t units(int64_t size, int64_t unit) { return (size + unit - 1) / unit; }
 
-// So many pieces that a few levels of them come to the units.
+// Returns the number of pieces per level such that a few equal levels lead to the units.
 int64_t wanted_pieces(int64_t all_units) {
   int64_t levels = 1;
   while (std::pow(most_pieces, levels) < static_cast<double>(all_units)) ++levels;

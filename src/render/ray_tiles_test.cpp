@@ -1,4 +1,4 @@
-// Tiles are cut into pieces without gaps, the near ones first.
+// Pieces fill a tile without gaps, the near ones first.
 #include "render/ray_tiles.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(RayTiles, PiecesFillTheTileOnce) {
   }
 }
 
-// Cutting again and again ends at the units.
+// Repeated cutting ends at the units.
 TEST(RayTiles, PiecesOfPiecesAreUnits) {
   TileBox tile{{0, 0, 0}, {6400, 32, 32}};
   const TileSize unit{32, 16, 8};

@@ -1,4 +1,4 @@
-// What lies in a plane, seen flat: a ray for each point of the film, which ends there if it is inside.
+// Sections: the solid in a plane, with a ray for each point of the film that ends there if the point is inside.
 #include "render/section.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace ombre::render {
 namespace {
 
-constexpr int64_t strip_rows = 32;  // of one thread at a time
+constexpr int64_t strip_rows = 32;  // rows per task
 
 voxel::Lattice lattice_of(const Film& film) {
   const Pitch one{1, 1};

@@ -1,4 +1,4 @@
-// What lies in a plane, seen flat: a ray for each point of the film, which ends there if it is inside.
+// A section: the solid in a plane, with a ray for each point of the film that ends there if the point is inside.
 #pragma once
 
 #include "base/system/progress.h"
@@ -12,13 +12,13 @@ class Section {
  public:
   enum Output : size_t { inside, red, green, blue, output_count };
 
-  // To the design's space from (column, row, 0.5) of the film, whose points lie at halves: the plane through the
-  // camera's target, seen along `forward`.
+  // Returns the map from (column, row, 0.5) of the film, whose points have half-integer coordinates, to the design's
+  // space: the plane through the camera's target, seen along `forward`.
   static Affine design_from_film(const Camera& camera, const Film& film);
 
-  // The program's inputs are the film's, its outputs as above; colours are linear.
+  // Constructs a section. The program's inputs are the film's coordinates, its outputs as above with linear colours.
   Section(program::Program program, const Film& film);
-  // Rows [begin, end). Throws Cancelled soon after it is asked to stop.
+  // Returns rows [begin, end). Throws Cancelled soon after a stop is requested.
   RayBand cast(int64_t begin, int64_t end, int threads, const StopFlag& stop) const;
 
  private:

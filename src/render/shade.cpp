@@ -12,11 +12,11 @@
 namespace ombre::render {
 namespace {
 
-// In the view's frame, towards the light: from behind the eye, left and above.
+// Direction towards the light in the view's frame: from behind the eye, left and above.
 const Vec3 key_light{-0.74, -0.42, -0.53};
 constexpr double ambient = 0.32, diffuse = 0.62, from_the_eye = 0.12, highlight = 0.10;
 
-// How sharp the highlight is.
+// Returns the 40th power, which defines the sharpness of the highlight.
 double to_the_40th(double v) {
   const double v4 = (v * v) * (v * v), v8 = v4 * v4, v16 = v8 * v8;
   return v16 * v16 * v8;
@@ -24,13 +24,13 @@ double to_the_40th(double v) {
 
 double to_linear(uint8_t value) { return linear_of_srgb(value / 255.0); }
 
-// The colour halfway between byte values n - 1 and n.
+// Returns the linear value halfway between the byte values n - 1 and n.
 double border_below(size_t n) {
   const double v = (static_cast<double>(n) - 0.5) / 255;
   return v <= 12.92 * 0.0031308 ? v / 12.92 : math::pow((v + 0.055) / 1.055, 2.4);
 }
 
-// Finds bytes by their borders, from near below on.
+// Finds the byte of a linear value by the borders between bytes, starting from a table.
 class SrgbBytes {
  public:
   SrgbBytes() {
@@ -45,7 +45,7 @@ class SrgbBytes {
 
  private:
   static constexpr double parts = 1024;
-  // At most 1.
+  // Returns the byte of a linear value of at most 1, searching from `byte` on.
   uint8_t above(uint8_t byte, double linear) const {
     while (borders_[byte] <= linear) ++byte;
     return byte;
@@ -60,18 +60,18 @@ uint8_t to_srgb(double linear) {
 }
 
 struct Light {
-  double share = 1, shine = 0;  // of the surface's own colour; white
+  double share = 1, shine = 0;  // share of the surface's own colour; share of white
 };
 
 Light light_on(Vec3 normal) {
   const double towards_light = std::max(0.0, dot(normal, key_light)), towards_eye = std::max(0.0, -normal.x);
-  static const Vec3 between = Vec3{-1, 0, 0} + key_light;  // the eye and the light
+  static const Vec3 between = Vec3{-1, 0, 0} + key_light;  // direction between eye and light
   static const Vec3 half = (1 / length(between)) * between;
   const double glance = std::max(0.0, dot(normal, half));
   return {ambient + diffuse * towards_light + from_the_eye * towards_eye, highlight * to_the_40th(glance)};
 }
 
-// Depths as a field over the film, and the surface's direction in it.
+// Depths over the film as a relief, with its normals.
 class Relief {
  public:
   Relief(const RayBand& band, const Film& film, const Camera& camera, float RayHit::*depth)
@@ -81,8 +81,8 @@ class Relief {
     return band_.has(column, row) ? band_.at(column, row).*depth_ : RayHit::none;
   }
 
-  // Towards the eye. Of the neighbours on both sides the nearer one in depth is taken: the other may lie behind an
-  // edge.
+  // Returns the normal towards the eye. Of the two neighbours on opposite sides, the one nearer in depth is used,
+  // because the other may lie behind an edge.
   Vec3 normal(int64_t column, int64_t row) const {
     const Vec3 across = step(column, row, 1, 0), down = step(column, row, 0, 1);
     const Vec3 n = cross(across, down);
@@ -131,7 +131,7 @@ Colour linear(Rgba8 srgb) {
 
 namespace {
 
-// Makes pixels of rays.
+// Converts hits of rays to pixels.
 class Shader {
  public:
   Shader(const RayBand& band, const Film& film, const Camera& camera, const ShadeOptions& options)
@@ -151,7 +151,7 @@ class Shader {
     Sum sum;
     for (int64_t row = y * samples; row < (y + 1) * samples; ++row)
       for (int64_t column = x * samples; column < (x + 1) * samples; ++column) add_ray(column, row, sum);
-    // Colours of transparent pictures are not premultiplied.
+    // Colours of transparent pictures are not premultiplied by alpha.
     const double rays = static_cast<double>(samples * samples);
     const bool is_transparent = options_.background.is_transparent;
     const double over = is_transparent ? (sum.cover > 0 ? sum.cover : 1) : rays;

@@ -1,4 +1,4 @@
-// From what rays met to the colours of pixels.
+// Converts hits of rays to the colours of pixels.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace ombre::render {
 using Rgba8 = std::array<uint8_t, 4>;
 
 Colour linear(Rgba8 srgb);
-// Back again, opaque.
+// Returns the opaque sRGB colour of a linear one.
 Rgba8 encoded(const Colour& linear);
 
 struct Background {
@@ -23,7 +23,7 @@ struct Background {
 };
 
 enum class Lighting {
-  from_the_eye,  // from its side, from above on the left
+  from_the_eye,  // light from the eye's side, from above on the left
   none,          // the materials' own colours
 };
 
@@ -33,8 +33,8 @@ struct ShadeOptions {
   Background background;
 };
 
-// Appends rows [begin, end) of pixels, RGBA from left to right. The band has their rays, and for light a row more
-// above and below.
+// Appends rows [begin, end) of pixels, RGBA from left to right. The band must contain their rays and, with lighting,
+// one more row above and below.
 void shade(const RayBand& band, const Film& film, const Camera& camera, const ShadeOptions& options, int64_t begin,
            int64_t end, int threads, std::vector<uint8_t>& pixels);
 

@@ -14,7 +14,7 @@ Solid nothing() { return Solid(TriangleMesh{}); }
 
 bool meet(const Box& a, const Box& b) { return !intersect(a, b).is_empty(); }
 
-// One for each solid: the number of the first of those that it hangs together with by boxes that meet.
+// Groups solids that are connected by boxes that meet; a group is known by the number of its first solid.
 class Clusters {
  public:
   explicit Clusters(const std::vector<Solid>& solids) : first_(solids.size()) {
@@ -52,7 +52,7 @@ BodyPtr united_pair(const BodyPtr& a, const BodyPtr& b) {
   return kernel().gathered(both);
 }
 
-// Of bodies that hang together.
+// Unites the bodies of one group.
 BodyPtr united(std::vector<BodyPtr> bodies, const Work& work) {
   while (bodies.size() > 1) {
     std::vector<BodyPtr> pairs((bodies.size() + 1) / 2);
@@ -66,7 +66,7 @@ BodyPtr united(std::vector<BodyPtr> bodies, const Work& work) {
   return bodies[0];
 }
 
-// Meshes side by side.
+// Returns the meshes as one, side by side.
 Solid gathered(const std::vector<Solid>& solids) {
   TriangleMesh all;
   for (const Solid& solid : solids) {

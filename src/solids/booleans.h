@@ -1,4 +1,4 @@
-// Operations on any number of solids.
+// Boolean and other operations on any number of solids.
 #pragma once
 
 #include <vector>
@@ -12,16 +12,17 @@ struct Work {
   int threads = 0;                 // 0: all cores
   const StopFlag* stop = nullptr;  // may be null
 
-  void check() const;  // throws Cancelled once it is set
+  void check() const;  // throws Cancelled once the stop flag is set
 };
 
-// Solids whose boxes do not meet are put side by side; others are united in pairs, the pairs in pairs, and so on.
+// Unites solids. Those whose boxes do not meet are placed side by side; others are united in pairs, the results in
+// pairs, and so on.
 Solid unite(std::vector<Solid> solids, const Work& work);
 Solid intersect(const std::vector<Solid>& solids, const Work& work);
 Solid subtract(const Solid& from, std::vector<Solid> others, const Work& work);
 Solid moved(const Solid& solid, const Affine& map);
 Solid hull(const std::vector<Solid>& solids);
-// All sums of a point of the one and a point of the other.
+// Returns the Minkowski sum: all sums of a point of `a` and a point of `b`.
 Solid minkowski(const Solid& a, const Solid& b, const Work& work);
 
 }  // namespace ombre::solids

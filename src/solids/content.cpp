@@ -5,7 +5,7 @@
 namespace ombre::solids {
 namespace {
 
-// Appends values so that no two lists of them give the same text.
+// Appends values such that different lists of values give different texts.
 class Writer {
  public:
   explicit Writer(std::string& text) : text_(text) {}

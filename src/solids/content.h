@@ -1,4 +1,4 @@
-// What a tree's content is: equal content gives equal geometry.
+// The content of a tree as text: equal content gives equal geometry.
 #pragma once
 
 #include "base/system/hash.h"
@@ -6,7 +6,8 @@
 
 namespace ombre::solids {
 
-// Of one operation, with all that decides its result but its children. Places in the script do not count.
+// Returns the text of one operation with everything that decides its result, except its children and places in the
+// script.
 std::string text_of(const Tree& tree);
 
 }  // namespace ombre::solids

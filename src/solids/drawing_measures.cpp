@@ -7,7 +7,7 @@
 namespace ombre::solids {
 namespace {
 
-// Nothing, and a warning, where the file cannot be read.
+// Returns the measures of a file, or null and a warning if it cannot be read.
 std::optional<formats::DxfMeasures> measures_of(const std::string& path, std::string& warning) {
   try {
     Diagnostics found;

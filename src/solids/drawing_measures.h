@@ -1,4 +1,4 @@
-// Numbers that scripts read out of drawings.
+// Numbers that scripts read from drawings.
 #pragma once
 
 #include <optional>
@@ -8,23 +8,23 @@
 
 namespace ombre::solids {
 
-// Chooses a drawing, and what is meant of it. Empty: any layer, any name. Places are moved by -origin, then scaled.
+// The choice of a drawing's measures. An empty layer or name matches any. Places are moved by -origin, then scaled.
 struct MeasureChoice {
   std::string path, layer, name;
   Vec2 origin;
   double scale = 1;
 };
 
-// A value, or the warning that says why there is none.
+// A value, or a warning that says why there is none.
 template <class Value>
 struct Measure {
   std::optional<Value> value;
   std::string warning;
 };
 
-// The first dimension of that name on that layer of a DXF file: mm, or degrees.
+// Returns the first dimension of that name on that layer of a DXF file, in mm or degrees.
 Measure<double> dimension_of(const MeasureChoice& choice);
-// The place where the first two lines of the layer cross.
+// Returns the intersection of the first two lines of the layer.
 Measure<Vec2> crossing_of(const MeasureChoice& choice);
 
 }  // namespace ombre::solids

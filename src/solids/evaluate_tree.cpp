@@ -11,18 +11,18 @@
 namespace ombre::solids {
 namespace {
 
-// A subtree that occurs in the tree, perhaps several times.
+// A distinct subtree, which may occur several times in the tree.
 struct Step {
   const Tree* tree = nullptr;
-  std::vector<size_t> inputs;  // steps before this one, one for each child
+  std::vector<size_t> inputs;  // numbers of earlier steps, one for each child
   std::vector<size_t> users;
-  size_t missing = 0;  // distinct inputs that are not done
-  size_t uses = 0;     // users that are not done
+  size_t missing = 0;  // number of distinct inputs not done yet
+  size_t uses = 0;     // number of users not done yet
   std::shared_ptr<const Pieces> result;
   Diagnostics messages;
 };
 
-// The distinct subtrees, inputs before what uses them.
+// The distinct subtrees, inputs before their users.
 class StepList {
  public:
   explicit StepList(const TreePtr& root) {
@@ -81,7 +81,7 @@ std::vector<size_t> distinct(std::vector<size_t> list) {
   return list;
 }
 
-// Runs all steps whose inputs are done, then those that these made ready, and so on.
+// Runs the steps whose inputs are done, then those that became ready, and so on.
 class Runner {
  public:
   Runner(std::vector<Step>& steps, const EvaluateOptions& options) : steps_(steps), options_(options) {
@@ -117,7 +117,7 @@ class Runner {
     if (options_.progress) options_.progress->update({done, steps_.size(), -1, -1});
   }
 
-  // What no step needs any more goes.
+  // Releases results that no other step needs.
   void finish(size_t n) {
     for (const size_t user : steps_[n].users)
       if (--steps_[user].missing == 0) ready_.push_back(user);

@@ -17,14 +17,14 @@ namespace {
 
 using Side = std::pair<uint32_t, uint32_t>;  // from one point to the next, with the inside on the left
 
-// A region as points, the sides around it, and triangles that fill it.
+// A region as points, its boundary sides, and triangles that fill it.
 struct Outline {
   std::vector<Vec2> points;
   std::vector<Side> sides;
   std::vector<Triangle> triangles;
 };
 
-// Edges that no other triangle has in the other direction.
+// Returns the edges that no other triangle has in the opposite direction.
 std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
   std::set<Side> edges;
   for (const Triangle& t : triangles)
@@ -35,7 +35,7 @@ std::vector<Side> sides_of(const std::vector<Triangle>& triangles) {
   return sides;
 }
 
-// The sides are those of the rings, unless rings touch or cross: then they are cut there.
+// Returns the outline of a region. The sides are those of its rings, cut where rings touch or cross.
 Outline outline_of(const Region& region) {
   Outline outline;
   for (const Ring& ring : region.rings) {
@@ -54,8 +54,9 @@ Outline outline_of(const Region& region) {
   return outline;
 }
 
-// The length of the way of the point that goes farthest. Where it turns, it is that of a spiral in the plane, read from
-// its outer end to its inner one as if that were the outline's own size, and of the height: so OpenSCAD 2021.01 has it.
+// Returns the length of the longest path of a point. With twist, it combines the height with the length of a plane
+// spiral, read from its outer to its inner end as if that were the outline's own size; this reproduces OpenSCAD
+// 2021.01.
 double longest_way(const Outline& outline, const LinearExtrude& by) {
   double radius = 0, shift = 0;
   for (const Vec2& p : outline.points) {
@@ -91,7 +92,7 @@ int slices_of(const Outline& outline, const LinearExtrude& by) {
   return static_cast<int>(std::clamp(std::ceil(count), 1.0, static_cast<double>(most_edges)));
 }
 
-// Edges of a ring cut so that it has at least `count`, each the more often the longer it is.
+// Divides the edges of a ring so that it has at least `count`; longer edges are divided more often.
 Ring cut_edges(const Ring& ring, int count) {
   double around = 0;
   for (size_t n = 0; n < ring.size(); ++n) around += length(ring[(n + 1) % ring.size()] - ring[n]);
@@ -166,7 +167,7 @@ class Extruder {
   TriangleMesh mesh_;
 };
 
-// Rings of a profile turned in steps.
+// Builds the mesh of a profile revolved in steps.
 class Revolver {
  public:
   Revolver(const Region& region, const RotateExtrude& by, double reach)
@@ -231,7 +232,7 @@ std::string two_digits(double number) {
   return text;
 }
 
-// Rings from pieces that each begin where another ends.
+// Joins pieces to rings; each piece begins where another ends.
 template <class Key>
 std::vector<std::vector<Key>> chained(std::multimap<Key, Key>& next) {
   std::vector<std::vector<Key>> rings;
@@ -248,12 +249,12 @@ std::vector<std::vector<Key>> chained(std::multimap<Key, Key>& next) {
   return rings;
 }
 
-// Points of a solid are rounded, and so faces of it that meet leave gaps and slivers in the plane.
+// Distance below which gaps and slivers in the plane are removed; they arise because points of a solid are rounded.
 constexpr double plane_noise_mm = 1e-6;
 
 using Edge = std::pair<uint32_t, uint32_t>;  // from a point above the plane to one below
 
-// Where the plane cuts, if points in it count as above or as below.
+// Returns the rings in which the plane cuts a mesh; `counts_as_above` decides for points in the plane.
 std::vector<Ring> cut(const TriangleMesh& mesh, bool counts_as_above) {
   const auto is_above = [&](uint32_t n) { return mesh.points[n].z > 0 || (counts_as_above && mesh.points[n].z == 0); };
   std::multimap<Edge, Edge> next;
@@ -308,7 +309,7 @@ Region section(const TriangleMesh& mesh) {
   return cleaned(unite(sides), plane_noise_mm);
 }
 
-// A point has as many faces above it that look up as rings of their border go round it.
+// The number of upward faces above a point equals the number of rings of their border around it.
 Region shadow(const TriangleMesh& mesh) {
   const auto faces_up = [&](const Triangle& t) {
     const Vec3 a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];

@@ -1,4 +1,4 @@
-// Solids swept by regions, and regions that solids leave in a plane.
+// Solids swept by regions, and sections and shadows of solids.
 #pragma once
 
 #include "base/text/diagnostic.h"
@@ -6,15 +6,16 @@
 
 namespace ombre::solids {
 
-// Upward along z, or along a direction that has an upward part. Quads between slices are cut
-// along their shorter diagonal. Empty without a height.
+// Extrudes a region upward along z, or along a direction with an upward component. Quads between slices are split along
+// their shorter diagonal. Empty if the height is not positive.
 TriangleMesh extruded(const Region& region, const LinearExtrude& by);
-// About the y axis, which becomes z. All points must lie on one side of it: else an error at `where`, and nothing.
+// Revolves a region about the y axis, which becomes z. All points must lie on one side of the axis; otherwise reports
+// an error at `where` and returns an empty mesh.
 TriangleMesh revolved(const Region& region, const RotateExtrude& by, const SourceRange& where, Diagnostics& messages);
 
-// Where a closed mesh meets the plane z = 0; faces in the plane count.
+// Returns the section of a closed mesh with the plane z = 0; faces in the plane count.
 Region section(const TriangleMesh& mesh);
-// The shadow of a closed mesh along z.
+// Returns the projection of a closed mesh along z.
 Region shadow(const TriangleMesh& mesh);
 
 }  // namespace ombre::solids

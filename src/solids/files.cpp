@@ -35,8 +35,8 @@ TriangleMesh mesh_of(const formats::Mesh& mesh, double scale) {
   return tidied(result);
 }
 
-// A name that a reader made up, for files where something has to have one: "object 3", or the material's, or that of
-// an object with several volumes.
+// Returns true if the reader made the name up because something had to have one: "object 3", the material's name, or
+// the name of an object with several volumes.
 bool is_made_up(const std::string& name, const formats::MeshGroup& group, const formats::Mesh& mesh) {
   constexpr std::string_view numbered = "object ";
   if (name == group.material) return true;

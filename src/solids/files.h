@@ -8,16 +8,16 @@
 
 namespace ombre::solids {
 
-// A solid of a mesh that nobody vouches for; nothing, and an error, where it is not closed or crosses itself.
-// Shells that overlap become one. `what` begins the message.
+// Returns the solid of an untrusted mesh. If the mesh is not closed or crosses itself, reports an error and returns
+// null. Overlapping shells become one. `what` begins the message.
 std::optional<Solid> checked_solid(const TriangleMesh& mesh, const std::string& what, const SourceRange& where,
                                    Diagnostics& messages);
 
-// STL, OFF, OBJ, PLY, AMF, 3MF: a solid for each material and colour of each object, with the names and colours that
-// the file gives. SVG and DXF: one region. Nothing, and messages, where there is none.
+// Imports a file. STL, OFF, OBJ, PLY, AMF and 3MF give a solid for each material and colour of each object, with the
+// names and colours of the file; SVG and DXF give one region. Returns no pieces, with messages, if there are none.
 Pieces import_pieces(const Import& import, const SourceRange& where, Diagnostics& messages);
 
-// Heights at the points of a grid, 1 mm apart, down to 1 mm below the lowest.
+// Returns the solid below heights on a grid of 1 mm, down to 1 mm below the lowest.
 TriangleMesh mesh_of(const Surface& surface, const SourceRange& where, Diagnostics& messages);
 
 }  // namespace ombre::solids

@@ -8,7 +8,7 @@
 namespace ombre::solids {
 namespace {
 
-constexpr double least_radius_mm = 1e-6;  // what is smaller is a point
+constexpr double least_radius_mm = 1e-6;  // smaller circles are points
 
 int limited(double edges) { return static_cast<int>(std::min(edges, static_cast<double>(most_edges))); }
 
@@ -24,7 +24,7 @@ int edges_of_circle(double radius_mm, const Fragments& fragments) {
 }
 
 double sine(double degrees) {
-  const double turn = std::remainder(degrees, 360);  // exact
+  const double turn = std::remainder(degrees, 360);  // the remainder is exact
   if (std::abs(turn) > 90) return std::copysign(sine(180 - std::abs(turn)), turn);
   if (std::abs(turn) == 90) return std::copysign(1, turn);
   if (std::abs(turn) == 30) return std::copysign(0.5, turn);

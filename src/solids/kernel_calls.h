@@ -1,7 +1,7 @@
-// Between kernel() and the module that holds CGAL.
+// The interface between kernel() and the module with CGAL.
 #pragma once
 
 #include "solids/kernel.h"
 
-// What the module exports. The kernel lives as long as the program.
+// Returns the kernel, which lives as long as the program; the function that the module exports.
 extern "C" const ombre::solids::Kernel* ombre_solids_kernel();

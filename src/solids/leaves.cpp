@@ -1,4 +1,4 @@
-// The geometry of leaves: numbers, texts and files.
+// The geometry of leaves: primitives, texts and files.
 #include <algorithm>
 
 #include "base/text/error.h"

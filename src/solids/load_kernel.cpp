@@ -1,4 +1,4 @@
-// Loads the module with the geometry kernel when it is first needed.
+// Loads the module with the geometry kernel on first use.
 #include "solids/kernel.h"
 
 #include "base/system/module_loader.h"

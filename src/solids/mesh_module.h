@@ -1,4 +1,4 @@
-// What both meshers of tetrahedra by CGAL have in common.
+// Common parts of the two tetrahedral meshers by CGAL.
 #pragma once
 
 #include <array>
@@ -9,16 +9,17 @@
 
 namespace ombre::solids {
 
-// Shares of the element size: radii of the balls around facets and cells, so that the mean edge has about the size.
+// Radii of the circumscribed balls of facets and cells, as shares of the element size; with them the mean edge is about
+// as long as the size.
 inline constexpr double facet_share = 0.8, cell_share = 0.8;
 inline constexpr double least_angle = 25, most_radius_to_edge = 2.2;
-// Angles between faces that are wanted one after the other; how many questions may be asked for each.
+// Angles between faces that mending tries to reach one after another, and limits on the queries for each.
 inline constexpr std::array sliver_degrees = {1.0, 2.0, 4.0, 8.0, 12.0};
 inline constexpr uint64_t questions_to_mend = 500'000, questions_to_mend_of_cell = 100;
-// How near to the surface its points lie, as a share of the size.
+// Greatest distance of surface points from the surface, as a share of the size.
 inline constexpr double surface_error = 1e-4;
 
-// Counts what the mesher asks, and stops it by Enough where it asks more than is allowed.
+// Counts the mesher's queries, and stops it by throwing Enough if they exceed the limit.
 class Questions {
  public:
   struct Enough {};
@@ -32,10 +33,10 @@ class Questions {
   uint64_t left_ = std::numeric_limits<uint64_t>::max();
 };
 
-// Puts points and tetrahedra in the order in which Tetrahedra has them.
+// Sorts points and tetrahedra as Tetrahedra requires.
 void put_in_order(Tetrahedra& made);
 
-// The tetrahedra of a request that is periodic. Throws Error and Questions::Enough.
+// Makes the tetrahedra of a periodic request. Throws Error and Questions::Enough.
 Tetrahedra make_periodic(const TetrahedraRequest& request);
 
 }  // namespace ombre::solids

@@ -47,7 +47,7 @@ int dimension_of(const Pieces& pieces) {
   return 0;
 }
 
-// Works on the children of one operation.
+// Applies one operation to the pieces of its children.
 class Applier {
  public:
   Applier(const Tree& tree, const std::vector<const Pieces*>& children, const OperationContext& context)
@@ -83,7 +83,7 @@ class Applier {
     return for_regions([&](const Region& region) { return offset(region, by); });
   }
   Pieces operator()(const LinearExtrude& by) {
-    // Else slices may cross, or their ends meet in a line.
+    // With a twist or other scales, slices may cross or their ends may meet in a line.
     const bool is_sound = by.twist == 0 && ((by.scale.x > 0 && by.scale.y > 0) || by.scale == Vec2{0, 0});
     return for_regions([&](const Region& region) { return checked(extruded(region, by), is_sound); });
   }
@@ -135,14 +135,14 @@ class Applier {
     return pieces;
   }
 
-  // The place of a child, of which background ones are not counted.
+  // Returns the place of a child; children of the background are not counted.
   const SourceRange& place_of_child(size_t number) const {
     for (const TreePtr& child : tree_.children)
       if (child && !child->background && number-- == 0) return child->where;
     return tree_.where;
   }
 
-  // Those of one dimension, empty in the place of others, with a warning for each child that has others.
+  // Keeps pieces of one dimension and makes the others empty, with a warning for each child that has others.
   void keep_dimension(int dimension, bool warns, bool is_mixture = false) {
     for (size_t n = 0; n < children_.size(); ++n) {
       bool has_other = false;
@@ -159,7 +159,7 @@ class Applier {
     }
   }
 
-  // All pieces of the first one's dimension.
+  // Returns all pieces that have the dimension of the first.
   Pieces of_any_dimension() {
     keep_dimension(dimension_of(all()), true, true);
     return all();
@@ -205,7 +205,7 @@ class Applier {
     return piece_of(group.attributes, std::move(sum));
   }
 
-  // One piece for each set of attributes; nothing where one of them is something else.
+  // Returns one united piece for each set of attributes; empty pieces are removed if others exist.
   Pieces soft_union(const Pieces& pieces) const {
     Pieces result;
     for (const PieceGroup& group : grouped(pieces, Matching::all)) result.push_back(united(group));
@@ -214,7 +214,7 @@ class Applier {
     return result;
   }
 
-  // Where attributes do not matter each child is one piece.
+  // If attributes do not matter, unites each child into one piece.
   void join_children() {
     if (tree_.semantics != Semantics::permissive) return;
     for (Pieces& child : children_)
@@ -260,7 +260,7 @@ class Applier {
     return soft_union(pieces);
   }
 
-  // A solid of a mesh that may cross itself.
+  // Returns the solid of a mesh, repaired by the kernel if the mesh may cross itself.
   Solid checked(TriangleMesh mesh, bool is_sound) const {
     if (is_sound || mesh.triangles.empty()) return Solid(std::move(mesh));
     std::string remark;
@@ -334,7 +334,8 @@ Pieces Applier::operator()(const Transform& by) {
   return pieces;
 }
 
-// Factors by which the box gets its new size; automatic ones follow the axis with the greatest.
+// Returns the factors that give the box its new size; automatic axes use the factor of the axis with the greatest new
+// size.
 Vec3 factors_of(const Resize& to, const Vec3& size, int axes) {
   Vec3 factors{1, 1, 1};
   int greatest = 0;

@@ -1,4 +1,4 @@
-// One operation of a tree, on what its children gave.
+// Applies one operation of a tree to the results of its children.
 #pragma once
 
 #include "base/text/diagnostic.h"
@@ -13,11 +13,11 @@ struct OperationContext {
   Diagnostics* messages = nullptr;
 };
 
-// `children` are without those of the background; one that gave nothing has no pieces. At least one piece, which may be
-// empty.
+// Returns the result of an operation: at least one piece, which may be empty. `children` exclude those of the
+// background; a child without a result has no pieces.
 Pieces apply(const Tree& tree, const std::vector<const Pieces*>& children, const OperationContext& context);
 
-// The geometry of a leaf.
+// Returns the geometry of a leaf.
 Pieces leaf_pieces(const Tree& tree, const OperationContext& context);
 bool is_leaf(const Operation& operation);
 

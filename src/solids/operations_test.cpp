@@ -1,4 +1,5 @@
-// Sizes of what operations give: from mathematics, and from OpenSCAD 2021.01 where it decides how circles are cut.
+// Tests of the sizes of results, against mathematics, and against OpenSCAD 2021.01 where it decides how circles are
+// divided.
 #include <numbers>
 #include <random>
 
@@ -19,11 +20,11 @@ class Operations : public ::testing::Test {
   }
 };
 
-// OpenSCAD writes six digits.
+// Relative tolerance, because OpenSCAD writes six digits.
 constexpr double six_digits = 1e-5;
 #define EXPECT_SIZE(size, expected) EXPECT_NEAR(size, expected, six_digits*(expected))
 
-// Of a regular polygon in a circle.
+// Returns the area of a regular polygon inscribed in a circle.
 double polygon_area(double radius, int edges) { return 0.5 * edges * radius * radius * std::sin(2 * pi / edges); }
 
 TEST_F(Operations, Primitives) {
@@ -45,7 +46,7 @@ TEST_F(Operations, FragmentsOfCircles) {
   const auto points = [](double radius, Fragments fragments) {
     return evaluated(node(Circle{radius, fragments}))[0].region()->rings[0].size();
   };
-  EXPECT_EQ(points(1, {}), 5U);     // at least
+  EXPECT_EQ(points(1, {}), 5U);     // the minimum
   EXPECT_EQ(points(3, {}), 10U);    // 2 pi 3 / 2 = 9.4
   EXPECT_EQ(points(100, {}), 30U);  // 360 / 12
   EXPECT_EQ(points(100, {1}), 3U);
@@ -89,15 +90,16 @@ TEST_F(Operations, PolygonsAreEvenOdd) {
 }
 
 TEST_F(Operations, BooleansOfTouchingCubes) {
-  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 0, 0, {cube(1)})})), 2);  // a face
-  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 1, 0, {cube(1)})})), 2);  // an edge
-  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 1, 1, {cube(1)})})), 2);  // a corner
+  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 0, 0, {cube(1)})})), 2);  // they share a face
+  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 1, 0, {cube(1)})})), 2);  // they share an edge
+  EXPECT_DOUBLE_EQ(size_of(unite({cube(1), moved(1, 1, 1, {cube(1)})})), 2);  // they share a corner
   EXPECT_DOUBLE_EQ(size_of(unite({cube(1), cube(1)})), 1);
   EXPECT_DOUBLE_EQ(size_of(difference({cube(2), cube(1)})), 7);
   EXPECT_DOUBLE_EQ(size_of(difference({cube(1), cube(2)})), 0);
   EXPECT_DOUBLE_EQ(size_of(intersection({cube(1), moved(1, 0, 0, {cube(1)})})), 0);
-  EXPECT_DOUBLE_EQ(size_of(difference({node(Cube{{3, 3, 3}, true}), node(Cube{{1, 1, 1}, true})})), 26);  // a cavity
-  EXPECT_DOUBLE_EQ(size_of(difference({cube(3, 3, 1), moved(1, 1, 0, {cube(1)})})), 8);                   // a hole
+  // with a cavity
+  EXPECT_DOUBLE_EQ(size_of(difference({node(Cube{{3, 3, 3}, true}), node(Cube{{1, 1, 1}, true})})), 26);
+  EXPECT_DOUBLE_EQ(size_of(difference({cube(3, 3, 1), moved(1, 1, 0, {cube(1)})})), 8);  // with a hole
 }
 
 TEST_F(Operations, WhatTouchesItselfGoesOn) {
@@ -106,7 +108,7 @@ TEST_F(Operations, WhatTouchesItselfGoesOn) {
   EXPECT_DOUBLE_EQ(size_of(unite({touching, moved(0.5, 0.5, 0, {cube(1)})})), 2.5);
 }
 
-// Whole-numbered boxes, so that counting cells gives the volume.
+// Boxes have integer coordinates, so that counting cells gives the volume.
 TEST_F(Operations, RandomTreesOfBoxes) {
   constexpr int size = 6;
   using Cells = std::array<bool, size * size * size>;
@@ -151,8 +153,8 @@ TEST_F(Operations, MirroredSolidsStayOutward) {
   EXPECT_DOUBLE_EQ(size_of(node(Transform{Affine::scaling({-1, 1, 1})}, {cube(2)})), 8);
 }
 
-// Three solids with a common corner, two of which overlap: 8 + 1 and what stands out of the greater block. The prism of
-// 1 x 1 x 1 was turned about z by 30 degrees, so a triangle of legs 1 and tan 30 stands out.
+// Three solids have a common corner, and two of them overlap: 8 + 1 plus the part outside of the greater block. The
+// prism of 1 x 1 x 1 is turned about z by 30 degrees, so a triangle with legs 1 and tan 30 is outside.
 TEST_F(Operations, SolidsThatMeetInACornerAreUnited) {
   Transform turn;
   turn.parent_from_child = Affine::rotation({0, 0, 1}, 30);
@@ -166,7 +168,7 @@ TEST_F(Operations, SolidsThatMeetInACornerAreUnited) {
   }
 }
 
-// The faces of balls have four corners, which rounding lifts out of a plane.
+// The faces of balls have four corners, which rounding moves out of their plane.
 TEST_F(Operations, BallsAreConvexWhateverTheirCornersRoundTo) {
   for (const double edges : {5, 16, 30, 40, 100})
     for (const double away : {0.0, 1e3}) {
@@ -181,11 +183,11 @@ TEST_F(Operations, HullAndMinkowski) {
   EXPECT_NEAR(size_of(hull({cube(1), moved(2, 0, 0, {cube(1)})})), 3, 1e-12);
   EXPECT_NEAR(size_of(hull({square(1, 1), node(Transform{Affine::translation({2, 0, 0})}, {square(1, 1)})})), 3, 1e-8);
   EXPECT_NEAR(size_of(minkowski({cube(10), node(Cube{{2, 2, 2}, true})})), 12 * 12 * 12, 1e-9);
-  // Steiner's formula for a convex region: area + perimeter * r + area of the polygon around.
+  // Steiner's formula for a convex region: area + perimeter * r + area of the rounding polygon.
   EXPECT_NEAR(size_of(minkowski({square(10, 10), circle(1, 8)})), 100 + 40 + polygon_area(1, 8), 1e-7);
   const TreePtr frame = difference({square(10, 10), moved(3, 3, 0, {square(4, 4)})});
   EXPECT_NEAR(size_of(minkowski({frame, circle(1, 8)})), 142.8284271 - 4, 1e-6);
-  // A ring thick enough to close its hole.
+  // The other summand is thick enough to close the frame's hole.
   EXPECT_NEAR(size_of(minkowski({frame, square(5, 5)})), 225, 1e-7);
   const TreePtr corner = difference({cube(4), moved(1, 1, -1, {cube(9)})});
   EXPECT_NEAR(size_of(minkowski({corner, cube(1)})), 5 * (25 - 9), 1e-9);
@@ -206,7 +208,7 @@ TEST_F(Operations, OffsetsAsOpenScadCutsCorners) {
   EXPECT_NEAR(size_of(node(Fill{}, {frame})), 400, 1e-6);
 }
 
-// Volumes by Debian's openscad 2021.01.
+// The expected volumes are from Debian's openscad 2021.01.
 TEST_F(Operations, LinearExtrusions) {
   const auto by = [](LinearExtrude extrusion, const TreePtr& of) { return size_of(node(extrusion, {of})); };
   LinearExtrude plain;
@@ -242,7 +244,7 @@ TEST_F(Operations, LinearExtrusions) {
               230, 1e-6);
 }
 
-// Volumes by Debian's openscad 2021.01.
+// The expected volumes are from Debian's openscad 2021.01.
 TEST_F(Operations, SlicesOfScaledExtrusions) {
   const TreePtr triangle = node(Polygon{{{1, 1}, {5, 1}, {3, 5}}, {}});
   const auto by = [&](double twist, Vec2 scale, double edges = 0) {
@@ -262,7 +264,7 @@ TEST_F(Operations, SlicesOfScaledExtrusions) {
   EXPECT_SIZE(by(400, {3, 3}), 337.619056);
 }
 
-// Volumes by Debian's openscad 2021.01.
+// The expected volumes are from Debian's openscad 2021.01.
 TEST_F(Operations, RotateExtrusions) {
   const auto by = [](RotateExtrude extrusion, const TreePtr& of) { return size_of(node(extrusion, {of})); };
   const TreePtr ring = moved(2, 0, 0, {square(1, 1)});
@@ -279,8 +281,8 @@ TEST_F(Operations, RotateExtrusions) {
 TEST_F(Operations, Projections) {
   EXPECT_SIZE(size_of(node(Projection{}, {sphere(5, 10)})), 73.472888);
   EXPECT_SIZE(size_of(node(Projection{true}, {moved(0, 0, 1, {sphere(5, 10)})})), 64.234282);
-  EXPECT_NEAR(size_of(node(Projection{true}, {cube(5)})), 25, 1e-6);                     // whose foot lies in the plane
-  EXPECT_NEAR(size_of(node(Projection{true}, {moved(0, 0, -5, {cube(5)})})), 25, 1e-6);  // whose top does
+  EXPECT_NEAR(size_of(node(Projection{true}, {cube(5)})), 25, 1e-6);                     // its bottom lies in the plane
+  EXPECT_NEAR(size_of(node(Projection{true}, {moved(0, 0, -5, {cube(5)})})), 25, 1e-6);  // its top lies in the plane
   EXPECT_NEAR(size_of(node(Projection{}, {difference({cube(5), moved(1, 1, -1, {cube(1, 1, 9)})})})), 24, 1e-6);
 }
 
@@ -295,7 +297,8 @@ TEST_F(Operations, Resizing) {
   EXPECT_NEAR(to({10, 0, 0}, {true, true, true}, circle(1, 8)), 70.7106781, 1e-6);
 }
 
-// Boxes and areas by Debian's openscad 2021.01, whose letters differ from the font's outlines by up to 0.003 mm here.
+// The expected boxes and areas are from Debian's openscad 2021.01, whose letters differ from the font's outlines by up
+// to 0.003 mm here.
 TEST_F(Operations, Texts) {
   const auto found = draw::search_font("DejaVu Sans", false, false);
   if (!draw::can_outline_text() || !found || !found->has_name) GTEST_SKIP();
@@ -351,7 +354,7 @@ TEST_F(Operations, DeepTreesNeedNoStack) {
   TreePtr tree = cube(1);
   for (int n = 0; n < 20'000; ++n) tree = moved(1, 0, 0, {tree});
   EXPECT_DOUBLE_EQ(size_of(tree), 1);
-  while (tree) {  // which destroying it would
+  while (tree) {  // frees it iteratively, as its destructor would recursively
     TreePtr child = tree->children.empty() ? nullptr : tree->children[0];
     tree = std::move(child);
   }

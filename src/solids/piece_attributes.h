@@ -1,4 +1,4 @@
-// How pieces of different attributes meet in an operator, after the thesis on multi-material OpenSCAD (2023),
+// Grouping of pieces with different attributes in an operation, after the thesis on multi-material OpenSCAD (2023),
 // section 3.
 #pragma once
 
@@ -8,20 +8,20 @@
 
 namespace ombre::solids {
 
-// Which attributes keep pieces apart.
+// The attributes that keep pieces apart.
 enum class Matching {
   all,       // material, part and colour
   material,  // material and part
   none,
 };
 
-// What an operator works on at once. Its attributes are those of its first piece that is something.
+// Pieces that an operation works on together. The attributes are those of the first piece that is not empty.
 struct PieceGroup {
   Attributes attributes;
-  std::vector<Piece> members;  // in order; empty ones may be among them
+  std::vector<Piece> members;  // in order; some may be empty
 };
 
-// In the order of their first pieces.
+// Groups pieces, in the order of the first piece of each group.
 std::vector<PieceGroup> grouped(const Pieces& pieces, Matching matching);
 
 bool do_match(const Attributes& a, const Attributes& b, Matching matching);

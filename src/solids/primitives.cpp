@@ -16,8 +16,9 @@ Ring circle_ring(double radius, int edges) {
   return ring;
 }
 
-// Fills a convex polygon, counter-clockwise from outside: every second corner is cut off, then of those that are left.
-// Faces of other solids often lie in its plane, and meet fewer of these triangles than of a fan.
+// Fills a convex polygon, counter-clockwise from outside: cuts off every second corner, then every second of the
+// remaining ones, and so on. Faces of other solids often lie in the same plane, and meet fewer of these triangles than
+// of a fan.
 void add_convex(std::span<const uint32_t> corners, TriangleMesh& mesh) {
   std::vector<uint32_t> left(corners.begin(), corners.end());
   while (left.size() > 2) {
@@ -41,7 +42,7 @@ std::vector<uint32_t> numbers(uint32_t first, uint32_t count) {
   return result;
 }
 
-// Between two rings of as many points, one above the other.
+// Adds the wall between two rings with equal numbers of points, one above the other.
 void add_wall(uint32_t below, uint32_t above, uint32_t count, TriangleMesh& mesh) {
   for (uint32_t n = 0; n < count; ++n) {
     const uint32_t next = (n + 1) % count;
@@ -70,7 +71,7 @@ TriangleMesh cone(double radius, double foot, double tip, int edges) {
   return mesh;
 }
 
-// Layers of rings, closed by their first and last.
+// Adds the walls between consecutive rings, and closes the first and last ring.
 void close_rings(uint32_t rings, uint32_t count, TriangleMesh& mesh) {
   std::vector<uint32_t> bottom = numbers(0, count);
   std::reverse(bottom.begin(), bottom.end());
@@ -79,7 +80,7 @@ void close_rings(uint32_t rings, uint32_t count, TriangleMesh& mesh) {
   add_convex(numbers((rings - 1) * count, count), mesh);
 }
 
-// The numbers of a face that are points, reported where they are not.
+// Returns true if all indices of a face are numbers of points; otherwise reports the first that is not.
 bool check_indices(const std::vector<size_t>& indices, size_t points, const std::string& list, size_t row,
                    const SourceRange& where, Diagnostics& messages) {
   for (size_t n = 0; n < indices.size(); ++n)

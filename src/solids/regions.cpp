@@ -17,10 +17,10 @@ using clip::IntPoint;
 using clip::Path;
 using clip::Paths;
 
-// Between millimetres and the whole numbers of the polygon library.
+// Converts between millimetres and the integers of the polygon library.
 class Grid {
  public:
-  // `reach_mm` is the greatest coordinate.
+  // Constructs a grid; `reach_mm` is the greatest coordinate.
   explicit Grid(double reach_mm) {
     constexpr int finest = 32;
     int exponent = 0;
@@ -124,7 +124,8 @@ Ring convex_sum(const Ring& a, const Ring& b) {
   return hull_ring(std::move(sums));
 }
 
-// The parallelograms between the edges of two rings, turned counter-clockwise: where their borders meet in the sum.
+// Appends the parallelograms between the edges of two rings, turned counter-clockwise. They cover the points of the sum
+// at which the borders meet.
 void add_parallelograms(const Ring& a, const Ring& b, std::vector<Ring>& out) {
   for (size_t i = 0; i < a.size(); ++i)
     for (size_t j = 0; j < b.size(); ++j) {
@@ -176,7 +177,8 @@ Region moved(const Region& region, const Affine& map) {
 
 Region offset(const Region& region, const Offset& by) {
   if (region.is_empty() || by.distance == 0) return region;
-  // Corners of edges moved by d lie within d / sin(a / 2) of where they were; without a limit needles have no end.
+  // Corners of edges moved by d lie within d / sin(a / 2) of their old place; needles would be unbounded without a
+  // limit.
   constexpr double longest_corner = 1e6;
   const double reach = reach_of(region.rings) + 8 * std::abs(by.distance);
   const Grid grid(reach);
@@ -213,8 +215,9 @@ Region hull(std::span<const Region> regions) {
   return {{std::move(ring)}};
 }
 
-// x is in the sum where a and the mirrored b moved to x meet: then their borders cross, or a ring of one of them lies
-// in the other. So the sum is what the borders sweep, with each region moved to one point of each ring of the other.
+// x is in the sum if a meets the mirrored b moved to x: then their borders cross, or a ring of one lies inside of the
+// other. So the sum is the area swept by the borders, united with each region moved to one point of each ring of the
+// other.
 Region minkowski(const Region& a, const Region& b) {
   if (a.is_empty() || b.is_empty()) return {};
   if (is_convex(a) && is_convex(b)) return {{convex_sum(a.rings[0], b.rings[0])}};

@@ -41,7 +41,7 @@ TriangleMesh tidied(const TriangleMesh& mesh) {
   std::vector<uint32_t> numbers(mesh.points.size(), unknown);
   const auto number = [&](uint32_t n) {
     if (numbers[n] != unknown) return numbers[n];
-    const Vec3 p = mesh.points[n] + Vec3{};  // -0 becomes 0
+    const Vec3 p = mesh.points[n] + Vec3{};  // maps -0 to 0
     const auto [place, is_new] = known.try_emplace({p.x, p.y, p.z}, static_cast<uint32_t>(result.points.size()));
     if (is_new) result.points.push_back(p);
     return numbers[n] = place->second;

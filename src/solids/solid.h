@@ -1,4 +1,5 @@
-// What evaluating a tree of geometry gives: closed solids and plane regions with their attributes. Millimetres.
+// Results of evaluating a tree of geometry: closed solids and plane regions with their attributes. Lengths are in
+// millimetres.
 #pragma once
 
 #include <memory>
@@ -14,8 +15,8 @@
 
 namespace ombre::solids {
 
-// A closed polyhedron, which may consist of several pieces and have cavities. Immutable, cheap to copy, thread-safe.
-// It is given as a mesh or as a body of the kernel, and converted to the other when that is needed.
+// A closed polyhedron, which may consist of several pieces and have cavities. Immutable, cheap to copy, thread-safe. It
+// is constructed from a mesh or from a body of the kernel, and converted to the other on demand.
 class Solid {
  public:
   explicit Solid(TriangleMesh mesh);
@@ -23,25 +24,25 @@ class Solid {
 
   bool is_empty() const { return bounds().is_empty(); }
   const Box& bounds() const;
-  // Coordinates of a body are rounded to doubles.
+  // Returns the mesh; a body's coordinates are rounded to doubles.
   const TriangleMesh& mesh() const;
-  // Throws Error where the mesh is not closed or crosses itself, and when this was built without a kernel.
+  // Returns the body. Throws Error if the mesh is not closed or crosses itself, and in builds without a kernel.
   const BodyPtr& body() const;
-  bool is_exact() const;  // is there a body already?
+  bool is_exact() const;  // true if there is already a body
 
  private:
   struct State;
   std::shared_ptr<State> state_;
 };
 
-// A region of the plane z = 0: outlines counter-clockwise, holes clockwise, none of which cross.
+// A region of the plane z = 0: outlines are counter-clockwise, holes clockwise, and no two cross.
 struct Region {
   std::vector<Ring> rings;
   bool is_empty() const { return rings.empty(); }
 };
 
 double area_of(const Region& region);
-Box bounds_of(const Region& region);  // flat
+Box bounds_of(const Region& region);  // with z = 0
 
 struct Attributes {
   std::string material, part;  // empty: none
@@ -49,7 +50,7 @@ struct Attributes {
   bool operator==(const Attributes&) const = default;
 };
 
-// One solid or region. An empty one stands where an operation left nothing, so that operators above know of it.
+// One solid or region. An empty piece marks that an operation had no result, so that operations above it know.
 struct Piece {
   Attributes attributes;
   std::variant<std::monostate, Solid, Region> shape;

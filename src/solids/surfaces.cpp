@@ -24,7 +24,7 @@ struct Heights {
   double at(size_t column, size_t row) const { return values[row * columns + column]; }
 };
 
-// Lines of numbers; "#" begins a comment. Shorter lines end in zeros.
+// Reads lines of numbers; "#" begins a comment. Shorter lines are filled with zeros.
 Heights heights_of_text(const std::string& path, const std::string& bytes, Diagnostics& messages) {
   formats::TextScanner scanner(path, bytes, messages, {'#', false});
   std::vector<std::vector<double>> rows;
@@ -48,7 +48,7 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
   return heights;
 }
 
-// From 0 for black to 100 for white.
+// Reads heights from 0 for black to 100 for white.
 Heights heights_of_picture(const std::string& path, const std::string& bytes, bool is_inverted) {
   const formats::PngImage image = formats::decode_png(bytes, path, most_heights);
   Heights heights{image.width, image.height, {}};
@@ -61,7 +61,8 @@ Heights heights_of_picture(const std::string& path, const std::string& bytes, bo
   return heights;
 }
 
-// Four triangles for each square of the grid, around its middle, and one wall for each edge of the border.
+// Builds the mesh: four triangles around the middle of each square of the grid, and one wall for each edge of the
+// border.
 class HeightMesh {
  public:
   HeightMesh(const Heights& heights, bool is_centred) : heights_(heights) {
@@ -99,8 +100,8 @@ class HeightMesh {
     for (size_t n = 0; n < 4; ++n) mesh_.triangles.push_back({corners[n], corners[(n + 1) % 4], middle});
   }
 
-  // One polygon for each side and two triangles below: other solids often stand on the same plane, and what meets there
-  // is computed faster from few triangles.
+  // Adds one polygon for each side and two triangles below. Other solids often stand on the same plane, and
+  // intersections with few triangles are faster.
   void add_walls() {
     const size_t columns = heights_.columns, rows = heights_.rows;
     std::array<std::vector<uint32_t>, 4> sides;  // counter-clockwise as seen from above
@@ -122,7 +123,7 @@ class HeightMesh {
     mesh_.triangles.push_back({first, first + 3, first + 2});
   }
 
-  // From one corner of the foot to the next, below the points of a side.
+  // Adds the wall from one corner of the bottom to the next, below the points of a side.
   void add_wall(uint32_t begin, uint32_t end, const std::vector<uint32_t>& side) {
     std::vector<uint32_t> corners{begin, end};
     corners.insert(corners.end(), side.rbegin(), side.rend());

@@ -54,13 +54,13 @@ inline TreePtr material(const std::string& name, Children children) {
   return node(SetMaterial{name}, std::move(children));
 }
 
-// mm3 of a solid, mm2 of a region.
+// Returns the volume of a solid in mm3, or the area of a region in mm2.
 inline double size_of(const Piece& piece) {
   if (const Region* region = piece.region()) return area_of(*region);
   return piece.solid() ? volume_of(piece.solid()->mesh()) : 0;
 }
 
-// Each edge is passed as often in one direction as in the other.
+// Returns true if each edge is traversed equally often in both directions.
 inline bool is_closed(const TriangleMesh& mesh) {
   std::map<std::pair<std::array<double, 3>, std::array<double, 3>>, int> edges;
   const auto key = [&](uint32_t n) { return std::array{mesh.points[n].x, mesh.points[n].y, mesh.points[n].z}; };
@@ -87,14 +87,14 @@ inline Pieces evaluated(const TreePtr& tree, bool keeps_empty = false) {
   return pieces;
 }
 
-// Of all pieces.
+// Returns the total size of all pieces.
 inline double size_of(const TreePtr& tree) {
   double sum = 0;
   for (const Piece& piece : evaluated(tree)) sum += size_of(piece);
   return sum;
 }
 
-// "1000 red; 3000 green, part x": what pieces are, rounded to a thousandth.
+// Describes pieces, such as "1000 red; 3000 green part x", with sizes rounded to a thousandth.
 inline std::string described(const Pieces& pieces) {
   std::string text;
   for (const Piece& piece : pieces) {

@@ -1,4 +1,4 @@
-// Loads the module that makes tetrahedra when it is first needed.
+// Loads the module that makes tetrahedra on first use.
 #include "solids/tetrahedra.h"
 
 #include <new>

@@ -19,7 +19,7 @@ struct FontName {
   bool is_bold = false, is_italic = false;
 };
 
-// "Family:style=Bold Italic".
+// Parses a font name such as "Family:style=Bold Italic".
 FontName font_name(const std::string& text) {
   FontName name;
   const std::vector<std::string> words = split(text, ':');

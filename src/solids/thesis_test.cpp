@@ -1,4 +1,4 @@
-// The listings of the thesis on multi-material OpenSCAD (2023), with volumes worked out by hand.
+// Listings of the thesis on multi-material OpenSCAD (2023), with volumes calculated by hand.
 #include "solids/kernel.h"
 #include "solids/test_trees.h"
 
@@ -74,7 +74,7 @@ TEST_F(Thesis, Listing3_16And3_17PartsAreHulledByThemselves) {
   EXPECT_EQ(pieces[0].attributes.part, "left");
   EXPECT_EQ(pieces[1].attributes.part, "right");
   EXPECT_NEAR(size_of(pieces[0]), size_of(pieces[1]), 1e-9);
-  // The sphere, and its greatest cross section along x, as far as it goes: hulls of equal slices.
+  // The hull contains a cylinder of length 10 over the sphere's greatest cross section, whose area exceeds 3.
   EXPECT_GT(size_of(pieces[0]), 10 * 3);
   const Pieces both = evaluated(part("both", {rods()}));
   ASSERT_EQ(both.size(), 1U);
@@ -123,7 +123,7 @@ TEST_F(Thesis, Listing4_8And4_9EmptySolidsWithAttributes) {
 }
 
 TEST_F(Thesis, TransformsDoNotOpenUpWhatTheyHold) {
-  // Without attributes a transform is one child, as in plain OpenSCAD.
+  // A transform without attributes is one child, as in plain OpenSCAD.
   EXPECT_EQ(described(intersection({moved(1, 0, 0, {cube(1, 1, 2), cube(2, 1, 1)}), cube(3)})), "3");
 }
 

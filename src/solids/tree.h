@@ -1,4 +1,4 @@
-// Trees of polyhedral geometry: what an OpenSCAD script asks for, before anything is computed. Millimetres and degrees.
+// Trees of polyhedral geometry as described by OpenSCAD scripts, before evaluation. Millimetres and degrees.
 #pragma once
 
 #include <array>
@@ -13,10 +13,9 @@
 
 namespace ombre::solids {
 
-// Nodes that have a `convexity` keep it for .csg files, where OpenSCAD's preview reads it. Geometry does not depend on
-// it.
+// Nodes with a `convexity` store it for .csg files, where OpenSCAD's preview uses it. Geometry does not depend on it.
 
-// Into how many edges circles are cut: OpenSCAD's $fn, $fa (degrees) and $fs (mm).
+// Parameters for the number of edges of circles: OpenSCAD's $fn, $fa (degrees) and $fs (mm).
 struct Fragments {
   double count = 0, angle = 12, size = 2;
   bool operator==(const Fragments&) const = default;
@@ -25,7 +24,7 @@ struct Fragments {
 // Red, green, blue and opacity, each from 0 to 1.
 using Colour = std::array<double, 4>;
 
-// Leaves that are solids.
+// Leaves that are solids:
 struct Cube {
   Vec3 size{1, 1, 1};
   bool centred = false;
@@ -41,11 +40,11 @@ struct Cylinder {
 };
 struct Polyhedron {
   std::vector<Vec3> points;
-  std::vector<std::vector<size_t>> faces;  // clockwise when seen from outside, as OpenSCAD has them
+  std::vector<std::vector<size_t>> faces;  // clockwise when seen from outside, as in OpenSCAD
   int convexity = 1;
 };
 
-// Leaves that are areas in the plane z = 0.
+// Leaves that are regions in the plane z = 0:
 struct Square {
   Vec2 size{1, 1};
   bool centred = false;
@@ -67,10 +66,10 @@ struct Text {
   Fragments fragments = {};
 };
 
-// Leaves that are files. Paths are complete.
+// Leaves that are files, with absolute paths:
 struct Import {
   std::string path;
-  std::string layer, id;  // of DXF and SVG files
+  std::string layer, id;  // for DXF and SVG files
   Vec2 origin = {};
   double scale = 1, dots_per_inch = 72;
   bool centred = false;
@@ -82,7 +81,7 @@ struct Surface {  // heights from a .dat or PNG file
   bool centred = false, inverted = false;
 };
 
-// Of children. A group keeps solids of different attributes apart ("soft union").
+// Operations on children. A group keeps solids with different attributes apart ("soft union").
 struct Group {};
 struct Union {
   std::optional<int> render;  // the convexity of render(), which is a union
@@ -98,13 +97,13 @@ struct Transform {
   Affine parent_from_child;
 };
 struct Resize {
-  Vec3 size;  // 0: as it is, or in proportion where automatic
+  Vec3 size;  // 0: unchanged, or in proportion if automatic
   std::array<bool, 3> automatic{};
   int convexity = 0;
 };
 struct Offset {
   double distance = 0;  // mm outward
-  bool round = false;   // else straight edges, cut where `chamfer` says so
+  bool round = false;   // otherwise edges are straight, and cut if `chamfer` is set
   bool chamfer = false;
   Fragments fragments = {};
 };
@@ -127,8 +126,9 @@ struct Projection {
   int convexity = 0;
 };
 
-// Attributes of all geometry below; of equal kinds, the outermost counts.
-struct SetColour {  // a negative part is not set: color("red", 0.5) sets all four, color(alpha = 0.5) the opacity
+// Attributes of all geometry below; the outermost of each kind counts.
+// a negative component is not set: color("red", 0.5) sets all four, color(alpha = 0.5) only the opacity
+struct SetColour {
   Colour colour{1, 1, 1, 1};
 };
 struct SetPart {
@@ -138,7 +138,8 @@ struct SetMaterial {
   std::string name;
 };
 
-// A solid that a word of another vocabulary made of the children. It is no polyhedron: whoever has the words reads it.
+// A solid that a function of another vocabulary makes of the children. It is not a polyhedron; the reader that knows
+// the vocabulary interprets it.
 struct Word {
   std::string name, arguments;  // as .csg files write them
   std::shared_ptr<const void> solid;
@@ -148,7 +149,7 @@ using Operation = std::variant<Group, Cube, Sphere, Cylinder, Polyhedron, Square
                                Surface, Union, Difference, Intersection, Hull, Minkowski, Fill, Transform, Resize,
                                Offset, LinearExtrude, RotateExtrude, Projection, SetColour, SetPart, SetMaterial, Word>;
 
-// How solids of different parts or materials meet in an operator.
+// The rule for solids of different parts or materials in an operation.
 enum class Semantics : uint8_t { standard, strict, permissive };
 
 struct Tree;
@@ -160,7 +161,7 @@ struct Tree {
   bool background = false;  // the modifier %: shown in previews only
   bool highlight = false;   // the modifier #
   Semantics semantics = Semantics::standard;
-  SourceRange where;  // of the call, for messages
+  SourceRange where;  // place of the call, for messages
 };
 
 }  // namespace ombre::solids

@@ -1,4 +1,4 @@
-// Polyhedra by their triangles, and in the form of a geometry kernel. Millimetres.
+// Polyhedra as triangles. Lengths are in millimetres.
 #pragma once
 
 #include <array>
@@ -13,25 +13,25 @@ namespace ombre::solids {
 
 using Triangle = std::array<uint32_t, 3>;
 
-// Triangles are counter-clockwise when seen from outside.
+// A mesh whose triangles are counter-clockwise when seen from outside.
 struct TriangleMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
 };
 
 Box bounds_of(const TriangleMesh& mesh);
-// Of a closed mesh, mm3; negative where it is inside out.
+// Returns the volume of a closed mesh in mm3, negative if it is inside out.
 double volume_of(const TriangleMesh& mesh);
-// The image under a map with a determinant other than 0; mirrored triangles are turned round.
+// Returns the image under a map with a determinant other than 0; triangles are reversed if the map mirrors.
 TriangleMesh moved(const TriangleMesh& mesh, const Affine& map);
 
-// Equal points become one, points that no triangle uses go, and so do triangles with fewer than three corners.
+// Merges equal points, and removes unused points and triangles with fewer than three different corners.
 TriangleMesh tidied(const TriangleMesh& mesh);
 
-// The same surface with its points and triangles in an order that their coordinates decide.
+// Returns the same surface with points and triangles in an order that depends only on their coordinates.
 TriangleMesh sorted(const TriangleMesh& mesh);
 
-class Body;  // of a geometry kernel, with exact coordinates
+class Body;  // a body of a geometry kernel, with exact coordinates
 using BodyPtr = std::shared_ptr<const Body>;
 
 }  // namespace ombre::solids

@@ -1,4 +1,4 @@
-// What operations on regions are in builds without the polygon library: an error.
+// Operations on regions in builds without the polygon library: each throws Error.
 #ifndef OMBRE_POLYGONS
 
 #include "base/text/error.h"

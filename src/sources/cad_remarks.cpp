@@ -1,4 +1,4 @@
-// Remarks on CAD parts once they are made.
+// Remarks on CAD parts that are added when they are made.
 #include "sources/cad_remarks.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Remarks on CAD parts once they are made.
+// Remarks on CAD parts that are added when they are made.
 #pragma once
 
 #include <string>
@@ -9,11 +9,12 @@
 
 namespace ombre::sources {
 
-// On solids whose triangles, at this tolerance, do not close; there is one at least.
+// Returns the remark on solids whose triangles are not closed at this tolerance; there must be at least one.
 design::Remark remark_on_gaps(const std::string& path, const std::vector<importing::OpenSolid>& open,
                               double tolerance_mm, bool is_exact);
 
-// On an exact part that will be evaluated at so many voxels; `tolerance_mm` is that of triangles in its place.
+// Returns the remark on the time that an exact part takes for this number of voxels; `tolerance_mm` is that of
+// triangles as an alternative.
 design::Remark remark_on_time(const std::string& path, double voxels, double seconds, double tolerance_mm);
 
 }  // namespace ombre::sources

@@ -9,7 +9,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// The digits from `at` on, without zeros before them; moves behind them.
+// Returns the digits from `at` on without leading zeros, and moves `at` behind them.
 std::string_view number_at(std::string_view text, size_t& at) {
   while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) ++at;
   const size_t begin = at;

@@ -8,10 +8,10 @@
 
 namespace ombre::sources {
 
-// Orders names as people count: slice_2 before slice_10.
+// Compares names in natural order: slice_2 before slice_10.
 bool is_numbered_before(const std::string& a, const std::string& b);
-// The first number that is left out between the last numbers in the names of files in order; nothing where none is, or
-// where some names have no number.
+// Returns the first number missing between the last numbers in the sorted names; null if none is missing or a name has
+// no number.
 std::optional<int64_t> missing_number(const std::vector<std::string>& files);
 
 }  // namespace ombre::sources

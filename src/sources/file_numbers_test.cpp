@@ -14,7 +14,7 @@ TEST(FileNumbers, OrderNamesAsPeopleCount) {
   std::ranges::sort(names, is_numbered_before);
   EXPECT_EQ(names, wanted);
   EXPECT_FALSE(is_numbered_before("a1", "a1"));
-  // Names that differ by zeros alone have one order.
+  // Names that differ only in leading zeros have a defined order, too.
   EXPECT_NE(is_numbered_before("a01", "a1"), is_numbered_before("a1", "a01"));
 }
 

@@ -11,7 +11,7 @@
 namespace ombre::sources {
 namespace {
 
-// Clocks of file systems tick every few milliseconds: two changes within a tick have one time.
+// Greatest resolution of a file system's clock: two changes within it may have the same time.
 constexpr auto longest_tick = std::chrono::milliseconds(50);
 
 }  // namespace
@@ -73,7 +73,7 @@ FileView FileStore::view(const std::string& path, const Content& content) {
   return {*all, all};
 }
 
-// Of large files only their hash.
+// Returns the content of a file; for a large file only its hash.
 FileStore::Content FileStore::read_content(const std::string& path) {
   if (!is_large(stamp_of(path))) return read(path);
   ++reads_;

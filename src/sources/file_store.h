@@ -1,4 +1,4 @@
-// Files that designs name, read again only where they have changed.
+// Reads the files that designs name, again only if they have changed.
 #pragma once
 
 #include <array>
@@ -16,41 +16,41 @@
 
 namespace ombre::sources {
 
-// Bytes of a file, and what keeps them.
+// Bytes of a file, and the object that keeps them in memory.
 struct FileView {
   std::string_view bytes;
   std::shared_ptr<const void> keeper;
-  bool is_mapped = false;  // does it stay on disk?
+  bool is_mapped = false;  // true if the bytes are mapped from disk
 };
 
-// Thread-safe.
+// A store of the files' contents. Thread-safe.
 class FileStore {
  public:
   struct Content {
     Hash hash;
-    std::shared_ptr<const std::string> bytes;  // null where the file is as it was when it was read last, or is large
+    std::shared_ptr<const std::string> bytes;  // null if the file is large or unchanged since it was last read
   };
-  // Files from this size on are mapped where that is enough.
+  // Size in bytes from which files are mapped where possible.
   static constexpr uint64_t large_file = uint64_t{256} << 20;
-  // A file counts as unchanged if its device, inode, size and time of modification are those of the last reading, and
-  // that time was not so recent that a later change could have the same. Throws Error.
+  // Returns the content of a file. A file counts as unchanged if its device, inode, size and modification time are
+  // those of the last reading, unless that time was so recent that a later change could have the same. Throws Error.
   Content content(const std::string& path);
-  // The bytes of a content that was found. Throws Error where the file has changed since.
+  // Returns the bytes of a known content. Throws Error if the file has changed since.
   std::shared_ptr<const std::string> bytes(const std::string& path, const Content& content);
-  // The same; large files stay on disk.
+  // Returns a view of the bytes of a known content; large files are mapped. Throws Error if the file has changed since.
   FileView view(const std::string& path, const Content& content);
-  // The files whose contents were asked for, sorted.
+  // Returns the requested files, sorted.
   std::vector<std::string> paths() const;
-  // How often a file was read.
+  // Returns how often files were read.
   size_t reads() const { return reads_; }
 
  private:
-  using Stamp = std::array<int64_t, 5>;  // device, inode, size, seconds and nanoseconds of the last modification
+  using Stamp = std::array<int64_t, 5>;  // device, inode, size, seconds and nanoseconds of the modification time
   struct Known {
     Stamp stamp;
     Hash hash;
   };
-  // Zeros for what is no regular file.
+  // Returns the stamp of a file; zeros if it is not a regular file.
   static Stamp stamp_of(const std::string& path);
   static bool is_settled(const Stamp& stamp);
   static bool is_large(const Stamp& stamp);

@@ -1,4 +1,4 @@
-// Where the files are that designs name.
+// Finds the files that designs name.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace ombre::sources {
 
-// Where the path leads: beside the script first, then beside what it links to, then in the working directory. Nothing,
-// and a diagnostic, when no file is there.
+// Returns the path of a file. It is searched for beside the script, then beside the script's link target, then in the
+// working directory. Null, with a diagnostic, if it does not exist.
 std::optional<std::string> find_file(const std::string& path, const SourceRange& where, Diagnostics& diagnostics);
 
 }  // namespace ombre::sources

@@ -27,7 +27,7 @@ LayerColours colours_of(const formats::PngImage& png) {
 
 LayerColours colours_of(formats::BmpImage bmp) { return {bmp.width, bmp.height, std::move(bmp.rgba)}; }
 
-// One of the values of the pixels.
+// Returns one channel of an image.
 LayerNumbers channel_of(const LayerColours& image, int channel) {
   LayerNumbers layer{image.width, image.height, "uint16", 4, {}};
   std::vector<uint16_t> values;
@@ -44,7 +44,7 @@ LayerNumbers channel_of(const LayerColours& image, int channel) {
               {{"file", path}});
 }
 
-// The same in the three colours.
+// Returns the common channel of an image whose red, green and blue are equal; otherwise fails.
 LayerNumbers shades_of(const LayerColours& image, const std::string& path) {
   for (size_t n = 0; n < image.rgba.size(); n += 4)
     if (image.rgba[n] != image.rgba[n + 1] || image.rgba[n] != image.rgba[n + 2]) fail_coloured(path, 4);

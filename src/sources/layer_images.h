@@ -1,4 +1,4 @@
-// Images of stacks: PNG, TIFF (of one or many pages) and BMP.
+// Images of stacks: PNG, TIFF (of one or more pages) and BMP.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,14 @@
 namespace ombre::sources {
 
 std::vector<FileFormat> image_file_formats();
-
-// Does the name end as one of an image that is read?
+// Returns true if the name ends like that of a supported image.
 bool has_image_name(const std::string& path);
 bool is_image(std::string_view bytes);
 
 struct LayerNumbers {
   uint32_t width = 0, height = 0;
   std::string type;             // "uint16"
-  int64_t channels = 1;         // values of a pixel in the file
+  int64_t channels = 1;         // values per pixel in the file
   formats::VoxelValues values;  // rows from the top
 };
 
@@ -30,12 +29,12 @@ struct LayerColours {
   std::vector<uint8_t> rgba;  // rows from the top
 };
 
-// The numbers of the pixels of each page: as the file has them, of 8 or 16 bits in PNG, of any type in TIFF. Of images
-// with several values in a pixel `channel` says which; without one (-1) they are an error. Throws Error, Cancelled.
+// Returns the numbers of the pixels of each page as stored: of 8 or 16 bits in PNG, of any type in TIFF. If pixels have
+// several values, `channel` selects one; -1 makes them an error. Throws Error and Cancelled.
 std::vector<LayerNumbers> read_layer_numbers(const std::string& path, std::string_view bytes, int channel,
                                              const StopFlag* stop);
 
-// Their colours.
+// Returns the colours of the pixels of each page. Throws Error and Cancelled.
 std::vector<LayerColours> read_layer_colours(const std::string& path, std::string_view bytes, const StopFlag* stop);
 
 }  // namespace ombre::sources

@@ -1,4 +1,4 @@
-// CAD files of designs.
+// Loads CAD files for designs.
 #include "cad/solids.h"
 
 #include <algorithm>
@@ -17,10 +17,10 @@
 namespace ombre::design {
 namespace {
 
-// Jobs that take longer are announced. The remedy named is triangles so near to the solid, in voxels.
+// Duration from which a job gets a remark, and the tolerance in voxels of the triangles that it recommends.
 constexpr double least_reported_seconds = 20, fast_voxels = 0.02;
-// Without a job: a thousandth of the solid's diagonal. Exact surfaces take triangles for a first look only, the closer
-// the less is left to ask. A millionth is the least.
+// Tolerances as shares of the solid's diagonal: without a job, of triangles for the first pass of exact surfaces, and
+// the least allowed. Closer triangles leave fewer exact queries.
 constexpr double diagonals_of_tolerance = 1e-3, diagonals_of_first_look = 1e-4, least_diagonals = 1e-6;
 
 class SolidsOfMaterial final : public PendingSource {
@@ -54,7 +54,7 @@ class SolidsOfMaterial final : public PendingSource {
   }
 
  private:
-  // On the time of an exact source, if it is long.
+  // Returns a remark on the time that an exact source takes, if it is long.
   std::optional<Remark> remark_for(const importing::CadSource& exact, Vec3 voxel_mm) const {
     if (!doubtful_seconds_) doubtful_seconds_ = importing::measure_doubtful_seconds(exact);
     const double voxels = exact.doubtful_mm3 / (voxel_mm.x * voxel_mm.y * voxel_mm.z);
@@ -90,7 +90,7 @@ class SolidsOfMaterial final : public PendingSource {
   double tolerance_;
   Box bounds_;
   mutable std::mutex mutex_;
-  mutable std::optional<double> doubtful_seconds_;  // measured once, so that a job says the same each time
+  mutable std::optional<double> doubtful_seconds_;  // measured once, so that a job always reports the same time
   mutable std::map<double, importing::CadSource> made_;
 };
 
@@ -102,7 +102,7 @@ std::vector<std::string> names_of_solids(const std::vector<cad::SolidPtr>& solid
   return names;
 }
 
-// Those of one name, or all. None, and a diagnostic, when nothing has it.
+// Returns the solids of a name, or all. Empty, with a diagnostic, if no solid has the name.
 std::vector<cad::SolidPtr> choose_solids(const std::string& path, const std::vector<cad::SolidPtr>& solids,
                                          const std::string& object, const Reader& reader) {
   if (object.empty()) return solids;
@@ -124,7 +124,7 @@ std::vector<cad::SolidPtr> choose_solids(const std::string& path, const std::vec
   return {};
 }
 
-// A solid's name is also that of its material.
+// Returns one group per solid; a solid's name is also the name of its material.
 std::vector<formats::MeshGroup> groups_of(const std::vector<cad::SolidPtr>& solids) {
   std::vector<formats::MeshGroup> groups;
   for (const cad::SolidPtr& solid : solids) {
@@ -141,7 +141,7 @@ struct MaterialSolids {
   std::vector<cad::SolidPtr> solids = {};
 };
 
-// In the order in which the file comes to the materials.
+// Returns the solids by material, in the order in which materials first occur in the file.
 std::optional<std::vector<MaterialSolids>> solids_by_material(const std::string& path,
                                                               const std::vector<cad::SolidPtr>& solids,
                                                               const MeshUse& use, const Reader& reader) {
@@ -163,13 +163,13 @@ std::optional<std::vector<MaterialSolids>> solids_by_material(const std::string&
   return parts;
 }
 
-// Read once for all parts that are made of it.
+// The contents of a CAD file, read once for all parts made of it.
 struct CadFile {
   std::vector<cad::SolidPtr> solids;
-  size_t bytes = 0;  // that they take
+  size_t bytes = 0;  // memory used
 };
 
-constexpr size_t bytes_of_file_byte = 20;  // of shapes and triangles, for each byte of the file
+constexpr size_t bytes_of_file_byte = 20;  // estimate for shapes and triangles, per byte of the file
 
 std::shared_ptr<const CadFile> read_cad(const FilePath& file, sources::Loading& loading) {
   if (!cad::is_cad_file(file.path)) {

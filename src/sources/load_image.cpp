@@ -1,4 +1,4 @@
-// Images of designs as heights.
+// Loads images as heights for designs.
 #include "formats/images/png.h"
 #include "import/fields/height_source.h"
 #include "sources/loading.h"
@@ -6,9 +6,9 @@
 namespace ombre::design {
 namespace {
 
-constexpr uint64_t most_pixels = uint64_t{1} << 27;  // a gigabyte and a half while it is read
+constexpr uint64_t most_pixels = uint64_t{1} << 27;  // about 1.5 GB while the image is read
 
-// As bright as it looks over black, from 0 to 1: the luma of ITU-R BT.601.
+// Returns the luma (ITU-R BT.601) of a colour over black, from 0 to 1.
 float brightness(formats::Rgba colour) {
   const double luma = 0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2];
   return static_cast<float>(luma / 255 * colour[3] / 255);
@@ -27,7 +27,7 @@ importing::GrayImage gray_of(const formats::PngImage& png) {
 std::shared_ptr<const HeightImage> ImageRequest::load(sources::Loading& loading) {
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   using Made = sources::Loading::Made<HeightImage>;
-  constexpr size_t bytes_per_pixel = 4 * sizeof(float);  // its value, and the extremes of its neighbourhood
+  constexpr size_t bytes_per_pixel = 4 * sizeof(float);  // for its value and the extremes around it
   return loading.cached<HeightImage>(sources::Key("image").add(file.content).hash(), file.path, [&](const Reader&) {
     importing::GrayImage image = gray_of(formats::decode_png(*loading.bytes(file), file.path, most_pixels));
     const auto [across, up] = importing::steepest_steps(image);

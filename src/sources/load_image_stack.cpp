@@ -1,4 +1,4 @@
-// Stacks of coloured images: voxels whose colours stand for materials.
+// Loads stacks of coloured images: voxels whose colours represent materials.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 constexpr uint64_t most_voxels = uint64_t{1} << 33;
 constexpr size_t most_colours = 65535;
 
-// The number of each voxel's colour; 0 is transparent.
+// Builds a volume of the numbers of the voxels' colours; 0 is transparent.
 class StackBuilder {
  public:
-  // At least so many layers will come.
+  // Constructs a builder for at least this number of layers.
   explicit StackBuilder(size_t layers) : files_(layers) {}
 
   void add(const sources::LayerColours& image, const std::string& path) {
@@ -31,7 +31,7 @@ class StackBuilder {
                       " pixels, but those below it have " + size_text(width_, height_) +
                       "; all images of a stack need the same size",
                   {{"file", path}});
-    // Rows of images go down, those of voxels along y.
+    // Rows of images run downwards, rows of voxels along y.
     for (uint32_t row = image.height; row-- > 0;)
       for (size_t n = size_t{4} * row * image.width; n < size_t{4} * (row + 1) * image.width; n += 4)
         volume_.push_back(number_of({image.rgba[n], image.rgba[n + 1], image.rgba[n + 2], image.rgba[n + 3]}, path));
@@ -94,7 +94,7 @@ class StackBuilder {
   uint16_t last_ = 0;
 };
 
-// The image, or those in the folder, in the order of the numbers in their names. Throws Error.
+// Returns the image, or the images in a folder in the order of the numbers in their names. Throws Error.
 std::vector<std::string> images_at(const std::string& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return {path};

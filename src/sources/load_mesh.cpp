@@ -1,4 +1,4 @@
-// Mesh files of designs.
+// Loads mesh files for designs.
 #include "cad/solids.h"
 
 #include "base/text/file_ending.h"
@@ -21,7 +21,7 @@ importing::InsideRule rule_of(std::string_view name) {
   return name == "generalized" ? importing::InsideRule::generalized : importing::InsideRule::nonzero;
 }
 
-// False, and a diagnostic, when the file has no object of that name.
+// Reduces the mesh to an object. Returns false, with a diagnostic, if the file has none of that name.
 bool choose_object(const std::string& path, formats::Mesh& mesh, const std::string& object, const Reader& reader) {
   if (object.empty() || formats::keep_object(mesh, object)) return true;
   constexpr size_t most_listed = 20;
@@ -55,7 +55,7 @@ program::SourceField source_of(const std::string& path, const formats::PlacedLat
   return importing::make_clipped_source(beams, clip, lattice.clipping == formats::LatticeClipping::inside);
 }
 
-// The triangles and the lattices of one material. `content` is the hash of what they are.
+// Returns the part of one material, made of its triangles and lattices; `content` is the hash of their contents.
 MeshPart part_of(const std::string& path, const std::string& material, formats::Mesh mesh, Hash content,
                  importing::InsideRule rule) {
   std::vector<program::SourceField> sources;
@@ -83,7 +83,7 @@ std::optional<std::vector<sources::MaterialMesh>> cut_by_use(const std::string& 
   return found;
 }
 
-// An estimate: the mesh, and the trees for distances and for what is inside.
+// Returns an estimate of the memory for the mesh, its trees for distances and for inside tests.
 size_t bytes_of(const formats::Mesh& mesh) {
   constexpr size_t per_vertex = 24, per_triangle = 250, per_beam = 300;
   size_t bytes = per_vertex * mesh.vertices.size() + per_triangle * mesh.triangles.size();
@@ -93,7 +93,7 @@ size_t bytes_of(const formats::Mesh& mesh) {
 
 using MadeParts = sources::Loading::Made<std::vector<MeshPart>>;
 
-// `all` is the hash of what the mesh was made from.
+// Returns the parts of a mesh; `all` is the hash of the mesh's origin.
 MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all, const MeshUse& use,
                    const Reader& reader) {
   auto meshes = cut_by_use(path, std::move(mesh), use, reader);
@@ -113,11 +113,11 @@ MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all,
   return {};
 }
 
-// The file of a request, and the numbers of a grid where they are in another file.
+// The contents of a requested file; for grids also the other file with their numbers.
 struct MeshFiles {
   std::string_view bytes;
   std::optional<formats::ResultsFile> numbers;
-  Hash content;  // of both
+  Hash content;  // hash of both
 };
 
 MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const Reader& reader) {
@@ -132,7 +132,7 @@ MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const R
   return {};
 }
 
-// All solids as one mesh, each a group.
+// Returns all solids as one mesh with a group each.
 formats::Mesh joined(const std::vector<MadeSolid>& solids) {
   formats::Mesh mesh;
   for (const MadeSolid& solid : solids) {

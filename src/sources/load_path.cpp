@@ -1,4 +1,4 @@
-// Paths of designs as field sources.
+// Loads paths as field sources for designs.
 #include "import/fields/path_source.h"
 
 #include "sources/loading.h"
@@ -7,7 +7,7 @@ namespace ombre::design {
 
 std::shared_ptr<const program::FieldSource> PathRequest::load(sources::Loading& loading) {
   using Made = sources::Loading::Made<Result>;
-  constexpr size_t bytes_per_point = 150;  // of the segments and their tree
+  constexpr size_t bytes_per_point = 150;  // for the segments and their tree
   sources::Key key(are_separate ? "points" : "path");
   key.add({reinterpret_cast<const char*>(points.data()), points.size() * sizeof points[0]});
   return loading.cached<Result>(key.hash(), "path", [&](const Reader&) {

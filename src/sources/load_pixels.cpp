@@ -1,11 +1,11 @@
-// Images of designs as pixels.
+// Loads images as pixels for designs.
 #include "formats/images/png.h"
 #include "sources/loading.h"
 
 namespace ombre::design {
 namespace {
 
-constexpr uint64_t most_texture_pixels = uint64_t{1} << 27;  // half a gigabyte
+constexpr uint64_t most_texture_pixels = uint64_t{1} << 27;  // 0.5 GB
 
 ImagePixels pixels_of(const formats::PngImage& png) {
   ImagePixels pixels{png.width, png.height, {}};

@@ -1,4 +1,4 @@
-// Polygons of designs as field sources.
+// Loads polygons as field sources for designs.
 #include "import/fields/polygon_source.h"
 #include "import/fields/polygon_walls.h"
 #include "sources/loading.h"
@@ -39,7 +39,7 @@ void warn_of_crossings(const Polygons& polygons, const Reader& reader) {
 
 std::shared_ptr<const program::FieldSource> PolygonsRequest::load(sources::Loading& loading) {
   using Made = sources::Loading::Made<Result>;
-  constexpr size_t bytes_per_point = 200;  // of the edges, their tree and their rows
+  constexpr size_t bytes_per_point = 200;  // for the edges, their tree and their rows
   return loading.cached<Result>(key_of_polygons(polygons, turns), "polygon", [&](const Reader& reader) {
     warn_of_crossings(polygons, reader);
     const size_t bytes = bytes_per_point * count_points(polygons);

@@ -1,4 +1,4 @@
-// Results of simulations.
+// Loads results of simulations.
 #include "formats/results/results.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ std::string names_of(const formats::Results& results) {
   return names.empty() ? "none" : names;
 }
 
-// The field that is meant. Null, and a diagnostic, where that is not clear.
+// Returns the requested field. Null, with a diagnostic, if the request is ambiguous or the field does not exist.
 const formats::ResultField* field_of(const formats::Results& results, const ResultsRequest& request,
                                      const Reader& reader) {
   const auto fail = [&](const std::string& message, const Phrase& hint) {
@@ -41,7 +41,7 @@ const formats::ResultField* field_of(const formats::Results& results, const Resu
   return field;
 }
 
-// The results of a file, with the mesh to look places up in; null for points alone.
+// The results of a file, with the mesh to look up places in, which is null for scattered points.
 struct LoadedResults {
   std::shared_ptr<const formats::Results> points;
   std::shared_ptr<const ResultMesh> mesh;
@@ -49,7 +49,7 @@ struct LoadedResults {
   const formats::Results& results() const { return mesh ? mesh->results() : *points; }
 };
 
-// Reads the file and the table of values, if there is one. Nothing, and diagnostics, where a file is wrong.
+// Reads the file and the table of values, if there is one. Null, with diagnostics, if a file is invalid.
 std::optional<formats::Results> read_files(const ResultsRequest& request, Loading& loading, const Reader& reader) {
   const auto bytes = loading.bytes(request.file);
   if (request.values.path.empty()) return formats::read_results(request.file.path, *bytes, {}, reader.diagnostics);
@@ -96,7 +96,7 @@ importing::OutsideRule rule_of(const ResultsRequest& request) {
   return {Kind::none, within, 0};
 }
 
-// Is `within` of use?
+// Returns false, with a diagnostic, if `within` has no effect.
 bool fits_rule(const ResultsRequest& request, const LoadedResults& loaded, const Reader& reader) {
   if (!request.within_mm || !loaded.mesh || request.outside == "nearest") return true;
   reader.diagnostics.error(Code::parameters, reader.where, "results has `within`, which is for outside=\"nearest\"",
@@ -104,7 +104,8 @@ bool fits_rule(const ResultsRequest& request, const LoadedResults& loaded, const
   return false;
 }
 
-// Fields of the same file and rule share a source, which finds a point's element once for all of them.
+// Returns the source of a field. Fields with the same file and rule share a source, which finds a point's element once
+// for all of them.
 program::SourceField source_of(const ResultsRequest& request, const LoadedResults& loaded, Loading& loading) {
   const importing::OutsideRule rule = rule_of(request);
   const Hash key = sources::Key("results")

@@ -1,4 +1,4 @@
-// OpenSCAD scripts of designs.
+// Loads OpenSCAD scripts for designs.
 #include <algorithm>
 
 #include "base/text/text.h"
@@ -17,7 +17,8 @@ namespace {
 namespace openscad = lang::openscad;
 using Loading = sources::Loading;
 
-// The script, which may be the text that the request stands in: one that is edited and not saved.
+// Returns the script. If it is the text that contains the request, which may be edited and not saved, that text is
+// used.
 SourcePtr script_of(const ScadRequest& request, Loading& loading) {
   if (!request.script.empty()) return make_source(request.file.path, request.script);
   const SourcePtr& around = loading.reader().where.source;
@@ -25,7 +26,7 @@ SourcePtr script_of(const ScadRequest& request, Loading& loading) {
   return make_source(request.file.path, *loading.bytes(request.file));
 }
 
-// The variables as assignments. Nothing, and a diagnostic, where a script cannot have such a value.
+// Returns the variables as assignments. Null, with a diagnostic, if OpenSCAD has no such value.
 std::optional<std::vector<std::string>> definitions_of(const ScadRequest& request, const SourcePtr& script,
                                                        const Reader& reader) {
   std::vector<std::string> definitions;
@@ -45,7 +46,7 @@ std::optional<std::vector<std::string>> definitions_of(const ScadRequest& reques
   return definitions;
 }
 
-// Of a text that no file holds, the call is the place of all that is wrong.
+// Adds diagnostics. For a script given as text rather than as a file, their place is that of the call.
 void add_with_places(const Diagnostics& found, const ScadRequest& request, const Reader& reader) {
   for (Diagnostic diagnostic : found.list()) {
     if (!request.script.empty()) diagnostic.where = reader.where;
@@ -53,7 +54,7 @@ void add_with_places(const Diagnostics& found, const ScadRequest& request, const
   }
 }
 
-// The tree that the script makes; null, and diagnostics, where it stops at an error.
+// Returns the tree that the script makes; null, with diagnostics, if an error stops it.
 solids::TreePtr tree_of(const ScadRequest& request, Loading& loading) {
   const Reader& reader = loading.reader();
   const SourcePtr script = script_of(request, loading);
@@ -73,7 +74,8 @@ solids::TreePtr tree_of(const ScadRequest& request, Loading& loading) {
   return messages.error_count() > 0 ? nullptr : tree;
 }
 
-// Adds all that decides the geometry of a tree. False, and a diagnostic, where an imported file cannot be read.
+// Adds everything that determines the geometry of a tree to the key. Returns false, with a diagnostic, if an imported
+// file cannot be read.
 bool add_tree(sources::Key& key, const solids::Tree& tree, Loading& loading) {
   key.add(solids::text_of(tree)).add(static_cast<double>(tree.children.size()));
   const auto add_file = [&](const std::string& path) {
@@ -91,7 +93,7 @@ bool add_tree(sources::Key& key, const solids::Tree& tree, Loading& loading) {
 }
 
 size_t bytes_of(const solids::Pieces& pieces) {
-  constexpr size_t per_triangle = 400;  // with the exact coordinates of the kernel
+  constexpr size_t per_triangle = 400;  // including the kernel's exact coordinates
   size_t bytes = 0;
   for (const solids::Piece& piece : pieces)
     if (piece.solid()) bytes += per_triangle * piece.solid()->mesh().triangles.size();
@@ -120,7 +122,7 @@ std::vector<std::string> part_names(const solids::Pieces& pieces) {
   return names;
 }
 
-// False, and diagnostics, where there is nothing that a printer could make. A text that no file holds may make nothing.
+// Returns false, with diagnostics, if there is nothing that can be printed. A script given as text may be empty.
 bool check_pieces(const ScadRequest& request, const solids::Pieces& pieces, const Reader& reader) {
   const bool has_areas = std::ranges::any_of(pieces, [](const solids::Piece& piece) { return !piece.solid(); });
   const bool has_solids = std::ranges::any_of(pieces, [](const solids::Piece& piece) { return piece.solid(); });

@@ -1,4 +1,4 @@
-// Tables of numbers in CSV files.
+// Loads tables of numbers in CSV files.
 #include <cmath>
 
 #include "base/text/error.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t most_table_numbers = size_t{1} << 22;
 
-// What stands between two numbers of a line: a comma, else a semicolon or a tab, else spaces.
+// Returns the separator of the numbers in a line: a comma if there is one, else a semicolon or a tab, else a space.
 char separator_of(std::string_view line) {
   for (const char separator : {',', ';', '\t'})
     if (line.find(separator) != std::string_view::npos) return separator;

@@ -1,4 +1,4 @@
-// Texts of designs as field sources.
+// Loads texts as field sources for designs.
 #include "base/text/text.h"
 #include "base/text/utf8.h"
 #include "draw/font_files.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* usual_font = "DejaVu Sans";
 constexpr size_t most_letters = 10'000;
-constexpr double slant_of_italics = 0.2;  // where a font has none of its own
+constexpr double slant_of_italics = 0.2;  // for fonts without an italic face
 
 struct Font {
   std::string file;
@@ -34,7 +34,7 @@ void no_font(const std::string& name, const Reader& reader) {
                            "install fonts-dejavu-core, or give the path of a .ttf or .otf file");
 }
 
-// A font of the system, with a warning for what it is not.
+// Returns a font of the system, with a warning if it differs from the request.
 std::optional<Font> system_font(const std::string& name, const TextRequest& use, const Reader& reader) {
   auto found = draw::search_font(name, wants_bold(use), wants_italic(use));
   if (found && !found->has_name) {

@@ -1,4 +1,4 @@
-// Volumes of designs: grids of numbers.
+// Loads volumes for designs: grids of numbers.
 #include "formats/volumes/volume.h"
 
 #include <algorithm>
@@ -34,7 +34,8 @@ sources::ReadFile reader_of(sources::Loading& loading) {
   return [&loading](const std::string& path) { return loading.view({path, {}}); };
 }
 
-// What a file alone is made of; found once for the same content. Null, and diagnostics, where it is wrong.
+// Returns the parts of a volume that depend only on its file, determined once per content. Null, with diagnostics, if
+// the file is invalid.
 std::shared_ptr<const VolumeParts> parts_of_file(FilePath& file, sources::Loading& loading) {
   if (!loading.read_content(file)) return nullptr;
   using Made = sources::Loading::Made<VolumeParts>;
@@ -56,7 +57,7 @@ std::shared_ptr<const VolumeParts> parts_of(FilePath& file, sources::Loading& lo
   }
 }
 
-// What stands in all of its files.
+// Returns the hash of the contents of all of its files.
 std::optional<Hash> content_of(const VolumeParts& parts, const VolumeRequest& request, sources::Loading& loading) {
   sources::Key key("volume");
   key.add(request.series).add(request.channel);
@@ -74,7 +75,7 @@ std::vector<std::string> segment_names(const std::vector<formats::VolumeSegment>
   return names;
 }
 
-// By its name, or where several have that, by its ID. Null, and a diagnostic, where there is none.
+// Finds a segment by its name or, if several have that name, by its ID. Null, with a diagnostic, if there is none.
 const formats::VolumeSegment* find_segment(const VolumeParts& parts, const VolumeRequest& request,
                                            const Reader& reader) {
   const auto& segments = parts.segments;
@@ -104,7 +105,7 @@ const formats::VolumeSegment* find_segment(const VolumeParts& parts, const Volum
   return fail(file + " has no segment " + name, hint);
 }
 
-// Takes the channel and the number of the segment that is meant. False, and a diagnostic, where there is none.
+// Sets the channel and the label of the requested segment. Returns false, with a diagnostic, if there is none.
 bool choose_segment(const VolumeParts& parts, VolumeRequest& request, const Reader& reader) {
   if (request.segment.empty()) return true;
   const formats::VolumeSegment* segment = find_segment(parts, request, reader);

@@ -9,7 +9,7 @@ namespace ombre::sources {
 
 namespace {
 
-// Readers of files throw without a code.
+// Returns the code of an error, or `otherwise` if it has none, as those of file readers.
 Code code_of(const Error& error, Code otherwise) { return error.code() == Code::machine ? otherwise : error.code(); }
 
 }  // namespace
@@ -66,7 +66,7 @@ FileView Loading::view(const design::FilePath& file) {
 
 CacheEntryPtr Loading::entry_for(const Hash& key, const std::string& name, const MakeAny& make) {
   CacheEntryPtr known = loader_.cache().find(key);
-  // Remarks that call it by another name are of no use here.
+  // Cached remarks under another name cannot be reused.
   const bool is_usable = known && (known->name == name || known->remarks.list().empty());
   const bool is_new = loader_.is_new(key);
   if (is_usable) {

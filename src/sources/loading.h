@@ -1,4 +1,4 @@
-// Tools with which each kind of source loads what was requested.
+// Common tools for loading the requested sources.
 #pragma once
 
 #include <functional>
@@ -13,17 +13,18 @@
 
 namespace ombre::sources {
 
-// Loads what one design requests. Thread-safe.
+// Loads the sources that one design requests. Thread-safe.
 class Loader : public design::SourceLoader {
  public:
-  // `stop`, which may be null, ends what takes long. Both outlive the loader. `threads` 0: all cores.
+  // Constructs a loader. `stop`, which may be null, ends long work. Both pointers must outlive the loader. `threads` 0
+  // means all cores.
   explicit Loader(SourceCache& cache, const StopFlag* stop = nullptr, int threads = 0)
       : cache_(cache), stop_(stop), threads_(threads) {}
 
   SourceCache& cache() { return cache_; }
   const StopFlag* stop() const { return stop_; }
   int threads() const { return threads_; }
-  // Is this the first time that the design gets what has this key?
+  // Returns true the first time that the design gets the source with this key.
   bool is_new(const Hash& key);
 
  protected:
@@ -37,7 +38,8 @@ class Loader : public design::SourceLoader {
   std::set<Hash> reported_;
 };
 
-// Text in which what decides a source stands, each word ended so that no two lists of words are alike.
+// A key of everything that determines a source. Words are stored with their lengths, so that different lists of words
+// give different keys.
 class Key {
  public:
   explicit Key(std::string_view kind) { add(kind); }
@@ -50,7 +52,7 @@ class Key {
   std::string text_;
 };
 
-// One request.
+// The loading of one request.
 class Loading {
  public:
   Loading(Loader& loader, const design::Reader& reader) : loader_(loader), reader_(reader) {}
@@ -59,26 +61,26 @@ class Loading {
   const StopFlag* stop() const { return loader_.stop(); }
   int threads() const { return loader_.threads(); }
 
-  // The bytes of a file that a script includes; nothing where there is none, or it is larger than 256 MiB.
+  // Returns the bytes of a file that a script includes; null if it does not exist or is larger than 256 MiB.
   std::optional<std::string> included(const std::string& path);
-  // The file that a design names: beside the script first, then beside what this links to, then in the working
-  // directory. False, and a diagnostic, when there is none.
+  // Finds the file that a design names: beside the script, then beside the script's link target, then in the working
+  // directory. Returns false, with a diagnostic, if it does not exist.
   bool find(design::FilePath& file);
-  // False, and a diagnostic, when it cannot be read. Notes its content.
+  // Sets the content of a file. Returns false, with a diagnostic, if it cannot be read.
   bool read_content(design::FilePath& file);
-  // The bytes of a file that was looked at. Throws Error.
+  // Returns the bytes of a file whose content is set. Throws Error.
   std::shared_ptr<const std::string> bytes(const design::FilePath& file);
-  // The same; large files stay on disk. Throws Error.
+  // Returns a view of the bytes of a file whose content is set; large files are mapped. Throws Error.
   FileView view(const design::FilePath& file);
 
-  // What is made for a key, and the memory that it takes; null, and diagnostics, where that fails.
+  // A value made for a key, and the memory that it uses; null, with diagnostics, if making it failed.
   template <class T>
   struct Made {
     std::shared_ptr<const T> value;
     size_t bytes = 0;
   };
-  // What was made for the key before, else what `make` returns for a reader. What was said then is said again, once
-  // for each design; `name` is the one that it calls the source by. An Error becomes a diagnostic.
+  // Returns the cached value of a key, else that which `make` returns for a reader. The diagnostics of a cached value
+  // are repeated, once for each design; `name` is the design's name for the source. An Error becomes a diagnostic.
   template <class T, class Make>
   std::shared_ptr<const T> cached(const Hash& key, const std::string& name, const Make& make) {
     const CacheEntryPtr entry = entry_for(key, name, [&](const design::Reader& reader) {

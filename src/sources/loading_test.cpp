@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using design::MeshRequest;
 using design::PolygonsRequest;
 
-// A folder that is removed with its files.
+// A folder that is removed with its files at the end.
 class Folder {
  public:
   explicit Folder(const std::string& name) : path_(fs::path(testing::TempDir()) / name) {
@@ -25,7 +25,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  // Last modified so many seconds ago.
+  // Writes a file whose modification time is this many seconds ago.
   std::string write(const std::string& name, const std::string& text, int seconds_ago = 100) const {
     const fs::path path = path_ / name;
     std::ofstream(path, std::ios::binary) << text;
@@ -37,13 +37,13 @@ class Folder {
   fs::path path_;
 };
 
-// A tetrahedron with a corner at the origin; its edges along the axes have this length.
+// Returns a tetrahedron with a corner at the origin and edges of this length along the axes.
 std::string tetrahedron(int length) {
   const std::string l = std::to_string(length);
   return "OFF\n4 4 0\n0 0 0\n" + l + " 0 0\n0 " + l + " 0\n0 0 " + l + "\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 }
 
-// With another that overlaps it and faces inward, which is a warning.
+// Returns a tetrahedron with an overlapping one that faces inward, which causes a warning.
 std::string with_inverted_shell() {
   return "OFF\n8 8 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n1 0.5 0.5\n4 0.5 0.5\n1 3.5 0.5\n1 0.5 3.5\n"
          "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 5 6\n3 4 7 5\n3 4 6 7\n3 5 7 6\n";
@@ -118,7 +118,7 @@ TEST(SourceCache, ReadsAgainWhatHasChanged) {
   ASSERT_TRUE(before && after);
   EXPECT_EQ(before->front().source->bounds().hi.x, 3);
   EXPECT_EQ(after->front().source->bounds().hi.x, 5);
-  // Touched only: read again, and found to be the same.
+  // The file is only touched: it is read again and found unchanged.
   const size_t reads = cache.files().reads();
   folder.write("a.off", tetrahedron(5), 20);
   EXPECT_EQ(DesignOfTest(cache).mesh(path), after);
@@ -193,7 +193,7 @@ TEST(SourceCache, SaysAgainToEachDesignWhatThereIsToSay) {
   EXPECT_EQ(second.diagnostics.list()[0], first.diagnostics.list()[0]);
   EXPECT_EQ(second.mesh(a), known);
   EXPECT_EQ(second.diagnostics.list().size(), 1u);
-  // By the name that the file has there.
+  // The diagnostic uses this design's name of the file.
   ASSERT_TRUE(third.mesh(b));
   ASSERT_EQ(third.diagnostics.list().size(), 1u);
   EXPECT_NE(third.diagnostics.list()[0].message.find("b.off"), std::string::npos);
@@ -216,7 +216,7 @@ TEST(SourceCache, ThreadsShareWhatTheyLoad) {
   for (const auto& others : found) EXPECT_EQ(others, found[0]);
 }
 
-// The tetrahedron with a corner at `x` on the axis.
+// Returns a tetrahedron with its corner at `x` on the x axis.
 design::MadeSolid made_tetrahedron(const std::string& material, double x) {
   return {"p",
           material,

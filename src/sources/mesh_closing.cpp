@@ -15,7 +15,7 @@ bool has_inside(const importing::MeshReport& report, std::string_view rule) {
   return report.is_closed() || rule == "generalized" || (rule == "parity" && report.open_edges == 0);
 }
 
-// "is open along 4 edges, for example from ... to ..."
+// Describes the faults of a mesh, such as "is open along 4 edges, for example from ... to ..."
 std::string faults(const importing::MeshReport& report) {
   std::string message;
   if (report.open_edges > 0)
@@ -29,7 +29,7 @@ std::string faults(const importing::MeshReport& report) {
   return message;
 }
 
-// Where the surface is open because corners differ by rounding.
+// Closes a surface that is open because corners differ by rounding.
 void join_corners(const std::string& subject, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader,
                   importing::MeshReport& report) {
   const size_t open_edges = report.open_edges;
@@ -42,7 +42,7 @@ void join_corners(const std::string& subject, formats::Mesh& mesh, std::string_v
   report = importing::inspect(mesh);
 }
 
-// Shells that face inward and overlap others that face outward would cancel them out.
+// Turns shells that face inward and would cancel out overlapping outward ones.
 void turn_shells(const std::string& subject, formats::Mesh& mesh, const design::Reader& reader) {
   const auto [turned, shells] = importing::turn_inverted_shells(mesh);
   if (turned == 0) return;

@@ -1,4 +1,4 @@
-// Meshes of files need an inside.
+// Ensures that meshes from files enclose a volume.
 #pragma once
 
 #include <string>
@@ -8,18 +8,20 @@
 
 namespace ombre::sources {
 
-// The mesh of a file, for messages.
+// Returns how messages refer to the mesh of a file.
 std::string mesh_called(const std::string& path);
 
-// False, and a diagnostic, when the mesh has no inside under the rule. Small faults are mended. `subject` begins the
-// messages.
+// Repairs small faults. Returns false, with a diagnostic, if the mesh has no inside under the rule. `subject` begins
+// the messages.
 bool make_closed(const std::string& subject, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader);
 
-// The same for what a file has of one material, when the whole is closed.
+// Checks the part of one material of a closed mesh. Returns false, with a diagnostic, if it has no inside under the
+// rule.
 bool check_part_closed(const std::string& path, const MaterialMesh& part, std::string_view rule,
                        const design::Reader& reader);
 
-// The same for the meshes that its lattices are clipped by.
+// Closes the meshes that clip the mesh's lattices. Returns false, with a diagnostic, if one has no inside under the
+// rule.
 bool close_clips(const std::string& path, formats::Mesh& mesh, std::string_view rule, const design::Reader& reader);
 
 }  // namespace ombre::sources

@@ -23,14 +23,14 @@ class MaterialFinder {
                  const design::Reader& reader)
       : file_(file), groups_(groups), use_(use), reader_(reader) {}
 
-  // One for each group; null where a name is unknown.
+  // Returns a material for each group; null if its name is unknown.
   std::vector<const Material*> find() {
     std::vector<const Material*> found;
     for (const MeshGroup& group : groups_) found.push_back(find(group));
     return found;
   }
 
-  // False, and a diagnostic, where the file is silent about what is asked for, or lacks a name of the map.
+  // Returns false, with a diagnostic, if the file lacks the requested information, or a name of the map.
   bool check() const {
     const bool by_colours = use_.materials == "colours", has_names = any(&has_name), has_colours = any(&has_colour);
     if (!(by_colours ? has_colours || has_mapped_name() : has_names)) {
@@ -123,12 +123,12 @@ class MaterialFinder {
 
 namespace {
 
-// Where bodies have names, each can be taken by itself.
+// Bodies with names can be selected individually.
 Phrase remedy_of(const formats::Mesh& mesh) {
   const std::string other = "use a 3MF, AMF or OBJ file that has them";
   const std::vector<std::string> names = formats::object_names(mesh);
   if (formats::all_groups(mesh).size() < 2 || names.size() < 2) return other;
-  // The last ones are bodies also where the first is what they make up.
+  // The hint names the last two, which are bodies even if the first name stands for their union.
   return "give each of its bodies a mesh and a material of its own, with " +
          spelled::parameter("object", '"' + names[names.size() - 2] + '"') + ", " +
          spelled::parameter("object", '"' + names.back() + '"') + " and so on, or " + other;

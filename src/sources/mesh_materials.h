@@ -1,4 +1,4 @@
-// The materials of a mesh file as materials of the design.
+// Maps the materials of a mesh file to materials of the design.
 #pragma once
 
 #include <optional>
@@ -20,27 +20,26 @@ struct MaterialMesh {
 // A file with named or coloured groups, for messages.
 struct GroupedFile {
   std::string kind;  // "the mesh"
-  std::string node;  // that reads it
+  std::string node;  // name of the node that reads it
   std::string path;
-  Phrase remedy;  // where it names none: "use another"
+  Phrase remedy;  // what to do if it names none, such as "use another"
 };
 
-// The design's material of each group. Nothing, and diagnostics, where the file says less of materials than `use` asks
-// for, or names some that the design does not know.
+// Returns the design's material of each group. Null, with diagnostics, if the file has less information on materials
+// than `use` requires, or names materials that the design does not have.
 std::optional<std::vector<const design::Material*>> find_materials(const GroupedFile& file,
                                                                    const std::vector<formats::MeshGroup>& groups,
                                                                    const design::MeshUse& use,
                                                                    const design::Reader& reader);
 
-// Cuts a mesh by the design's materials, in the order in which its groups come to them. Nothing, and diagnostics,
-// like above.
+// Divides a mesh by the design's materials, in the order in which they first occur. Null, with diagnostics, as above.
 std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
                                                      const design::MeshUse& use, const design::Reader& reader);
 
-// What of a use decides the parts that a file gives, the design's materials included if they do.
+// Adds the options of a use that determine the parts of a file, including the design's materials if they matter.
 void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader);
 
-// "the mesh", or "the script" for one that made it; for messages.
+// Returns "the mesh", or "the script" if the file is one; for messages.
 std::string kind_of(const std::string& path);
 
 }  // namespace ombre::sources

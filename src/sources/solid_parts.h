@@ -1,4 +1,4 @@
-// Pieces of polyhedral geometry as a leaf of the design graph.
+// Converts pieces of polyhedral geometry to a leaf of the design graph.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace ombre::sources {
 
-// The solids among the pieces. `name` is for messages.
+// Returns a request for the solids among the pieces; `name` is used in messages.
 design::SolidsRequest solids_request(const solids::Pieces& pieces, std::string name, design::MeshUse use = {});
 
 }  // namespace ombre::sources

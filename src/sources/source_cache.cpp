@@ -75,7 +75,7 @@ void SourceCache::drop_beyond(size_t bytes) {
   }
 }
 
-// Slots of what is gone; looked for whenever there are twice as many as were left the last time.
+// Removes the slots of expired sources, whenever there are twice as many as remained the last time.
 void SourceCache::forget_unused() {
   if (slots_.size() < next_sweep_) return;
   std::erase_if(slots_, [](const auto& slot) { return slot.second.known.expired(); });

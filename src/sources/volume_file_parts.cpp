@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All files of the folder, in the order of the numbers in their names.
+// Returns all files of the folder, in the order of the numbers in their names.
 std::vector<std::string> files_in(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> files;
@@ -42,7 +42,7 @@ VolumeParts parts_of_folder(const std::string& folder) {
   return parts;
 }
 
-// Adds an image's rows, from the lowest up.
+// Adds the rows of an image, from the bottom up.
 void add_layer(const LayerNumbers& image, const std::string& path, formats::VoxelVolume& volume) {
   if (volume.count[0] == 0) {
     volume.count = {image.width, image.height, 0};

@@ -1,8 +1,8 @@
-// Between read_pages() and the module that holds libtiff.
+// The interface between read_pages() and the module with libtiff.
 #pragma once
 
 #include "tiff/pages.h"
 
-// What the module exports.
+// Reads pages; the function that the module exports.
 extern "C" void ombre_read_tiff(const std::string* name, const std::string_view* bytes, ombre::tiff::Wanted wanted,
                                 const ombre::StopFlag* stop, std::vector<ombre::tiff::Page>* pages);

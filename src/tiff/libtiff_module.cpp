@@ -1,4 +1,4 @@
-// TIFF files by libtiff: the module.
+// The module that reads TIFF files by libtiff.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "libtiff gives numbers
 constexpr uint64_t most_pixels = 1'000'000'000;
 constexpr size_t most_pages = 100'000;
 
-// The bytes as a file to the library.
+// Bytes in memory, presented to the library as a file.
 struct Memory {
   std::string_view bytes;
   uint64_t at = 0;
@@ -51,7 +51,7 @@ toff_t size_of_file(thandle_t handle) { return memory_of(handle).bytes.size(); }
 
 int map_bytes(thandle_t handle, void** begin, toff_t* size) {
   const Memory& file = memory_of(handle);
-  *begin = const_cast<char*>(file.bytes.data());  // the library only reads
+  *begin = const_cast<char*>(file.bytes.data());  // the library only reads them
   *size = file.bytes.size();
   return 1;
 }
@@ -125,7 +125,7 @@ class Reading {
     return numbers(std::move(result), ink == PHOTOMETRIC_MINISWHITE);
   }
 
-  // Empty where they are no whole bytes.
+  // Returns the type of the values, or an empty text if they are not whole bytes.
   std::string type_of_values() const {
     const auto bits = field<uint16_t>(TIFFTAG_BITSPERSAMPLE), form = field<uint16_t>(TIFFTAG_SAMPLEFORMAT);
     const std::string size = std::to_string(bits);
@@ -138,7 +138,7 @@ class Reading {
     page.channels = 4;
     page.type = "uint8";
     page.bytes.resize(size_t{4} * page.width * page.height);
-    // The library's words have red in their lowest byte: red, green, blue, opacity in memory.
+    // The library's words have red in their lowest byte, so the order in memory is red, green, blue, opacity.
     const auto raster = std::make_unique<uint32_t[]>(size_t{page.width} * page.height);
     if (TIFFReadRGBAImageOriented(tiff_.get(), page.width, page.height, raster.get(), ORIENTATION_TOPLEFT, 1) == 0)
       fail();
@@ -163,7 +163,7 @@ class Reading {
     return page;
   }
 
-  // Bytes of the values of a pixel that lie side by side in the file.
+  // Returns the number of bytes of a pixel's values that are contiguous in the file.
   size_t pixel_bytes(const Page& page) const { return value_bytes_ * (is_apart_ ? 1 : page.channels); }
 
   void place(Page& page, const char* from, uint32_t row, uint32_t column, uint32_t count, uint16_t plane) const {

@@ -1,4 +1,4 @@
-// Loads the module of TIFF files when the first is read.
+// Loads the module for TIFF files when the first is read.
 #include "tiff/pages.h"
 
 #include "base/system/module_loader.h"

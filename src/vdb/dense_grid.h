@@ -1,4 +1,4 @@
-// One grid of an OpenVDB file, all its voxels side by side.
+// One grid of an OpenVDB file as a dense array of voxels.
 #pragma once
 
 #include <array>
@@ -15,16 +15,16 @@ namespace ombre::vdb {
 struct DenseGrid {
   std::string name;
   std::array<int64_t, 3> count{};
-  std::vector<float> values;  // x fastest; flags are 0 and 1
-  int64_t channels = 1;       // of a voxel in the file; 3 of vectors
-  Affine space_from_index;    // of voxels' centres, in the units of the file, which are taken as mm
+  std::vector<float> values;  // x fastest; booleans are 0 and 1
+  int64_t channels = 1;       // values per voxel in the file; 3 for vectors
+  Affine space_from_index;    // maps indices of voxels to their centres, in the file's units, which are taken as mm
 };
 
-// The active voxels of a grid and one around them; beyond, a grid is its background. An empty name: the only grid.
-// Of vectors the values are those of a channel, counted from 0, or of -1 their lengths. Throws Error, naming the path:
-// when the file is broken, has no such grid or channel, or several grids and none is named, when the grid holds no
-// numbers, or more than 16 GiB, and when this was built without the library; Cancelled once `stop`, which may be null,
-// is set.
+// Reads the box of a grid's active voxels, with a margin of one voxel; beyond, the grid has its background value. An
+// empty name means the only grid. For vectors, `channel` is the component from 0, or -1 for their length.
+// Throws Error, naming the path, if the file is broken, lacks the grid or channel, or has several grids and none is
+// named, if the grid holds no numbers or more than 16 GiB, and in builds without the library. Throws Cancelled once
+// `stop`, which may be null, is set.
 DenseGrid read_grid(const std::string& path, const std::string& name, int channel, const StopFlag* stop);
 // Those of OpenVDB and NanoVDB.
 std::vector<ombre::FileFormat> file_formats();

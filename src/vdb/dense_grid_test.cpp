@@ -1,4 +1,4 @@
-// Grids of every kind that OpenVDB writes, read as dense ones.
+// Tests that read every kind of grid that OpenVDB writes.
 #include "vdb/dense_grid.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace ombre::vdb {
 
 namespace {
 
-// Voxels (2, 3, 4) and (3, 3, 4) have these values.
+// Returns a grid in which voxels (2, 3, 4) and (3, 3, 4) have these values.
 template <class Grid>
 openvdb::GridBase::Ptr pair_of(const std::string& name, const typename Grid::ValueType& a,
                                const typename Grid::ValueType& b) {
@@ -29,7 +29,7 @@ openvdb::GridBase::Ptr pair_of(const std::string& name, const typename Grid::Val
   return grid;
 }
 
-// The values of those two among the voxels around them.
+// Returns the values of these two voxels in the dense grid.
 std::array<float, 2> pair_in(const std::string& path, const std::string& name, int channel = -1) {
   const DenseGrid grid = read_grid(path, name, channel, nullptr);
   EXPECT_EQ(grid.count, (std::array<int64_t, 3>{4, 3, 3}));

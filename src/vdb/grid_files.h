@@ -1,4 +1,4 @@
-// Grids of OpenVDB as files. Only for this folder: it includes the library's headers.
+// Writes grids of OpenVDB to files. Only for this folder, because it includes the library's headers.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -7,7 +7,8 @@
 
 namespace ombre::vdb {
 
-// Equal grids give equal bytes. Both throw what the library or the standard library throws.
+// write_vdb() and write_nvdb() write equal bytes for equal grids, and throw exceptions of the library and of the
+// standard library.
 void write_vdb(const std::string& path, const openvdb::GridPtrVec& grids);
 void write_nvdb(const std::string& path, const openvdb::GridPtrVec& grids);
 

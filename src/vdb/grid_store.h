@@ -1,11 +1,11 @@
-// Between SparseGrids and the module that holds OpenVDB, which takes longer to load than most jobs to run.
+// The interface between SparseGrids and the module with OpenVDB, which takes longer to load than most jobs take to run.
 #pragma once
 
 #include "vdb/sparse_grids.h"
 
 namespace ombre::vdb {
 
-// As SparseGrids has them.
+// A store of grids with the functions of SparseGrids.
 class GridStore {
  public:
   using Notes = SparseGrids::Notes;
@@ -18,5 +18,5 @@ class GridStore {
 
 }  // namespace ombre::vdb
 
-// What the module exports.
+// Makes a store; the function that the module exports.
 extern "C" ombre::vdb::GridStore* ombre_make_grid_store(const ombre::Vec3* spacing, const ombre::Vec3* origin);

@@ -1,4 +1,4 @@
-// Loads the module of sparse grids when the first file is read.
+// Loads the module for sparse grids when the first file is read.
 #include "vdb/dense_grid.h"
 
 #include "base/system/module_loader.h"

@@ -1,4 +1,4 @@
-// Loads the module of sparse grids when the first are made.
+// Loads the module for sparse grids when the first are made.
 #include "vdb/sparse_grids.h"
 
 #include "base/system/module_loader.h"

@@ -1,4 +1,4 @@
-// .nvdb files.
+// Writes .nvdb files.
 #ifdef OMBRE_OPENVDB
 
 #include <nanovdb/util/IO.h>
@@ -13,7 +13,8 @@
 namespace ombre::vdb {
 namespace {
 
-// Of the two types that grids have here: NanoVDB's own choice by type compiles for all thirteen that it knows.
+// Converts the two types of grids used here. NanoVDB's own dispatch would compile code for all thirteen types that it
+// supports.
 nanovdb::GridHandle<> converted(const openvdb::GridBase::Ptr& grid) {
   if (const auto floats = openvdb::GridBase::grid<openvdb::FloatGrid>(grid)) return nanovdb::openToNanoVDB(*floats);
   if (const auto ids = openvdb::GridBase::grid<openvdb::Int32Grid>(grid)) return nanovdb::openToNanoVDB(*ids);

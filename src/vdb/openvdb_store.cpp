@@ -1,4 +1,4 @@
-// Sparse grids of OpenVDB: the module.
+// The module for sparse grids of OpenVDB.
 #ifdef OMBRE_OPENVDB
 
 #include <openvdb/openvdb.h>
@@ -34,11 +34,11 @@ openvdb::math::Transform::Ptr placed(Vec3 spacing, Vec3 origin) {
 
 openvdb::GridClass class_of(GridClass grid_class, bool is_cubic) {
   if (grid_class == GridClass::fog) return openvdb::GRID_FOG_VOLUME;
-  // Level sets have cubic voxels.
+  // Only grids with cubic voxels are marked as level sets.
   return grid_class == GridClass::level_set && is_cubic ? openvdb::GRID_LEVEL_SET : openvdb::GRID_UNKNOWN;
 }
 
-// What a value is in a grid: a number, and whether it counts as part of the grid.
+// A voxel: its value, and whether it is active.
 template <class T>
 struct Voxel {
   T value{};
@@ -86,7 +86,7 @@ class Filling {
   Value background_;
 };
 
-// Calls f, and turns what the library throws into an Error.
+// Calls f, and converts exceptions of the library to Error.
 template <class F>
 auto guarded(const std::string& what, F f) {
   try {

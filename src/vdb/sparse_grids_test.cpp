@@ -1,4 +1,4 @@
-// Grids that OpenVDB and NanoVDB read back.
+// Tests of grids that OpenVDB and NanoVDB read back.
 #include "vdb/sparse_grids.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ float distance(int64_t i, int64_t j, int64_t k) {
   return static_cast<float>(std::clamp(std::hypot(x, y, z - 5) - 3, -0.75, 0.75));
 }
 
-// A ball of radius 3 about (0, 0, 5) in tiles of this size, and a fog in half of it.
+// Returns a ball of radius 3 about (0, 0, 5) in tiles of this size, and a fog in half of it.
 SparseGrids ball(int64_t tile) {
   SparseGrids grids(spacing, origin);
   const size_t far = grids.add("distance", GridClass::level_set, band, {{"unit", "mm"}});
@@ -94,7 +94,7 @@ TEST(SparseGrids, OpenVdbReadsThemBack) {
   const auto fog = read_vdb(path, "red");
   EXPECT_EQ(fog->getGridClass(), openvdb::GRID_FOG_VOLUME);
   EXPECT_EQ(fog->activeVoxelCount(), 16u * 32 * 32);
-  EXPECT_EQ(fog->tree().leafCount(), 0u);  // tiles of 8 voxels and more, no voxel by itself
+  EXPECT_EQ(fog->tree().leafCount(), 0u);  // tiles of at least 8 voxels, no separate voxel
   const auto ids = read_vdb<openvdb::Int32Grid>(path, "material");
   EXPECT_EQ(ids->getConstAccessor().getValue(openvdb::Coord(3, 20, 9)), 7);
   EXPECT_EQ(ids->activeVoxelCount(), 16u * 32 * 32);

@@ -1,4 +1,4 @@
-// .vdb files, without what the library puts in by chance.
+// Writes .vdb files without the random identifier that the library inserts.
 #ifdef OMBRE_OPENVDB
 
 #include <openvdb/io/Archive.h>
@@ -12,7 +12,8 @@
 namespace ombre::vdb {
 namespace {
 
-// Behind the magic number (8 bytes), the versions of the format (4) and the library (8), and the mark of offsets (1).
+// The identifier follows the magic number (8 bytes), the versions of the format (4) and the library (8), and the flag
+// for offsets (1).
 constexpr std::streamoff uuid_begin = 21;
 constexpr size_t uuid_length = 36;
 
@@ -26,14 +27,14 @@ Hash hash_from(std::istream& file) {
   return sum;
 }
 
-// 8-4-4-4-12 digits.
+// Returns an identifier of 8-4-4-4-12 hexadecimal digits.
 std::string uuid_of(const Hash& hash) {
   std::string text = hash.hex();
   for (const size_t place : {8, 13, 18, 23}) text.insert(place, "-");
   return text;
 }
 
-// The library draws a number for each file, by which readers tell files apart: here their content tells.
+// Replaces the library's random identifier, by which readers distinguish files, with a hash of the content.
 void name_by_content(std::fstream& file) {
   file.seekg(uuid_begin + static_cast<std::streamoff>(uuid_length));
   const std::string uuid = uuid_of(hash_from(file));
@@ -42,7 +43,7 @@ void name_by_content(std::fstream& file) {
   file.write(uuid.data(), static_cast<std::streamsize>(uuid.size()));
 }
 
-// The library's own class for files does not notice when the disk is full.
+// Replaces the library's own file class, which does not notice a full disk.
 class Writer : public openvdb::io::Archive {
  public:
   void write_all(std::ostream& file, const openvdb::GridPtrVec& grids) const { write(file, grids, true); }

@@ -1,4 +1,4 @@
-// .vdb files to dense grids: part of the module.
+// Reads .vdb files as dense grids: part of the module.
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
@@ -138,7 +138,7 @@ DenseGrid unpack(const std::string& bytes) {
 }  // namespace
 }  // namespace ombre::vdb
 
-// In a helper process, since broken files make the library crash.
+// Reads files in a helper process, because broken files may crash the library.
 void ombre_read_vdb_grid(const std::string* path, const std::string* name, int channel, const ombre::StopFlag* stop,
                          ombre::vdb::DenseGrid* grid) {
   using namespace ombre;

@@ -39,8 +39,8 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-// Starts a command in a process group of its own, with these ends of pipes as stdout and stderr (negative: those of
-// this program). Returns 0 when it cannot start.
+// Starts a command in its own process group, with these ends of pipes as stdout and stderr (negative: those of this
+// program). Returns 0 if it cannot start.
 pid_t spawn(const std::vector<std::string>& command, int out, int err) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
@@ -69,7 +69,7 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Appends what is there. False at the end.
+// Appends the available bytes. Returns false at the end.
 bool read_some(int from, std::string& to) {
   std::array<char, 65536> block{};
   const ssize_t count = ::read(from, block.data(), block.size());

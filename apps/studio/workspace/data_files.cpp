@@ -21,7 +21,7 @@ std::string_view name_of(DataKind kind) {
 }
 
 bool is_dicom_folder(const fs::path& folder) {
-  constexpr int most_entries = 64;  // a folder of DICOM files shows it soon
+  constexpr int most_entries = 64;  // enough to detect a folder of DICOM files
   std::error_code error;
   int seen = 0;
   for (const fs::directory_iterator end; const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {

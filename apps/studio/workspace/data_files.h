@@ -9,12 +9,12 @@ namespace ombre::studio {
 
 enum class DataKind : uint8_t { none, scan, results, table };
 
-// Tells the kind of a file by the ending of its name. A folder of DICOM files is a scan too, but its name does not say
-// so.
+// Returns the kind of a file by the ending of its name. A folder of DICOM files is a scan too, but cannot be detected
+// by its name.
 DataKind data_kind(const std::string& name);
-// Returns "scan", "results" or "table", as requests have it; empty for none.
+// Returns the name used in requests: "scan", "results" or "table"; empty for none.
 std::string_view name_of(DataKind kind);
-// Returns whether the folder holds a file that ends in .dcm.
+// Returns true if the folder contains a file that ends in .dcm.
 bool is_dicom_folder(const std::filesystem::path& folder);
 
 }  // namespace ombre::studio

@@ -1,4 +1,4 @@
-// Scans, results and tables that lie beside designs.
+// Tests of scans, results and tables beside designs.
 #include <cstring>
 #include <filesystem>
 
@@ -15,9 +15,9 @@ constexpr const char* scan =
     "space directions: (0.5,0,0) (0,1,0) (0,0,2)\nspace origin: (10,20,30)\n\n"
     "0 1 2 10 11 12 100 101 102 110 111 112\n";
 
-// The scan is a solid from its level on; a design that reads it names it.
+// The scan is shown as a solid above a level; a design that reads it names it.
 
-// A beam under load: the colours span its stresses, which ombre info lists, and it is moved by its displacement.
+// For a loaded beam, the colours span the stresses that ombre info lists, and the beam is moved by its displacement.
 
 TEST_F(StudioTest, ShowsPlanesOfAScan) {
   folder.write("a.nrrd", scan);

@@ -50,7 +50,7 @@ std::string_view query_value(std::string_view target, std::string_view key) {
   return {};
 }
 
-// Takes the same time wherever the two texts differ, so that nobody can guess the token bit by bit.
+// The comparison takes the same time wherever the texts differ, so that the token cannot be guessed digit by digit.
 bool Guard::is_token(std::string_view text) const {
   if (text.size() != token_.size()) return false;
   unsigned difference = 0;
@@ -73,7 +73,8 @@ bool Guard::knows_token(const RequestHead& head) const {
   return false;
 }
 
-// Lax: a link, or the file that led the browser here, opens the page; requests that pages of others make have none.
+// The cookie is SameSite=Lax: links, and the file that directed the browser here, send it when they open the page;
+// requests by other pages do not.
 std::string Guard::cookie() const {
   return cookie_name() + "=" + token_ + "; HttpOnly; SameSite=Lax; Path=/; Max-Age=31536000";
 }

@@ -1,4 +1,4 @@
-// Files of presets, by their names and beginnings.
+// Recognizes files of presets by their names and first bytes.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +6,13 @@
 
 namespace ombre::studio {
 
-// The member of such a file that holds the presets.
+// The member of a file of presets that contains them.
 inline constexpr const char* presets_member = "parameterSets";
 
-// part.scad has part.json, where OpenSCAD keeps them; part.vcad and others have part.presets.json.
+// Returns part.json for part.scad, as OpenSCAD does, and part.presets.json for part.vcad and others.
 std::string presets_file_of(const std::string& design);
-// Does the file hold presets? By its name, and by what it begins with where a script beside it has the same name.
+// Returns true if the file holds presets, judged by its name, and by its first bytes if there is a script of the same
+// name beside it.
 bool is_presets_file(const std::filesystem::path& file);
 
 }  // namespace ombre::studio

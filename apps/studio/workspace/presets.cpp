@@ -35,7 +35,7 @@ bool is_of_presets(Data& file) {
   return std::ranges::all_of(*sets->members(), [](const auto& set) { return set.second.members() != nullptr; });
 }
 
-// Reads the whole content of the file, so that what others wrote there stays. Where there is no file, the list of
+// Reads the whole contents of the file, so that entries of other programs are preserved. Without a file, the list of
 // presets is empty.
 Data read_presets(const fs::path& path) {
   std::error_code error;
@@ -60,7 +60,7 @@ void write_presets(const fs::path& path, const Data& file) {
   exporting::write_file(path.string(), text, exporting::Durability::flushed);
 }
 
-// Writes values as OpenSCAD does: texts have no quotes, and lists a space behind each comma.
+// Formats values as OpenSCAD does: texts without quotes, and lists with a space after each comma.
 std::string text_of(const Data& value) {
   if (value.string()) return *value.string();
   if (!value.list()) return print_json_line(value);

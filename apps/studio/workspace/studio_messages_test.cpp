@@ -42,7 +42,7 @@ TEST(Messages, FramesWithBytesSayWhereTheyBegin) {
   EXPECT_EQ(bytes.data, std::string(1, static_cast<char>(json.size())) + std::string(3, '\0') + json + "PNG");
 }
 
-// The units are those that JavaScript counts: "µ" is one, "😀" two.
+// Units are those of JavaScript: "µ" is one, "😀" two.
 TEST(Messages, CountsPlacesAsPagesDo) {
   const std::string text = "aµ😀b";
   const PageOffsets offsets(text);

@@ -1,4 +1,4 @@
-// A folder of a test's own, which goes away with it.
+// A temporary folder of a test, which is removed with it.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The folder that the studio shows: its files are listed, read and saved, and nothing outside of it.
+// The folder that the studio shows. Its files are listed, read and saved, and nothing outside of it.
 #pragma once
 
 #include <filesystem>
@@ -14,28 +14,28 @@
 
 namespace ombre::studio {
 
-// Holds the text of a file, and a hash of it, by which changes by others are noticed.
+// The text of a file, and a hash of it, by which changes by other programs are noticed.
 struct FileText {
   std::string text, version;
 };
 
-// The disk has another version than the one that was to be replaced.
+// A conflict: the file on disk has another version than the one to be replaced.
 struct SaveConflict {
-  std::optional<FileText> disk;  // nothing: the file is gone
+  std::optional<FileText> disk;  // null if the file no longer exists
 };
 
-// Names are paths relative to the folder, with '/'. Throws RequestError for names that lead out of it, by "..", as
-// absolute paths or through links, and for hidden ones. Thread-safe.
+// Access to the folder. Names are paths relative to it, with '/'. Throws RequestError for hidden names, and for names
+// outside of the folder: with "..", absolute, or through links. Thread-safe.
 class Workspace {
  public:
   static constexpr size_t most_files = 2000;
-  static constexpr size_t most_bytes = size_t{8} << 20;  // larger files are not edited
+  static constexpr size_t most_bytes = size_t{8} << 20;  // larger files cannot be edited
 
-  // Throws Error when the path is no folder.
+  // Opens a folder. Throws Error if the path is not a folder.
   explicit Workspace(const std::filesystem::path& folder);
 
   const std::filesystem::path& root() const { return root_; }
-  // Lists designs and scripts, sorted; it leaves out presets, hidden folders and links to folders.
+  // Lists designs and scripts, sorted, without presets, hidden folders and links to folders.
   std::vector<std::string> list() const;
   // Lists scans, results and tables likewise; a folder of DICOM files is one scan.
   struct DataFile {
@@ -43,21 +43,21 @@ class Workspace {
     DataKind kind = DataKind::none;
   };
   std::vector<DataFile> list_data() const;
-  // Lists the files whose names have one of these endings (".stl", in small letters), sorted.
+  // Lists the files whose names have one of these endings (such as ".stl", in lower case), sorted.
   std::vector<std::string> list_ending_in(const std::vector<std::string>& endings) const;
   std::filesystem::path path(const std::string& name) const;
-  // Returns the name of the file at this path; it is empty where the file is not in the folder.
+  // Returns the name of the file at this path; empty if it is not in the folder.
   std::string name_of(const std::filesystem::path& file) const;
-  // Throws Error when the file cannot be read, and RequestError when it is too large or no text.
+  // Reads a file. Throws Error if it cannot be read, and RequestError if it is too large or not text.
   FileText read(const std::string& name);
-  // Replaces the given version of the file; it is empty for a file that must not be there yet. Returns the new version,
-  // or what is there instead. The file that is there stays whole whatever happens. Throws Error.
+  // Replaces the given version of a file, or creates it if the version is empty. Returns the new version, or a
+  // conflict. The existing file is never left incomplete. Throws Error.
   std::variant<std::string, SaveConflict> save(const std::string& name, const std::string& text,
                                                const std::string& version);
 
-  // Lists the files that were read or saved here and have changed on the disk since the last call.
+  // Lists the files that were read or saved here and have changed on disk since the last call.
   struct Change {
-    std::string name, version;  // empty: it is gone
+    std::string name, version;  // the version is empty if the file no longer exists
   };
   std::vector<Change> changes();
 
@@ -77,7 +77,7 @@ class Workspace {
   std::map<std::string, Seen> seen_;
 };
 
-// Returns whether a name ends as those of designs do.
+// Returns true if a name ends like that of a design.
 bool is_design_name(const std::string& name);
 
 }  // namespace ombre::studio

@@ -68,7 +68,7 @@ TEST(Workspace, SavesWhatItHasSeenAlone) {
   EXPECT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "three", "")));
 }
 
-// The device /dev/full refuses all that is written to it, as a full disk does.
+// The device /dev/full refuses all writes, like a full disk.
 TEST(Workspace, KeepsTheOldFileWhereTheDiskIsFull) {
   if (!fs::exists("/dev/full")) GTEST_SKIP();
   const TestFolder folder;
@@ -86,7 +86,7 @@ TEST(Workspace, KeepsTheOldFileWhereTheDiskIsFull) {
   EXPECT_EQ(folder.read("a.vcad"), "one");
   EXPECT_FALSE(fs::exists(fs::symlink_status(folder.path / "a.vcad.part")));
   EXPECT_TRUE(workspace.changes().empty());
-  // There is space again: the same text is saved over the same version.
+  // Now there is space: the same text can be saved over the same version.
   ASSERT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "two", version)));
   EXPECT_EQ(folder.read("a.vcad"), "two");
 }
@@ -98,7 +98,7 @@ TEST(Workspace, NoticesChangesByOthers) {
   const std::string version = workspace.read("a.vcad").version;
   EXPECT_TRUE(workspace.changes().empty());
   ASSERT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "two", version)));
-  EXPECT_TRUE(workspace.changes().empty());  // its own
+  EXPECT_TRUE(workspace.changes().empty());  // its own changes do not count
 
   folder.write("a.vcad", "three!");
   const auto changes = workspace.changes();

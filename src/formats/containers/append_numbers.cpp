@@ -7,7 +7,7 @@ namespace ombre::formats {
 
 void append_float(std::string& text, double value) {
   char digits[32];
-  const float single = static_cast<float>(value) + 0.0f;  // -0 becomes 0
+  const float single = static_cast<float>(value) + 0.0f;  // maps -0 to 0
   text.append(digits, std::to_chars(digits, digits + sizeof digits, single).ptr);
 }
 

@@ -1,4 +1,4 @@
-// Numbers in files: text and bytes, the same everywhere.
+// Appends numbers to files as text and bytes, identically on all machines.
 #pragma once
 
 #include <bit>
@@ -9,15 +9,15 @@
 
 namespace ombre::formats {
 
-// The shortest decimal that reads back to the same float; 0 for -0.
+// Appends the shortest decimal that reads back to the same float; -0 is written as 0.
 void append_float(std::string& text, double value);
-// With at most six decimals: millimetres to the nanometre.
+// Appends a number with at most six decimals, so millimetres are exact to the nanometre.
 void append_decimal(std::string& text, double value);
-// "x y z".
+// Appends "x y z".
 void append_point(std::string& text, Vec3 p);
 void append_count(std::string& text, uint64_t value);
 
-// Low byte first.
+// Appends a little-endian number.
 void append_u32(std::string& bytes, uint32_t value);
 inline void append_f32(std::string& bytes, double value) {
   append_u32(bytes, std::bit_cast<uint32_t>(static_cast<float>(value)));

@@ -1,4 +1,4 @@
-// Bytes as text (RFC 4648).
+// Decoding of base64 (RFC 4648).
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace ombre::formats {
 
-// The bytes of such text, in which blanks and line ends may stand; = ends a group, and another may follow. Nothing
-// where another character stands, or the last group is cut off.
+// Returns the decoded bytes. Blanks and line ends are skipped; = ends a group, and another may follow. Null if the text
+// has another character or an incomplete last group.
 std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace ombre::formats

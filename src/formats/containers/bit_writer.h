@@ -1,4 +1,4 @@
-// Bits into bytes, the lowest bit first, as deflate wants them.
+// Writes bits into bytes, the lowest bit first, as deflate requires.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace ombre::formats {
 
-// Writes into room made by others. Meant to live in a function, where it stays in registers.
+// A cursor that writes into memory of its caller. It is meant to be a local variable, so that it stays in registers.
 class BitCursor {
  public:
   static constexpr unsigned most_bits = 56;
@@ -16,7 +16,7 @@ class BitCursor {
   explicit BitCursor(uint8_t* at, uint64_t bits = 0, unsigned bit_count = 0)
       : at_(at), bits_(bits), bit_count_(bit_count) {}
 
-  // At most so many bits; those above `count` are zero. Eight bytes may be overwritten.
+  // Writes at most most_bits bits; bits above `count` must be zero. Up to eight bytes may be overwritten.
   void put(uint64_t bits, unsigned count) {
     static_assert(std::endian::native == std::endian::little);
     bits_ |= bits << bit_count_;
@@ -35,13 +35,13 @@ class BitCursor {
  private:
   uint8_t* at_;
   uint64_t bits_;
-  unsigned bit_count_;  // below 8 between calls
+  unsigned bit_count_;  // less than 8 between calls
 };
 
-// Bits in memory of its own.
+// Writes bits into its own memory.
 class BitWriter {
  public:
-  // Room for so many more bytes; writing does not look.
+  // Reserves room for this many more bytes; put() does not check for room.
   void reserve(size_t bytes) { bytes_.resize(size_ + bytes + sizeof bits_); }
 
   void put(uint64_t bits, unsigned count) {
@@ -51,7 +51,7 @@ class BitWriter {
   }
   void fill_byte() { put(0, (8 - bit_count_) % 8); }
 
-  // For many bits at once: what is put in between is written when it ends.
+  // Returns a cursor for many bits at once; they become part of the data when end() is called.
   BitCursor begin() { return BitCursor(bytes_.data() + size_, bits_, bit_count_); }
   void end(const BitCursor& cursor) {
     size_ = static_cast<size_t>(cursor.at() - bytes_.data());
@@ -59,7 +59,7 @@ class BitWriter {
     bit_count_ = cursor.bit_count();
   }
 
-  // The whole bytes so far.
+  // Returns the complete bytes so far.
   const uint8_t* data() const { return bytes_.data(); }
   size_t size() const { return size_; }
   void clear() { size_ = 0; }

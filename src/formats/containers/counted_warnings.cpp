@@ -1,4 +1,4 @@
-// Warnings that say how often something was found in a file.
+// Warnings that state how often something was found in a file.
 #include "formats/containers/counted_warnings.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Warnings that say how often something was found in a file.
+// Warnings that state how often something was found in a file.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,14 @@ namespace ombre::formats {
 
 class CountedWarnings {
  public:
-  static constexpr size_t most_kinds = 20;  // what comes after these is counted together
+  static constexpr size_t most_kinds = 20;  // further kinds are counted together
 
-  // What is said if it is found once, a whole sentence, and what follows the number if it is found more often: "a face
-  // of two corners is a line" and "faces of two corners are lines". Equal `many` count together.
+  // Adds a warning: `one` is the whole sentence if it occurs once, `many` what follows the number otherwise, such as "a
+  // face of two corners is a line" and "faces of two corners are lines". Warnings with equal `many` are counted
+  // together.
   void add(const std::string& one, const std::string& many, uint64_t times = 1);
 
-  // One warning for each, in the order in which they were first added. `file` is the name that begins each message.
+  // Reports one warning of each kind, in the order in which they were first added. `file` begins each message.
   void report(const std::string& file, Diagnostics& diagnostics) const;
 
  private:

@@ -11,14 +11,14 @@
 namespace ombre::formats {
 namespace {
 
-// Codes of 14 bits let four literals be put at once; they cost next to nothing against 15.
+// With codes of at most 14 bits, four literals can be written at once; compared with 15 bits the loss is negligible.
 constexpr unsigned longest_literal_code = 14, longest_distance_code = 15, longest_header_code = 7;
 
-// Of many short steps, every eighth says as much of a block as all do, in less time.
-constexpr size_t many_steps = 4096, long_step = 64;  // bytes of long matches a step, on average
+// If a block has many short steps, every eighth is enough to estimate its statistics, and faster.
+constexpr size_t many_steps = 4096, long_step = 64;  // bytes of long matches per step, on average
 constexpr uint32_t counted_of_many = 8;
 
-// Some bits to write.
+// A sequence of bits to write.
 struct Bits {
   uint32_t bits = 0;
   uint32_t count = 0;
@@ -26,13 +26,13 @@ struct Bits {
 
 Bits joined(Bits a, Bits b) { return {a.bits | b.bits << a.count, a.count + b.count}; }
 
-// Of a distance without one, to look its symbol up: that takes less time than its bits do.
+// Returns the index of a distance, minus one, in the table of symbols; a lookup is faster than calculating the symbol.
 constexpr uint32_t distance_slot(uint32_t behind) { return behind < 256 ? behind : 256 + behind / 128; }
 constexpr uint32_t distance_slot_count = distance_slot(DeflateWriter::window - 1) + 1;
 
 struct DistanceSymbols {
   std::array<uint8_t, distance_slot_count> in_slot{};
-  std::array<uint32_t, distance_symbol_count> first{};  // of its distances, without one
+  std::array<uint32_t, distance_symbol_count> first{};  // by symbol: its first distance, minus one
 };
 
 constexpr DistanceSymbols distance_symbols = [] {
@@ -49,9 +49,9 @@ constexpr DistanceSymbols distance_symbols = [] {
 
 constexpr uint8_t distance_index(uint32_t behind) { return distance_symbols.in_slot[distance_slot(behind)]; }
 
-// Steps of one length are cut into matches: as many of the longest as leave the last one long enough.
+// The pieces of a long step: as many of the longest matches as leave the last one long enough.
 struct Pieces {
-  uint32_t longest = 0, first = 0, last = 0;  // how many of the longest, and the lengths of the others, or 0
+  uint32_t longest = 0, first = 0, last = 0;  // number of longest matches; lengths of two shorter ones, or 0
 
   explicit Pieces(uint32_t length) : longest(length / longest_match), last(length % longest_match) {
     if (last == 0 || last >= DeflateWriter::shortest_match) return;
@@ -61,8 +61,8 @@ struct Pieces {
   }
 };
 
-// Counting a value twice in a row waits for memory, and neighbours are often equal: so they take turns with
-// tables of their own.
+// Incrementing a counter twice in a row waits for memory, and neighbouring matches are often equal. So neighbours use
+// separate tables alternately.
 struct MatchCounts {
   std::array<uint32_t, longest_match + 1> lengths{};
   std::array<uint32_t, distance_symbol_count> distances{};
@@ -91,7 +91,7 @@ struct SymbolCounts {
       literals[first_length_symbol + length_symbol(length).index] += times * counts.lengths[length];
     for (size_t i = 0; i < distances.size(); ++i) distances[i] += times * counts.distances[i];
   }
-  // So that any match has a code, whether it was counted or not.
+  // Counts every symbol once more, so that any match has a code.
   void add_every_match() {
     for (size_t i = 0; i < length_symbol_count; ++i) ++literals[first_length_symbol + i];
     for (uint32_t& distance : distances) ++distance;
@@ -115,7 +115,7 @@ struct HeaderItem {
   uint8_t symbol, extra, extra_count;
 };
 
-// `count` times the same length.
+// Appends `count` times the same length.
 void add_repeats(std::vector<HeaderItem>& items, uint8_t length, size_t count) {
   if (length > 0) {
     items.push_back({length, 0, 0});
@@ -183,7 +183,7 @@ void write_code_lengths(BitWriter& out, std::span<const uint8_t> literals, std::
 
 struct DeflateWriter::Codes {
   std::array<Bits, literal_symbol_count> literals{};
-  std::array<Bits, longest_match + 1> lengths{};  // with their extra bits
+  std::array<Bits, longest_match + 1> lengths{};  // including the extra bits
 
   Codes(BitWriter& out, const SymbolCounts& counts) {
     std::array<uint8_t, literal_symbol_count> literal_lengths{};
@@ -207,7 +207,7 @@ struct DeflateWriter::Codes {
     }
   }
 
-  // Inlined, the cursor stays in registers: that halves the time of streams of short matches.
+  // Inlining keeps the cursor in registers, which halves the time for streams of short matches.
   [[gnu::always_inline]] void put_literals(BitCursor& out, const uint8_t* at, const uint8_t* end) const {
     for (; end - at >= 4; at += 4) {
       uint64_t bits = 0;
@@ -231,7 +231,7 @@ struct DeflateWriter::Codes {
     if (pieces.last > 0) put(out, match(pieces.last, step.behind));
   }
 
-  // Bits that are put wait for those before, so most short matches are put in pairs.
+  // Each write depends on the previous one, so most short matches are written in pairs.
   [[gnu::always_inline]] void put_short_matches(BitCursor& out, const Step& a, const Step& b) const {
     const LongBits first = match(a.length, a.behind), second = match(b.length, b.behind);
     if (first.count + second.count <= BitCursor::most_bits)
@@ -254,7 +254,7 @@ struct DeflateWriter::Codes {
     return {bits.bits | uint64_t{far} << bits.count, bits.count + distances.count};
   }
 
-  // Those of a symbol: its code, then how far they are from the first.
+  // The distances of a symbol: the symbol's code, followed by the offset from its first distance.
   struct Distances {
     uint32_t offset, shift, count;
   };
@@ -277,7 +277,7 @@ void DeflateWriter::literals(const uint8_t* bytes, size_t count) {
   }
 }
 
-// Longer than any symbol's, or as far back as the one just before, which grows.
+// Adds a match longer than any symbol's, or extends the previous match if the distance is the same.
 void DeflateWriter::long_match(uint32_t length, uint16_t behind) {
   if (matched_ >= most_matched) end_block(false);
   matched_ += length;
@@ -305,10 +305,10 @@ void DeflateWriter::end_block(bool is_last) {
   counts.literals[end_of_block] = 1;
 
   constexpr size_t largest_header = 512, largest_literal = 2, largest_match = 6;
-  const size_t most_matches = 2 * step_count_ + matched_ / longest_match;  // steps in pieces
+  const size_t most_matches = 2 * step_count_ + matched_ / longest_match;  // including the pieces of long steps
   out_.reserve(largest_header + literals_.size() * largest_literal + most_matches * largest_match);
   out_.put(is_last, 1);
-  out_.put(2, 2);  // codes of its own
+  out_.put(2, 2);  // dynamic Huffman codes
   const Codes codes(out_, counts);
   write_steps(codes);
   out_.put(codes.literals[end_of_block].bits, codes.literals[end_of_block].count);

@@ -1,4 +1,4 @@
-// A deflate stream from literals and matches that the caller has found.
+// Writes a deflate stream from literals and matches found by the caller.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace ombre::formats {
 
-// Writes blocks with Huffman codes of their own. The bytes depend on the calls alone, not on the processor.
+// Writes blocks with dynamic Huffman codes. The bytes depend only on the calls, not on the processor.
 class DeflateWriter {
  public:
   static constexpr uint32_t window = 32768, shortest_match = 3;
@@ -20,8 +20,8 @@ class DeflateWriter {
   DeflateWriter();
 
   void literals(const uint8_t* bytes, size_t count);
-  // The next `length` bytes repeat those `distance` back, which lie at most `window` behind; they may overlap.
-  // Any length from the shortest match on.
+  // Adds a match: the next `length` bytes repeat those `distance` earlier, at most `window`; source and copy may
+  // overlap. The length may be anything from the shortest match on.
   void match(uint32_t length, uint32_t distance) {
     ASSERT(length >= shortest_match && distance - 1 < window);
     if (step_count_ == most_steps) end_block(false);
@@ -31,26 +31,26 @@ class DeflateWriter {
   }
   void finish();
 
-  // Whole bytes of the stream; they grow with each block, and the caller clears what it has taken.
+  // Returns the complete bytes of the stream. They grow with each block, and the caller clears what it has taken.
   const uint8_t* data() const { return out_.data(); }
   size_t size() const { return out_.size(); }
   void clear() { out_.clear(); }
 
  private:
-  // Some literals, then a match.
+  // Some literals, followed by a match.
   struct Step {
     uint32_t length;
-    uint16_t literals, behind;  // the distance without one
+    uint16_t literals, behind;  // number of literals; the distance minus one
 
     bool is_short_match() const { return literals == 0 && length <= longest_match; }
   };
   struct Codes;
 
-  // Large enough to make headers cheap, small enough to follow a design from layer region to region.
+  // Limits of a block: large enough to make headers cheap, small enough to adapt to regions of a layer.
   static constexpr size_t most_literals = UINT16_MAX, most_steps = size_t{1} << 15;
-  static constexpr uint64_t most_matched = uint64_t{1} << 24;  // so that a block's bits stay small too
+  static constexpr uint64_t most_matched = uint64_t{1} << 24;  // limits the number of bits in a block
 
-  // As far back as the match just before?
+  // Returns true if the previous match has the same distance and no literals follow it.
   bool goes_on(uint16_t behind) const { return literals_behind_ == 0 && steps_[step_count_].behind == behind; }
   void long_match(uint32_t length, uint16_t behind);
   void add_step(uint32_t length, uint16_t behind) {
@@ -62,12 +62,12 @@ class DeflateWriter {
   void write_steps(const Codes& codes);
 
   BitWriter out_;
-  // The block so far; literals after the last step follow. Ended ahead of what comes next, so that the last one is
-  // never empty.
+  // The current block. Literals may follow its last step. A block ends only when more data arrives, so that the last
+  // one is never empty.
   std::vector<uint8_t> literals_;
-  std::vector<Step> steps_;  // behind one that is farther than any
+  std::vector<Step> steps_;  // preceded by one farther than any possible distance
   size_t step_count_ = 0;
-  size_t literals_behind_ = 0;  // the last step
+  size_t literals_behind_ = 0;  // number of literals after the last step
   uint64_t matched_ = 0;        // bytes of long matches
 };
 

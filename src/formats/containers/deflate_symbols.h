@@ -1,4 +1,4 @@
-// The alphabets of deflate (RFC 1951, 3.2.5): which symbol and extra bits stand for a length or a distance.
+// The alphabets of deflate (RFC 1951, 3.2.5): the symbol and extra bits of a length or a distance.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@ constexpr unsigned literal_symbol_count = first_length_symbol + length_symbol_co
 constexpr uint32_t longest_match = 258;
 
 struct Symbol {
-  uint8_t index = 0;  // from the first length or distance symbol
+  uint8_t index = 0;  // counted from the first length or distance symbol
   uint8_t extra_count = 0;
   uint16_t extra = 0;
 };
 
-// From the third doubling on, each doubling of the value has `1 << split` symbols.
+// Returns the symbol of a value: from the third doubling on, each doubling of the value has `1 << split` symbols.
 constexpr Symbol split_symbol(uint32_t value, unsigned split) {
   const unsigned top = static_cast<unsigned>(std::bit_width(value >> split));
   const unsigned extra_count = top > 1 ? top - 1 : 0;
@@ -25,12 +25,12 @@ constexpr Symbol split_symbol(uint32_t value, unsigned split) {
           static_cast<uint16_t>(value & ((1U << extra_count) - 1))};
 }
 
-// Of 3 to 258; the longest has a symbol of its own.
+// Returns the symbol of a length from 3 to 258; the longest has its own symbol.
 constexpr Symbol length_symbol(uint32_t length) {
   return length == longest_match ? Symbol{length_symbol_count - 1, 0, 0} : split_symbol(length - 3, 2);
 }
 
-// Of 1 to 32768.
+// Returns the symbol of a distance from 1 to 32768.
 constexpr Symbol distance_symbol(uint32_t distance) { return split_symbol(distance - 1, 1); }
 
 }  // namespace ombre::formats

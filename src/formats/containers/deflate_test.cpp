@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-// What zlib makes of the stream.
+// Returns the bytes that zlib decodes from the stream.
 Bytes inflate_all(const DeflateWriter& writer, size_t expected) {
   Bytes bytes(expected + 1);
   z_stream stream{};
@@ -30,7 +30,7 @@ Bytes inflate_all(const DeflateWriter& writer, size_t expected) {
   return bytes;
 }
 
-// Writes and remembers.
+// Writes bytes to the stream and records them.
 struct Recorder {
   DeflateWriter writer;
   Bytes bytes;
@@ -86,7 +86,7 @@ TEST(Deflate, LongMatchesAndNoMatches) {
   zeros.literals({0});
   for (int i = 0; i < 5; ++i) zeros.match(10'000'000, 1);
   zeros.expect_same();
-  EXPECT_LT(zeros.writer.size(), 60'000U);  // 258 bytes in at least two bits
+  EXPECT_LT(zeros.writer.size(), 60'000U);  // 258 bytes need at least two bits
 
   for (const size_t count : {size_t{1}, size_t{65536}, size_t{131072}, size_t{200001}}) {
     Recorder plain;

@@ -1,4 +1,4 @@
-// Whole files in memory.
+// Reads whole files into memory.
 #include "formats/containers/file.h"
 
 #include <cerrno>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t least_chunk = size_t{64} << 10, largest_file = size_t{16} << 30;
 
-// Relative paths also say where they led.
+// Throws an error that also names the absolute path of a relative one.
 [[noreturn]] void throw_unreadable(const std::string& path, const std::string& reason, Code code = Code::cannot_read) {
   std::string message = "cannot read " + path + ": " + reason;
   std::error_code ignored;
@@ -41,7 +41,7 @@ std::string read_file(const std::string& path) {
     throw_unreadable(path, std::generic_category().message(errno),
                      errno == ENOENT ? Code::file_missing : Code::cannot_read);
 
-  // One byte more than the known size, so that the end is met without another chunk.
+  // With one byte more than the known size, the end of the file is detected without another chunk.
   const uintmax_t size = std::filesystem::file_size(path, ignored);
   std::string bytes(ignored ? least_chunk : static_cast<size_t>(size) + 1, '\0');
   size_t filled = 0;

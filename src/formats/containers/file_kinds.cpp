@@ -1,4 +1,4 @@
-// What files are that are given as meshes but are none.
+// Recognizes files that are given as meshes but have another format.
 #include "formats/containers/file_kinds.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view unpack = "unpack it";
 
 struct Kind {
-  std::string_view begin;  // of the file
+  std::string_view begin;  // first bytes of the file
   std::string_view what;
   std::string_view hint = {};
   bool is_other_mesh = false;

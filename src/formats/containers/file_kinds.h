@@ -1,4 +1,4 @@
-// What files are that are given as meshes but are none.
+// Recognizes files that are given as meshes but have another format.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,17 @@
 namespace ombre::formats {
 
 struct ForeignFile {
-  std::string what;            // "a PNG picture"
-  std::string hint;            // what to do instead; may be empty
+  std::string what;  // such as "a PNG picture"
+  std::string hint;  // what to do instead; may be empty
   bool is_other_mesh = false;  // of a format of meshes or solids that Ombre does not read
 };
 
-// What the first bytes show for certain. Nothing for what a reader of meshes may be able to read.
+// Returns the format that the first bytes prove; null if a reader of meshes may be able to read the file.
 std::optional<ForeignFile> foreign_file(std::string_view bytes);
 
-// Before its last other byte: some programs fill up texts with zeros.
+// Returns true if there are zero bytes before the last other byte; some programs pad text with trailing zeros.
 bool has_zeros(std::string_view bytes);
-// Text in UTF-8 or a code page: no control characters but those of lines and tabs.
+// Returns true for text in UTF-8 or a code page: the only control characters are line ends and tabs.
 bool is_plain_text(std::string_view bytes);
 
 }  // namespace ombre::formats

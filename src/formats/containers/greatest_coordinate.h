@@ -1,9 +1,9 @@
-// How far from 0 points of files may lie.
+// The limit on coordinates of points in files.
 #pragma once
 
 namespace ombre::formats {
 
-// Farther away, a double cannot tell micrometres apart.
+// Greatest magnitude; beyond it, doubles cannot resolve micrometres.
 inline constexpr double greatest_coordinate = 1e15;
 
 }  // namespace ombre::formats

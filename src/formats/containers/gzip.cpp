@@ -7,7 +7,7 @@
 namespace ombre::formats {
 namespace {
 
-// Shorter ones cost more than their bytes.
+// Repeats shorter than this cost more than their bytes.
 constexpr size_t shortest_repeat = 6;
 
 std::string little_endian(uint32_t value) {
@@ -18,7 +18,7 @@ std::string little_endian(uint32_t value) {
 
 }  // namespace
 
-// No time, no name, no system.
+// The header has no time, no name and no system.
 GzipWriter::GzipWriter(size_t number_bytes, size_t row_bytes)
     : out_("\x1F\x8B\x08\x00\x00\x00\x00\x00\x00\xFF", 10), distances_{static_cast<uint32_t>(number_bytes)} {
   if (row_bytes <= DeflateWriter::window && row_bytes > number_bytes)
@@ -45,7 +45,7 @@ void GzipWriter::add(const uint8_t* bytes, size_t count) {
 
 void GzipWriter::put(size_t begin) {
   const size_t end = bytes_.size();
-  size_t literals = begin;  // where those begin that are not yet put
+  size_t literals = begin;  // beginning of the literals not yet written
   for (size_t at = begin; at < end;) {
     size_t best = 0;
     uint32_t distance = 0;

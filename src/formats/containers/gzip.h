@@ -1,4 +1,4 @@
-// Gzip streams (RFC 1952) of grids of numbers, piece by piece.
+// Writes gzip streams (RFC 1952) of grids of numbers, piece by piece.
 #pragma once
 
 #include <array>
@@ -10,27 +10,27 @@
 
 namespace ombre::formats {
 
-// Finds what repeats the number before it or the one in the row before. The bytes depend on the numbers alone.
+// Finds repeats of the preceding number and of the number in the preceding row. The bytes depend only on the numbers.
 class GzipWriter {
  public:
-  // Numbers have `number_bytes`, rows `row_bytes`.
+  // Constructs a writer for numbers of `number_bytes` in rows of `row_bytes`.
   GzipWriter(size_t number_bytes, size_t row_bytes);
 
   void add(const uint8_t* bytes, size_t count);
   void finish();
-  // What is ready to be written; the caller gets it once.
+  // Returns the bytes that are ready and have not been returned yet.
   std::string take();
 
  private:
-  // How many bytes from `at` on equal those `distance` before.
+  // Returns the number of bytes from `at` on that equal those `distance` earlier.
   size_t repeated(size_t at, size_t distance, size_t end) const;
   void put(size_t begin);
 
   std::string out_;
   DeflateWriter deflate_;
-  std::vector<uint32_t> distances_;  // at which repeats are looked for
-  std::vector<uint8_t> bytes_;       // up to a window of those before, then those being added
-  uint32_t sum_ = 0, size_ = 0;      // CRC-32; bytes modulo 2^32
+  std::vector<uint32_t> distances_;  // distances at which repeats are searched for
+  std::vector<uint8_t> bytes_;       // up to a window of earlier bytes, then those being added
+  uint32_t sum_ = 0, size_ = 0;      // CRC-32; number of bytes modulo 2^32
 };
 
 }  // namespace ombre::formats

@@ -1,4 +1,4 @@
-// Loads the module of HDF5 when the first file is read or written.
+// Loads the module for HDF5 when the first file is read or written.
 #include "formats/containers/hdf5.h"
 
 #include "base/system/module_loader.h"

@@ -1,4 +1,4 @@
-// Arrays of numbers in files of HDF5. The library lies in a module that is loaded when it is needed.
+// Arrays of numbers in HDF5 files. The library is in a module that is loaded on demand.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace ombre::formats {
 struct Hdf5Array {
   enum class Kind : uint8_t { float32, float64, int64 };
 
-  std::string path;  // "/Mesh/geometry"; groups are made as they are needed
+  std::string path;  // such as "/Mesh/geometry"; groups are created as necessary
   Kind kind = Kind::float64;
-  std::vector<uint64_t> sizes;  // the last one changes fastest
+  std::vector<uint64_t> sizes;  // the last one varies fastest
   const void* numbers = nullptr;
 };
 
-// The bytes of a file; they do not depend on the time. Throws Error where the program was built without HDF5.
+// Returns the bytes of a file, which do not depend on the time. Throws Error in builds without HDF5.
 std::string hdf5_file(const std::vector<Hdf5Array>& arrays);
 
 struct Hdf5Numbers {
@@ -26,14 +26,14 @@ struct Hdf5Numbers {
   std::vector<double> values;
 };
 
-// The array at a path; nothing where there is none of numbers, or it is not whole. Throws Error where the bytes are no
-// HDF5 file, or the program was built without HDF5.
+// Returns the array at a path; null if there is none, if it has no numbers, or if it is incomplete. Throws Error if the
+// bytes are not an HDF5 file, and in builds without HDF5.
 std::optional<Hdf5Numbers> hdf5_numbers(std::string_view bytes, const std::string& path);
 
 }  // namespace ombre::formats
 
-// The functions that the module exports: false where it fails.
+// The functions that the module exports; they return false on failure.
 extern "C" bool ombre_hdf5_write(const std::vector<ombre::formats::Hdf5Array>* arrays, std::string* bytes);
-// `is_file` says whether the bytes are a file of HDF5 at all.
+// `is_file` is set to whether the bytes are an HDF5 file.
 extern "C" bool ombre_hdf5_read(std::string_view bytes, const char* path, ombre::formats::Hdf5Numbers* numbers,
                                 bool* is_file);

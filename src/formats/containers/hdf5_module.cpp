@@ -1,4 +1,4 @@
-// Files of HDF5 in memory: the module.
+// The module for HDF5 files in memory.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -10,10 +10,10 @@ namespace {
 using ombre::formats::Hdf5Array;
 using ombre::formats::Hdf5Numbers;
 
-constexpr size_t growth = size_t{1} << 20;  // of a file in memory, bytes
+constexpr size_t growth = size_t{1} << 20;  // bytes by which a file in memory grows
 constexpr uint64_t most_numbers = uint64_t{1} << 32;
 
-// An object of the library, which is closed at the end.
+// An object of the library that is closed by the destructor.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}

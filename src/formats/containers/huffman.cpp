@@ -11,7 +11,7 @@ namespace {
 
 constexpr unsigned most_bits = 15;
 
-// Symbols that occur, the rarest first.
+// Returns the symbols that occur, the rarest first.
 std::vector<uint16_t> by_count(std::span<const uint32_t> counts) {
   std::vector<uint16_t> symbols;
   for (size_t i = 0; i < counts.size(); ++i)
@@ -21,13 +21,13 @@ std::vector<uint16_t> by_count(std::span<const uint32_t> counts) {
   return symbols;
 }
 
-// Depths in the tree of least cost over leaves that are sorted by weight.
+// Returns the depths of the leaves, which are sorted by weight, in the optimal tree.
 std::vector<unsigned> tree_depths(const std::vector<uint64_t>& leaves) {
   const size_t n = leaves.size();
   std::vector<uint64_t> weights(leaves);
   std::vector<size_t> parents(2 * n - 1);
   size_t leaf = 0, inner = n;
-  // Leaves and the inner nodes made of them are both in order, so the lightest is at one of two places.
+  // Leaves and inner nodes are each in ascending order, so the lightest node is the next of one of them.
   const auto take_lightest = [&] {
     return leaf < n && (inner == weights.size() || weights[leaf] <= weights[inner]) ? leaf++ : inner++;
   };
@@ -42,19 +42,19 @@ std::vector<unsigned> tree_depths(const std::vector<uint64_t>& leaves) {
   return depths;
 }
 
-using LengthCounts = std::array<int, most_bits + 1>;  // how many codes have each length
+using LengthCounts = std::array<int, most_bits + 1>;  // number of codes of each length
 
-// Cuts what is deeper than `longest`, and makes room there by lengthening the codes next above.
+// Limits depths to `longest`, and lengthens the codes on the next higher levels to make room.
 LengthCounts bounded(const std::vector<unsigned>& depths, unsigned longest) {
   LengthCounts counts{};
   for (const unsigned depth : depths) ++counts[std::clamp(depth, 1U, longest)];
-  // In units of the longest code's share of all bit strings.
+  // The excess is in units of the longest code's share of the code space.
   int64_t excess = -(int64_t{1} << longest);
   for (unsigned length = 1; length <= longest; ++length) excess += int64_t{counts[length]} << (longest - length);
   for (; excess > 0; --excess) {
     unsigned length = longest - 1;
     while (counts[length] == 0) --length;
-    // One code moves a level down and takes a code of the deepest level as its neighbour.
+    // One code moves down a level, and a code of the deepest level becomes its sibling.
     --counts[length];
     counts[length + 1] += 2;
     --counts[longest];

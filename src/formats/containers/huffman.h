@@ -6,11 +6,11 @@
 
 namespace ombre::formats {
 
-// A length for each symbol that occurs, 0 for the others; a lone symbol gets 1. At most `longest` bits, which
-// must suffice for the number of symbols. Equal counts give equal lengths on every machine.
+// Chooses a length for each symbol that occurs and 0 for the others; a single symbol gets 1. Lengths are at most
+// `longest` bits, which must suffice for the number of symbols. Equal counts give equal lengths on every machine.
 void choose_code_lengths(std::span<const uint32_t> counts, unsigned longest, std::span<uint8_t> lengths);
 
-// The codes that belong to lengths, ready to be written lowest bit first.
+// Assigns the codes of the given lengths, bit-reversed for writing the lowest bit first.
 void assign_codes(std::span<const uint8_t> lengths, std::span<uint16_t> codes);
 
 }  // namespace ombre::formats

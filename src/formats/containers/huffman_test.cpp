@@ -17,7 +17,7 @@ std::vector<uint8_t> lengths_for(const std::vector<uint32_t>& counts, unsigned l
   return lengths;
 }
 
-// The share of all bit strings that the codes take (Kraft's sum); 1 for a complete code.
+// Returns the share of the code space that the codes use (Kraft's sum); 1 for a complete code.
 double share(const std::vector<uint8_t>& lengths) {
   double sum = 0;
   for (const uint8_t length : lengths)
@@ -61,7 +61,7 @@ TEST(Huffman, DyadicCountsGetTheirEntropy) {
 }
 
 TEST(Huffman, LengthsStayWithinTheirBound) {
-  // Fibonacci's numbers make the deepest trees.
+  // Fibonacci numbers give the deepest trees.
   std::vector<uint32_t> counts = {1, 1};
   while (counts.size() < 40) counts.push_back(counts[counts.size() - 1] + counts[counts.size() - 2]);
   EXPECT_EQ(*std::max_element(counts.begin(), counts.end()), 102334155U);
@@ -79,7 +79,7 @@ TEST(Huffman, ALoneSymbolTakesABit) {
 }
 
 TEST(Huffman, CodesFollowTheExampleOfTheStandard) {
-  // RFC 1951, 3.2.2: the codes 010 011 100 101 110 00 1110 1111, here with their first bit lowest.
+  // The example of RFC 1951, 3.2.2, has the codes 010 011 100 101 110 00 1110 1111; here their first bit is the lowest.
   const std::vector<uint8_t> lengths = {3, 3, 3, 3, 3, 2, 4, 4};
   std::vector<uint16_t> codes(lengths.size());
   assign_codes(lengths, codes);

@@ -1,4 +1,4 @@
-// The bytes of a file that is never whole in memory.
+// The bytes of a file that is never completely in memory.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace ombre::formats {
 
 using ByteSink = std::function<void(std::string_view)>;
 
-// Rows that are made when it is their turn, as often as somebody reads them. What rows refer to must live as long.
+// A sequence of rows, each generated whenever it is read. Objects that rows refer to must outlive it.
 class LazyBytes {
  public:
-  using Row = std::function<void(std::string& bytes, size_t index)>;  // appends
+  using Row = std::function<void(std::string& bytes, size_t index)>;  // appends the row's bytes
 
   void add(std::string bytes);
   void add_rows(size_t count, Row row);
-  // The others, behind what is there.
+  // Appends the rows of another sequence.
   void add(const LazyBytes& others);
 
-  // All of them in order, in pieces of some 64 KiB.
+  // Writes all bytes in order, in pieces of about 64 KiB.
   void write(const ByteSink& sink) const;
   uint64_t size() const;
 
@@ -34,12 +34,12 @@ class LazyBytes {
   std::vector<Rows> parts_;
 };
 
-// Reads piece by piece.
+// Reads the bytes piece by piece.
 class LazyBytesReader {
  public:
   explicit LazyBytesReader(const LazyBytes& bytes) : bytes_(bytes) {}
 
-  // The next bytes, some 64 KiB of them; empty at the end. They stay until the next call.
+  // Returns the next bytes, about 64 KiB, or none at the end. They are valid until the next call.
   std::string_view next();
 
  private:

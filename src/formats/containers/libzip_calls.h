@@ -1,4 +1,4 @@
-// libzip's functions as its module hands them over.
+// libzip's functions, as its module passes them.
 #pragma once
 
 #include <zip.h>
@@ -6,7 +6,7 @@
 namespace ombre::formats {
 
 struct LibzipCalls {
-  // Archives.
+  // Functions of archives.
   decltype(&zip_open) open = zip_open;
   decltype(&zip_open_from_source) open_from_source = zip_open_from_source;
   decltype(&zip_close) close = zip_close;
@@ -14,7 +14,7 @@ struct LibzipCalls {
   decltype(&zip_get_error) get_error = zip_get_error;
   decltype(&zip_strerror) strerror = zip_strerror;
 
-  // Entries.
+  // Functions of entries.
   decltype(&zip_get_num_entries) get_num_entries = zip_get_num_entries;
   decltype(&zip_get_name) get_name = zip_get_name;
   decltype(&zip_stat_index) stat_index = zip_stat_index;
@@ -28,13 +28,13 @@ struct LibzipCalls {
   decltype(&zip_file_get_external_attributes) file_get_external_attributes = zip_file_get_external_attributes;
   decltype(&zip_set_file_compression) set_file_compression = zip_set_file_compression;
 
-  // Sources of bytes.
+  // Functions of sources of bytes.
   decltype(&zip_source_buffer_create) source_buffer_create = zip_source_buffer_create;
   decltype(&zip_source_function) source_function = zip_source_function;
   decltype(&zip_source_make_command_bitmap) source_make_command_bitmap = zip_source_make_command_bitmap;
   decltype(&zip_source_free) source_free = zip_source_free;
 
-  // Errors.
+  // Functions of errors.
   decltype(&zip_error_init) error_init = zip_error_init;
   decltype(&zip_error_init_with_code) error_init_with_code = zip_error_init_with_code;
   decltype(&zip_error_fini) error_fini = zip_error_fini;

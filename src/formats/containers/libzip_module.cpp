@@ -1,4 +1,4 @@
-// Zip archives by libzip: the module.
+// The module that links libzip.
 #include "formats/containers/libzip_calls.h"
 
 extern "C" const ombre::formats::LibzipCalls* ombre_libzip_calls() {

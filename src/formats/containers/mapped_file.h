@@ -1,4 +1,4 @@
-// Files that the system reads where they are used, and lets go of where they are not.
+// Files mapped into memory, which the system reads and evicts on demand.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace ombre::formats {
 
-// The bytes of a file as a part of memory that takes no room. The file must not change as long as this lives.
+// The bytes of a mapped file. The file must not change during the lifetime of this object.
 class MappedFile {
  public:
-  // Throws Error, naming the path and the reason.
+  // Maps a file. Throws Error, naming the path and the reason.
   explicit MappedFile(const std::string& path);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;

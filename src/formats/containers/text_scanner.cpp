@@ -1,4 +1,4 @@
-// Reads words and numbers out of a text format, with messages that point at the word that is wrong.
+// Reads words and numbers from a text format; messages point at the invalid word.
 #include "formats/containers/text_scanner.h"
 
 #include <algorithm>
@@ -12,20 +12,21 @@
 namespace ombre::formats {
 namespace {
 
-// Above this, a copy of the text for the sake of one message costs too much.
+// Size of a text above which copying it for one message is too expensive.
 constexpr size_t most_quotable_bytes = size_t{64} << 20;
 
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && !is_blank(c) && !is_line_end(c); }
 
-// Numbers below the least double are reported like those above the greatest; they are zero.
+// Returns true if the number is out of range because it is too close to zero; from_chars reports both kinds alike.
 bool is_tiny(std::string_view number) {
   const size_t e = number.find_first_of("eE");
   return e == std::string_view::npos || number.substr(e + 1, 1) == "-";
 }
 
-// A number of FORTRAN (1.5D+02, 1.5+102) or with one decimal comma as C writes it; empty if it is neither.
+// Returns the C spelling of a number in FORTRAN's form (1.5D+02, 1.5+102) or with one decimal comma; empty if it is
+// neither.
 std::string usual_spelling(std::string_view number) {
   constexpr size_t longest = 64;
   if (number.empty() || number.size() > longest) return {};
@@ -171,7 +172,7 @@ double TextScanner::unusual_number(std::string_view text, std::string_view what)
 
 double TextScanner::coordinate(std::string_view what) {
   const double value = number(what);
-  if (std::abs(value) <= greatest_coordinate) return value + 0.0;  // -0 becomes 0
+  if (std::abs(value) <= greatest_coordinate) return value + 0.0;  // maps -0 to 0
   const std::string_view text = bytes_.substr(word_begin_, word_end_ - word_begin_);
   if (std::isnan(value))
     fail_at_word("expected " + std::string(what) + ", found " + quoted(text) + ", which is not a number");

@@ -1,4 +1,4 @@
-// Reads words and numbers out of a text format, with messages that point at the word that is wrong.
+// Reads words and numbers from a text format; messages point at the invalid word.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace ombre::formats {
 
-// Reports about a file without pointing into it, and ends its reading by DesignError.
+// Reports an error in a file without a position, and throws DesignError.
 [[noreturn]] void fail(Diagnostics& diagnostics, const std::string& name, const std::string& message,
                        std::string hint = "");
 
-// A word as a message shows it: in quotes, shortened, printable.
+// Returns a word for messages: in quotes, shortened and printable.
 std::string quoted(std::string_view word, size_t longest = 40);
 
-// Failures are reported and end the reading by DesignError; each reader catches it at its entrance.
+// Scans a text. Errors are reported, and DesignError is thrown; each reader catches it in its outermost function.
 class TextScanner {
  public:
   struct Syntax {
-    char comment = '\0';           // from here to the line's end; NUL: there are none
-    bool continues_lines = false;  // a backslash at a line's end joins the next line
+    char comment = '\0';           // begins a comment up to the end of the line; NUL if there are no comments
+    bool continues_lines = false;  // a backslash at the end of a line joins the next line
   };
 
   TextScanner(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, Syntax syntax);
@@ -32,26 +32,26 @@ class TextScanner {
   size_t position() const { return at_; }
   void go_to(size_t position) { at_ = position; }
   size_t remaining() const { return bytes_.size() - at_; }
-  bool at_end();       // past blanks, empty lines and comments
-  bool at_line_end();  // past blanks and comments
-  void next_line();    // past the rest of this line
-  // Whether so many lines with words follow, what is left of this one among them.
+  bool at_end();       // true at the end of the text, after skipping blanks, empty lines and comments
+  bool at_line_end();  // true at the end of the line, after skipping blanks and comments
+  void next_line();    // skips the rest of this line
+  // Returns true if at least this many lines with words follow, including the rest of this one.
   bool has_lines(uint64_t count) const;
 
-  std::string_view word();          // in this line or a later one; empty at the end
-  std::string_view word_in_line();  // empty at the line's end
-  std::string_view rest_of_line();  // trimmed; the line end stays
+  std::string_view word();          // in this line or a later one; empty at the end of the text
+  std::string_view word_in_line();  // empty at the end of the line
+  std::string_view rest_of_line();  // trimmed, without consuming the line end
 
-  // The next number in any line, also as FORTRAN programs write them (1.5D+02, 1.5+102), or with a decimal comma, which
-  // is warned of. `what` is for the message: "the x of a vertex".
+  // Reads the next number in any line. FORTRAN's forms (1.5D+02, 1.5+102) are accepted, as is a decimal comma, which
+  // causes a warning. `what` is used in messages: "the x of a vertex".
   double number(std::string_view what);
-  // One that fits a vertex: finite, within greatest_coordinate.
+  // Reads a coordinate, which must be finite and within greatest_coordinate.
   double coordinate(std::string_view what);
   Vec3 point(std::string_view what);
-  // A whole number of at least 0.
+  // Reads an integer of at least 0.
   uint64_t count(std::string_view what);
 
-  // Points at bytes [begin, end), at the last word, or at where the scanner stands.
+  // These report an error at the bytes [begin, end), at the last word, or at the current position.
   [[noreturn]] void fail_at(size_t begin, size_t end, const std::string& message, std::string hint = "") const;
   [[noreturn]] void fail_at_word(const std::string& message, std::string hint = "") const;
   [[noreturn]] void fail_here(const std::string& message, std::string hint = "") const;

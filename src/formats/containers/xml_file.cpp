@@ -13,9 +13,9 @@
 namespace ombre::formats {
 namespace {
 
-// What pugixml keeps of an element or a text, and of an attribute.
+// Size of pugixml's data for an element or text, and for an attribute.
 constexpr uint64_t node_bytes = 64, attribute_bytes = 40;
-// No comments, no DOCTYPE; text in its element.
+// Comments and DOCTYPE are skipped; text is stored in its element.
 constexpr unsigned parse_options =
     pugi::parse_minimal | pugi::parse_escapes | pugi::parse_cdata | pugi::parse_embed_pcdata;
 
@@ -44,7 +44,7 @@ XmlFile::XmlFile(std::string name, std::string_view text, Diagnostics& diagnosti
   fail_at(place, place, std::string("this is not XML: ") + to_lower(result.description()), "the file may be cut short");
 }
 
-// Each element begins with <, as does each end; each attribute has its =.
+// Each element begins with <, as does each end; each attribute has a =.
 void XmlFile::check_size() const {
   uint64_t bytes = 0;
   for (const char c : text_) bytes += c == '<' ? node_bytes : c == '=' ? attribute_bytes : 0;
@@ -79,14 +79,14 @@ double XmlFile::number(pugi::xml_node node, std::string_view text, std::string_v
   const char* const end = digits.data() + digits.size();
   const auto [stop, status] = std::from_chars(digits.data(), end, value);
   if (stop == end && status == std::errc() && std::isfinite(value)) return value;
-  // Below the least double.
+  // The magnitude is below the least double.
   if (stop == end && status == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos) return 0;
   fail_at(node, "expected " + std::string(what) + ", found " + quoted(text));
 }
 
 double XmlFile::coordinate(pugi::xml_node node, std::string_view text, std::string_view what) const {
   const double value = number(node, text, what);
-  if (std::abs(value) <= greatest_coordinate) return value + 0.0;  // -0 becomes 0
+  if (std::abs(value) <= greatest_coordinate) return value + 0.0;  // maps -0 to 0
   fail_at(node, std::string(what) + " is too large: " + quoted(text), "coordinates may go up to 1e15");
 }
 
@@ -100,12 +100,12 @@ uint64_t XmlFile::count(pugi::xml_node node, std::string_view text, std::string_
 }
 
 void XmlFile::fail_at(pugi::xml_node node, const std::string& message, const std::string& hint) const {
-  // The place of its name, behind <.
+  // The position is that of the name, which follows <.
   const auto name_begin = static_cast<size_t>(std::max<ptrdiff_t>(node.offset_debug(), 1));
   fail_at(name_begin - 1, name_begin + std::string_view(node.name()).size(), message, hint);
 }
 
-// Places in a text that was converted from UTF-16 may lie behind its end.
+// Positions in a text converted from UTF-16 may be beyond its end.
 void XmlFile::fail_at(size_t begin, size_t end, const std::string& message, const std::string& hint) const {
   TextScanner(name_, text_, diagnostics_)
       .fail_at(std::min(begin, text_.size()), std::min(end, text_.size()), message, hint);

@@ -1,4 +1,4 @@
-// XML by pugixml, with messages that point at the element that is wrong. Only for files that are built with it.
+// Reads XML by pugixml; messages point at the invalid element. Only for builds with pugixml.
 #pragma once
 
 #include <cstdint>
@@ -11,34 +11,34 @@
 
 namespace ombre::formats {
 
-// The name without the prefix of its namespace.
+// Returns the name without its namespace prefix.
 std::string_view local_name(const char* name);
 inline std::string_view local_name(pugi::xml_node node) { return local_name(node.name()); }
 
-// Takes the next word off a list of them; empty at the end.
+// Removes the next word from a list and returns it; empty at the end.
 std::string_view next_word(std::string_view& text);
 
-// Entities of a file's own stay as they are written, nothing else is read. Failures are reported and end the reading
-// by DesignError.
+// An XML document. Entities defined by the file stay unexpanded, and nothing else is loaded. Errors are reported, and
+// DesignError is thrown.
 class XmlFile {
  public:
-  // For the tree; a copy of the text comes to it.
+  // Limit on the tree; a copy of the text is needed in addition.
   static constexpr uint64_t most_tree_bytes = uint64_t{4} << 30;
 
-  // `name` is for messages. The text must live as long.
+  // Parses a text, which must outlive this object; `name` is used in messages.
   XmlFile(std::string name, std::string_view text, Diagnostics& diagnostics);
 
-  // Its outermost element, which must have that name.
+  // Returns the root element, which must have that name.
   pugi::xml_node root(std::string_view wanted) const;
 
-  // An attribute by its local name; nothing if it is missing.
+  // Returns an attribute by its local name, or null.
   std::optional<std::string_view> attribute(pugi::xml_node node, std::string_view wanted) const;
-  // One that must be there.
+  // Returns an attribute that must exist.
   std::string_view required(pugi::xml_node node, std::string_view wanted) const;
 
-  // What `text` within `node` says; `what` is for messages.
+  // Parses `text` from `node`; `what` is used in messages.
   double number(pugi::xml_node node, std::string_view text, std::string_view what) const;
-  // One that fits a vertex: finite, within greatest_coordinate.
+  // Parses a coordinate, which must be finite and within greatest_coordinate.
   double coordinate(pugi::xml_node node, std::string_view text, std::string_view what) const;
   uint64_t count(pugi::xml_node node, std::string_view text, std::string_view what) const;
 

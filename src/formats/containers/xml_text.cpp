@@ -12,7 +12,7 @@ size_t sequence_length(unsigned char first) {
   return first >= 0xF0 && first < 0xF5 ? 4 : 0;
 }
 
-// The length of the character at the beginning of the text; 0 if it is none that XML can hold.
+// Returns the length of the first character of the text; 0 if XML cannot hold it.
 size_t character_length(std::string_view text) {
   const size_t length = sequence_length(static_cast<unsigned char>(text[0]));
   if (length == 0 || length > text.size()) return 0;

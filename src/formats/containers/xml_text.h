@@ -1,4 +1,4 @@
-// XML as text.
+// Writes XML as text.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,14 @@ namespace ombre::formats {
 
 inline constexpr std::string_view xml_declaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
-// For text and for attributes in double quotes. What XML cannot hold (control characters, wrong UTF-8) becomes '?'.
+// Escapes text and attributes in double quotes. Characters that XML cannot hold (control characters, invalid UTF-8)
+// become '?'.
 std::string xml_escaped(std::string_view text);
 
-// ` name="value"`
+// Returns ` name="value"`.
 std::string xml_attribute(std::string_view name, std::string_view value);
 
-// "#RRGGBB" of three parts, "#RRGGBBAA" of four.
+// Returns "#RRGGBB" for three components, "#RRGGBBAA" for four.
 std::string hex_colour(std::span<const uint8_t> parts);
 
 }  // namespace ombre::formats

@@ -16,19 +16,19 @@
 namespace ombre::formats {
 namespace {
 
-// Loaded when the first archive is read or written.
+// libzip is loaded when the first archive is read or written.
 const LibzipCalls& libzip() {
   static const LibzipCalls& calls = *load_function<decltype(ombre_libzip_calls)>(zip_module, "ombre_libzip_calls")();
   return calls;
 }
 
-// 1980-01-01 00:00, the first date there is.
+// The earliest date in zip files: 1980-01-01 00:00.
 constexpr uint16_t first_date = 1 << 5 | 1, midnight = 0;
 
-// A tenth more bytes than at level 9, in an eighth of the time.
+// At this level files are a tenth larger than at level 9, in an eighth of the time.
 constexpr uint32_t compression_level = 5;
 
-// An entry's bytes as libzip asks for them.
+// The bytes of an entry, as a source for libzip.
 class EntrySource {
  public:
   explicit EntrySource(const LazyBytes& bytes) : bytes_(bytes), size_(bytes.size()) {}
@@ -103,7 +103,7 @@ class EntrySource {
   throw std::runtime_error(libzip().error_strerror(error));
 }
 
-// An archive that is not written unless it is closed.
+// Discards an archive that was not closed.
 struct Discard {
   void operator()(zip_t* archive) const { libzip().discard(archive); }
 };
@@ -121,7 +121,7 @@ Archive create(const std::string& path) {
 void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
   zip_source_t* const source = libzip().source_function(archive, &EntrySource::call, &bytes);
   if (!source) throw_failure(libzip().get_error(archive));
-  // Names are ASCII. With ZIP_FL_ENC_UTF_8 the bytes would depend on the version of libzip.
+  // Names are ASCII. With ZIP_FL_ENC_UTF_8, the bytes would depend on the version of libzip.
   const zip_int64_t index = libzip().file_add(archive, name.c_str(), source, ZIP_FL_ENC_GUESS);
   if (index < 0) {
     libzip().source_free(source);
@@ -138,7 +138,7 @@ int hex_digit(char c) {
   return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-// Names that stand for the same entry have the same key.
+// Returns a key that is equal for all spellings of an entry's name.
 std::string name_key(std::string_view name) {
   const std::string lower = to_lower(name);
   std::string key;
@@ -162,7 +162,7 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
   Archive archive = create(path);
   for (size_t i = 0; i < entries.size(); ++i) add(archive.get(), entries[i].name, *sources[i]);
   if (libzip().close(archive.get()) != 0) throw_failure(libzip().get_error(archive.get()));
-  static_cast<void>(archive.release());  // closed
+  static_cast<void>(archive.release());  // closing has freed it
 }
 
 bool can_write_zip() { return true; }
@@ -202,7 +202,7 @@ std::optional<size_t> ZipReader::find(const std::string& entry) const {
   return near->second;
 }
 
-// What an entry promises is believed only where it says that reading is not worth while.
+// The sizes stated by an entry are used only to reject it early.
 void ZipReader::check(const std::string& entry, const struct zip_stat& stat) const {
   if ((stat.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && stat.encryption_method != ZIP_EM_NONE)
     fail_entry(entry, "is encrypted", "save it without a password");
@@ -232,7 +232,7 @@ std::string ZipReader::read(const std::string& entry) {
                                                                libzip().fclose);
   if (!file) fail_entry(entry, std::string("cannot be unpacked: ") + libzip().strerror(archive_));
 
-  // Room is made as bytes come.
+  // Memory is allocated as bytes arrive.
   constexpr uint64_t piece = uint64_t{1} << 20;
   std::string bytes;
   for (;;) {

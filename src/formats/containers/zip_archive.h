@@ -1,4 +1,4 @@
-// Zip archives by libzip. There is no reader in builds without it.
+// Zip archives by libzip. Builds without it have no reader.
 #pragma once
 
 #include <cstdint>
@@ -25,35 +25,34 @@ struct ZipEntry {
   LazyBytes bytes;
 };
 
-// Compressed, all dated 1980-01-01. Throws std::system_error where the disk fails, std::runtime_error otherwise,
-// Error in builds without libzip. The file is made under another name beside `path` and renamed.
+// Writes a compressed archive with all entries dated 1980-01-01. It is written under another name beside `path` and
+// renamed. Throws std::system_error for I/O errors, std::runtime_error for others, and Error in builds without libzip.
 void write_zip(const std::string& path, const std::vector<ZipEntry>& entries);
-// False in builds without libzip.
+// Returns false in builds without libzip.
 bool can_write_zip();
 
 inline bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
-// Reads entries into memory; nothing is ever unpacked onto the disk. What is wrong with the archive is reported and
-// ends the reading by DesignError.
+// Reads entries into memory, never to disk. Errors in the archive are reported, and DesignError is thrown.
 class ZipReader {
  public:
-  // More than this in all, or packed more tightly than meshes ever are, is taken for an attack.
+  // Limits; archives that exceed them, or are packed more tightly than meshes ever are, are treated as attacks.
   static constexpr uint64_t most_bytes = uint64_t{1} << 30;
   static constexpr uint64_t most_entries = 10'000;
   static constexpr uint64_t most_ratio = 200, small_entry_bytes = uint64_t{16} << 20;
 
-  // `name` and the bytes must live as long. `ratio` is how tightly files may be packed.
+  // Opens an archive; `name` and the bytes must outlive this object. `ratio` is the greatest compression ratio.
   ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, uint64_t ratio = most_ratio);
   ~ZipReader();
   ZipReader(const ZipReader&) = delete;
   ZipReader& operator=(const ZipReader&) = delete;
 
   const std::vector<std::string>& names() const { return names_; }
-  // Names are compared as OPC does, and as its careless writers need it: either case, / or \, %20 for a blank, with or
-  // without / and ./ at the beginning. A name that fits exactly comes first.
+  // Names are compared as in OPC, with tolerance for incorrect writers: in either case, with / or \, with %20 for a
+  // blank, with or without a leading / or ./. An exact match takes precedence.
   bool has(const std::string& entry) const { return find(entry).has_value(); }
   std::string read(const std::string& entry);
-  // Does the archive say that the entry is a symbolic link, as those of Unix can?
+  // Returns true if the archive marks the entry as a symbolic link.
   bool is_link(const std::string& entry) const;
 
  private:
@@ -66,8 +65,8 @@ class ZipReader {
   Diagnostics& diagnostics_;
   uint64_t ratio_;
   zip* archive_ = nullptr;
-  std::vector<std::string> names_;        // as in the archive, by index
-  std::map<std::string, size_t> by_key_;  // the first of each
+  std::vector<std::string> names_;        // in the order of the archive
+  std::map<std::string, size_t> by_key_;  // the first entry of each key
   uint64_t bytes_read_ = 0;
 };
 

@@ -22,7 +22,7 @@ ZipReader::ZipReader(const std::string& name, std::string_view, Diagnostics& dia
 
 ZipReader::~ZipReader() = default;
 
-// Nobody has a reader of these builds.
+// No reader can be constructed in these builds.
 std::optional<size_t> ZipReader::find(const std::string&) const { return std::nullopt; }
 bool ZipReader::is_link(const std::string&) const { return false; }
 std::string ZipReader::read(const std::string&) { return ""; }

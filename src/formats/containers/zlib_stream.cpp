@@ -12,8 +12,8 @@ constexpr uint64_t modulus = 65521;
 void Adler32::add(const uint8_t* bytes, size_t count) { sum_ = libdeflate_adler32(sum_, bytes, count); }
 
 void Adler32::add_repeated(std::array<uint8_t, 4> pixel, uint32_t times) {
-  // `low` sums the bytes, `high` sums `low` after each byte. One pixel adds `sum` to the first and
-  // 4 low + `weighted` to the second.
+  // `low` sums the bytes, `high` sums `low` after each byte. One pixel adds `sum` to the first and 4 low + `weighted`
+  // to the second.
   const uint64_t low = sum_ & 0xFFFF, high = sum_ >> 16, n = times;
   const uint64_t p = pixel[0], q = pixel[1], r = pixel[2], s = pixel[3];
   const uint64_t sum = p + q + r + s, weighted = 4 * p + 3 * q + 2 * r + s;

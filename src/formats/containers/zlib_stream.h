@@ -1,4 +1,4 @@
-// What goes into the data of an image: a deflate stream with zlib's header and checksum around it.
+// The data of an image: a deflate stream with zlib's header and checksum.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace ombre::formats {
 
-// The checksum of zlib (RFC 1950, 9). Repeated pixels count by formula.
+// The checksum of zlib (RFC 1950, 9). Repeated pixels are added by a formula.
 class Adler32 {
  public:
   void add(const uint8_t* bytes, size_t count);
@@ -19,7 +19,7 @@ class Adler32 {
   uint32_t sum_ = 1;
 };
 
-// Whoever writes tells both what the bytes are and how to deflate them.
+// The stream and its checksum: a writer adds each byte to `sum` and its encoding to `deflate`.
 struct ZlibStream {
   Adler32 sum;
   DeflateWriter deflate;

@@ -1,4 +1,4 @@
-// Arcs of ellipses as chords.
+// Approximates arcs of ellipses by chords.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace ombre::formats {
 
-// A point is center + cos(t) * first + sin(t) * second.
+// An arc whose points are center + cos(t) * first + sin(t) * second.
 struct EllipseArc {
   Vec2 center, first, second;
   double begin = 0, turn = 2 * std::numbers::pi;  // radians
@@ -17,7 +17,7 @@ struct EllipseArc {
   Vec2 at(double t) const { return center + math::cos(t) * first + math::sin(t) * second; }
 };
 
-// Appends points from the arc's begin to its end, both included.
+// Appends points from the beginning of the arc to its end, both included.
 inline void append_arc(const EllipseArc& arc, int chords_per_turn, Ring& ring) {
   const double share = std::abs(arc.turn) / (2 * std::numbers::pi);
   const int chords = std::max(1, static_cast<int>(std::ceil(share * chords_per_turn - 1e-9)));

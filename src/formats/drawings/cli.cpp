@@ -1,4 +1,4 @@
-// Common Layer Interface, version 2.0, ASCII.
+// Writes Common Layer Interface files, version 2.0, ASCII.
 #include "formats/drawings/cli.h"
 
 #include "formats/containers/append_numbers.h"
@@ -6,9 +6,9 @@
 namespace ombre::formats {
 namespace {
 
-constexpr char inner = '0', outer = '1';  // directions: clockwise, counter-clockwise
+constexpr char inner = '0', outer = '1';  // orientations: clockwise, counter-clockwise
 
-// Commas part what a command says, dollars begin the next one.
+// Replaces characters with a meaning in CLI: commas separate parameters, and $ begins a command.
 std::string plain(const std::string& name) {
   std::string text = name;
   for (char& c : text)

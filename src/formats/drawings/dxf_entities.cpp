@@ -47,7 +47,7 @@ class DocumentReader {
   }
 
   void read_sections();
-  // The entities up to the end of a section or block.
+  // Reads the entities up to the end of a section or block.
   void read_entities(std::vector<DxfEntity>& entities, DxfPair& pair);
   void read_blocks(DxfPair& pair);
   void add_vertex(std::vector<DxfEntity>& entities, const DxfEntity& vertex) const;
@@ -99,7 +99,7 @@ void DocumentReader::read_blocks(DxfPair& pair) {
     if (pair.code == 0 && pair.value == "ENDSEC") return;
     if (pair.code != 0 || pair.value != "BLOCK") continue;
     std::vector<DxfEntity> entities{{"BLOCK", {}}};
-    // The block's own values stand before its first entity.
+    // The block's own values precede its first entity.
     const size_t begin = at_;
     while (next(pair) && pair.code != 0) entities[0].pairs.push_back(pair);
     const DxfValues values(scanner_, entities[0]);

@@ -1,4 +1,4 @@
-// What DXF files hold, before it becomes lines: entities with their values, and blocks of them.
+// The contents of DXF files before conversion to lines: entities with their values, and blocks of entities.
 #pragma once
 
 #include <map>
@@ -12,21 +12,21 @@
 
 namespace ombre::formats {
 
-// A code that says what the value is.
+// A value with its group code, which determines its meaning.
 struct DxfPair {
   int code = 0;
   std::string_view value;
-  size_t begin = 0, end = 0;  // of the value
+  size_t begin = 0, end = 0;  // position of the value
 };
 
 struct DxfEntity {
   std::string_view kind;
   std::vector<DxfPair> pairs;
-  std::vector<Vec2> vertices = {};  // of polylines
-  std::vector<double> bulges = {};  // one for each
+  std::vector<Vec2> vertices = {};  // vertices of a polyline
+  std::vector<double> bulges = {};  // one per vertex
 };
 
-// Numbers of one entity, each by its code.
+// The numbers of one entity by their codes.
 class DxfValues {
  public:
   DxfValues(const TextScanner& scanner, const DxfEntity& entity) : scanner_(scanner), entity_(entity) {}
@@ -52,7 +52,7 @@ struct DxfDocument {
   std::map<std::string, DxfBlock, std::less<>> blocks;
 };
 
-// The values of the document point into `bytes`. Reports what is no DXF in text form, and throws DesignError.
+// Reads a document, whose values refer to `bytes`. Throws DesignError after reporting if it is not DXF in text form.
 DxfDocument read_dxf_document(const std::string& name, std::string_view bytes, const TextScanner& scanner,
                               Diagnostics& diagnostics);
 

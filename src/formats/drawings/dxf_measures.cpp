@@ -10,7 +10,8 @@ namespace {
 
 double angle_of(Vec2 way) { return math::atan2(way.y, way.x) / math::degree; }
 
-// Group code 70 says the kind, codes 10, 13, 14, 15 and 16 are its points (DXF reference, DIMENSION).
+// Returns the value of a dimension. Group code 70 is the kind; codes 10, 13, 14, 15 and 16 are points (DXF reference,
+// DIMENSION).
 std::optional<double> value_of(const DxfValues& values) {
   constexpr int kinds = 7, x_ordinate = 64;
   const int flags = static_cast<int>(values.number(70));

@@ -1,4 +1,4 @@
-// What drawings say of themselves: dimensions by name, and where lines cross.
+// Measures in drawings: named dimensions, and lines whose crossings are needed.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace ombre::formats {
 
-// A DIMENSION: horizontal, vertical, turned or aligned, a radius or a diameter in units of the drawing, an angle in
-// degrees, or an ordinate. Nothing for other kinds.
+// A DIMENSION: horizontal, vertical, rotated or aligned, a radius or a diameter in units of the drawing, an angle in
+// degrees, or an ordinate. The value is null for other kinds.
 struct DxfDimension {
-  std::string name, layer;  // its text
+  std::string name, layer;  // the name is the dimension's text
   std::optional<double> value;
   bool is_angle = false;
 };
@@ -29,7 +29,7 @@ struct DxfMeasures {
   std::vector<DxfLine> lines;
 };
 
-// Nothing, and diagnostics, for what is no DXF.
+// Returns the measures; null, with diagnostics, if the bytes are not DXF.
 std::optional<DxfMeasures> read_dxf_measures(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 }  // namespace ombre::formats

@@ -11,10 +11,10 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int deepest = 16;  // blocks within each other
+constexpr int deepest = 16;  // greatest depth of nested blocks
 constexpr size_t most_points = 10'000'000;
 
-// A quarter of the angle that an arc between two points spans has this tangent.
+// Appends an arc between two points; `bulge` is the tangent of a quarter of its angle.
 template <class Chords>
 void append_bulge(Vec2 from, Vec2 to, double bulge, const Chords& chords, Ring& ring) {
   if (bulge == 0) {
@@ -23,7 +23,8 @@ void append_bulge(Vec2 from, Vec2 to, double bulge, const Chords& chords, Ring& 
   }
   const double turn = 4 * math::atan(bulge);
   const Vec2 chord = to - from, middle = 0.5 * (from + to);
-  const double rise = (1 - bulge * bulge) / (4 * bulge);  // of the center from the chord, in chords
+  // distance of the center from the chord, in lengths of the chord
+  const double rise = (1 - bulge * bulge) / (4 * bulge);
   const Vec2 center = middle + rise * Vec2{-chord.y, chord.x};
   const Vec2 first = from - center;
   Ring arc;
@@ -39,8 +40,8 @@ class LineJoiner {
     if (line.size() > 1) lines_.push_back(std::move(line));
   }
 
-  // Closed rings. `open` counts chains of lines whose ends do not meet: a straight line joins them, as OpenSCAD does
-  // it.
+  // Returns closed rings. `open` counts chains whose ends do not meet; they are closed by a straight line, as in
+  // OpenSCAD.
   std::vector<Ring> rings(size_t& open) {
     for (size_t n = 0; n < lines_.size(); ++n) {
       ends_.emplace(key(lines_[n].front()), n);
@@ -68,10 +69,10 @@ class LineJoiner {
  private:
   using Key = std::pair<int64_t, int64_t>;
   static Key key(Vec2 p) {
-    constexpr double places_per_mm = 1000;  // beyond that, ends meet
+    constexpr double places_per_mm = 1000;  // ends that agree to this precision meet
     return {std::llround(p.x * places_per_mm), std::llround(p.y * places_per_mm)};
   }
-  // Adds lines at the ring's end, until it is closed.
+  // Appends lines to the ring's end until it is closed.
   void extend(Ring& ring, std::vector<bool>& used) const {
     while (key(ring.front()) != key(ring.back())) {
       const auto next = unused_at(key(ring.back()), used);
@@ -103,7 +104,7 @@ class DxfReader {
     for (const DxfEntity& entity : document_.entities) add(entity, {1, 0, 0, 1, 0, 0}, 0, options_.layer.empty());
     size_t open = 0;
     std::vector<Ring> rings = joiner_.rings(open);
-    if (open > 0)  // which OpenSCAD does without a word
+    if (open > 0)  // OpenSCAD closes it silently
       diagnostics_.note({make_source(name_, ""), 0, 0}, std::to_string(open) +
                                                             " lines or chains of lines do not close; a straight line "
                                                             "joins the ends of each");

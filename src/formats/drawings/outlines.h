@@ -1,4 +1,4 @@
-// Closed polygons of a layer's regions, as files of outlines take them.
+// Closed polygons of a layer's regions, for files of outlines.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct OutlinedRegion {
 
 struct OutlineDocument {
   std::string title;
-  Box box;  // around all layers, mm
+  Box box;  // bounds of all layers in mm
   std::vector<OutlinedRegion> regions;
 };
 
-// For each region its polygons: counter-clockwise, or clockwise around holes, without the first point at the end; mm.
+// The polygons of each region in mm: counter-clockwise, or clockwise around holes, without a repeated first point.
 using OutlinePolygons = std::vector<std::vector<std::vector<Vec2>>>;
 
 }  // namespace ombre::formats

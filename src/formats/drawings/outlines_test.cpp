@@ -1,4 +1,4 @@
-// Files of outlines, beside what the formats ask for.
+// Compares files of outlines with the formats' specifications.
 #include <gtest/gtest.h>
 
 #include "formats/containers/append_numbers.h"
@@ -12,7 +12,7 @@ OutlineDocument two_regions() {
   return {"part", {{-1, -2, 0}, {3, 4, 5}}, {{"red, 50 %", {255, 0, 16, 255}}, {"a < b", {0, 0, 0, 51}}}};
 }
 
-// A square with a hole, and nothing of the second region.
+// Returns a square with a hole, and no polygon of the second region.
 OutlinePolygons square_with_hole() {
   return {{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {{0.5, 0.5}, {0.5, 1}, {1, 0.5}}}, {}};
 }

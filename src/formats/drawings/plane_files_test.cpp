@@ -1,4 +1,4 @@
-// Drawings in files: areas and boxes from mathematics, and from OpenSCAD 2021.01 where SVG leaves a choice.
+// Tests of drawings: areas and boxes from mathematics, and from OpenSCAD 2021.01 where SVG leaves a choice.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace ombre::formats {
 namespace {
 
 struct Measured {
-  double area = 0;  // of the rings, as they turn
+  double area = 0;  // signed area of the rings
   Box box;
   size_t shapes = 0, rings = 0;
 };
@@ -77,7 +77,7 @@ TEST(Svg, Shapes) {
   EXPECT_NEAR(std::abs(svg(page, "<circle cx=\"5\" cy=\"5\" r=\"3\"/>").area), 9 * polygon, 1e-9);
   EXPECT_NEAR(std::abs(svg(page, "<ellipse cx=\"5\" cy=\"5\" rx=\"3\" ry=\"2\"/>").area), 6 * polygon, 1e-9);
   EXPECT_NEAR(std::abs(svg(page, "<polygon points=\"0,0 4,0 0 3\"/>").area), 6, 1e-12);
-  // Chords of point-symmetric curves leave out as much as they add.
+  // Chords of a point-symmetric curve remove as much area as they add.
   EXPECT_NEAR(std::abs(svg(page, "<path d=\"M0 0 C 5 0 5 5 10 5 L 0 5 z\"/>").area), 25, 1e-9);
   EXPECT_NEAR(std::abs(svg(page, "<path d=\"M 5 10 A 5 3 0 0 1 15 10 z\"/>").area), 7.5 * polygon, 1e-9);
   EXPECT_NEAR(std::abs(svg(page, "<path d=\"M5,10a5,3,0,0110,0z\"/>").area), 7.5 * polygon, 1e-9);
@@ -162,7 +162,7 @@ TEST(Dxf, ArcsAndBulges) {
   EXPECT_NEAR(std::abs(dxf(dxf_of("0\nARC\n10\n0\n20\n0\n40\n2\n50\n0\n51\n180\n" + line(2, 0, -2, 0))).area),
               2 * polygon, 1e-5);
   EXPECT_NEAR(std::abs(dxf(dxf_of("0\nELLIPSE\n10\n0\n20\n0\n11\n0\n21\n3\n40\n0.5\n")).area), 4.5 * polygon, 1e-9);
-  // Two half circles.
+  // The ring consists of two half circles.
   const std::string round = "0\nLWPOLYLINE\n90\n2\n70\n1\n10\n-2\n20\n0\n42\n1\n10\n2\n20\n0\n42\n1\n";
   EXPECT_NEAR(dxf(dxf_of(round)).area, 4 * polygon, 1e-9);
   const std::string old =

@@ -34,7 +34,7 @@ void append_pair(std::string& text, int code, const std::string& value) {
   text += std::to_string(code) + '\n' + value + '\n';
 }
 
-// Layers have no line ends in their names.
+// Returns the layer of a part; names of layers cannot contain line ends.
 std::string layer_of(const std::string& part) {
   std::string layer = part.empty() ? "0" : part;
   for (char& c : layer)
@@ -74,7 +74,7 @@ std::string drawing_dxf(const std::vector<DrawnRegion>& regions) {
       append_pair(text, 0, "LWPOLYLINE");
       append_pair(text, 8, layer_of(region.part));
       append_pair(text, 90, std::to_string(ring.size()));
-      append_pair(text, 70, "1");  // closed
+      append_pair(text, 70, "1");  // a closed polyline
       for (const Vec2& p : ring) {
         append_pair(text, 10, decimal(p.x));
         append_pair(text, 20, decimal(p.y));

@@ -1,4 +1,4 @@
-// Drawings as files: SVG and DXF of regions of the plane. Equal drawings give equal bytes.
+// Writes regions of the plane as SVG and DXF drawings. Equal drawings give equal bytes.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 namespace ombre::formats {
 
 struct DrawnRegion {
-  std::string part;            // its class in SVG, its layer in DXF; may be empty
-  std::optional<Rgba> colour;  // else light gray in SVG
-  std::vector<Ring> rings;     // inside is what an odd number goes round; mm, y up
+  std::string part;            // class in SVG, layer in DXF; may be empty
+  std::optional<Rgba> colour;  // light gray in SVG if not set
+  std::vector<Ring> rings;     // mm, y up; a point is inside if an odd number of rings encloses it
 };
 
-// One unit a millimetre; a point (x, y) is written as x, -y.
+// Returns an SVG drawing with one unit per millimetre; a point (x, y) is written as x, -y.
 std::string drawing_svg(const std::string& title, const std::vector<DrawnRegion>& regions);
-// Closed polylines, in text form.
+// Returns a DXF drawing of closed polylines, in text form.
 std::string drawing_dxf(const std::vector<DrawnRegion>& regions);
 
 }  // namespace ombre::formats

@@ -1,4 +1,4 @@
-// SVG 1.1: a layer's regions as filled paths, one unit a millimetre.
+// Writes SVG 1.1: a layer's regions as filled paths, with one unit per millimetre.
 #include "formats/drawings/svg.h"
 
 #include "formats/containers/append_numbers.h"

@@ -61,7 +61,7 @@ class PathReader {
       path_.error = std::string("a number is missing after '") + command_ + '\'';
     return value;
   }
-  // A flag of an arc may stand right before the next number.
+  // Reads a flag of an arc, which may directly precede the next number.
   double flag() {
     skip_blanks(text_);
     if (text_.starts_with('0') || text_.starts_with('1')) {
@@ -95,7 +95,7 @@ class PathReader {
   std::string_view text_;
   int chords_;
   char command_ = 0, before_ = 0;
-  Vec2 at_, start_, pull_;  // the last point that pulled a curve
+  Vec2 at_, start_, pull_;  // the last control point of a curve
   bool is_closed_ = false;
   size_t points_ = 0;
   SvgPath path_;
@@ -112,7 +112,7 @@ void PathReader::cubic(Vec2 first, Vec2 second, Vec2 to) {
   pull_ = second;
 }
 
-// From two ends to the center: the SVG specification, implementation notes, section B.2.4.
+// Converts an arc from its ends to its center, by the SVG specification, implementation notes, section B.2.4.
 void PathReader::arc() {
   double rx = std::abs(number()), ry = std::abs(number());
   const double tilt = number() * math::degree;
@@ -153,7 +153,7 @@ void PathReader::step() {
       at_ = start_ = point();
       path_.rings.push_back({at_});
       is_closed_ = false;
-      command_ = is_relative() ? 'l' : 'L';  // for further points
+      command_ = is_relative() ? 'l' : 'L';  // further points are lines
       break;
     case 'L':
       line_to(point());

@@ -1,4 +1,4 @@
-// The outlines that the path data of SVG describe.
+// Reads the outlines in SVG path data.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 namespace ombre::formats {
 
 struct SvgPath {
-  std::vector<Ring> rings;  // in the path's own units, closed or not
-  std::string error;        // what is wrong, if something is: the rings so far stand
+  std::vector<Ring> rings;  // in the path's own units, closed or open
+  std::string error;        // the error, if there is one; the rings before it are valid
 };
 
 SvgPath read_svg_path(std::string_view data, int chords_per_turn);
 
-// Numbers between blanks and commas, until something else comes.
+// Reads at most `most` numbers separated by blanks and commas, and removes them from the text.
 std::vector<double> read_svg_numbers(std::string_view& text, size_t most);
 
 }  // namespace ombre::formats

@@ -13,9 +13,9 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int deepest_element = 1000;  // elements within each other
+constexpr int deepest_element = 1000;  // greatest depth of nested elements
 
-// x' = a x + c y + e, y' = b x + d y + f.
+// The map x' = a x + c y + e, y' = b x + d y + f.
 struct PlaneMap {
   double a = 1, b = 0, c = 0, d = 1, e = 0, f = 0;
   Vec2 operator()(Vec2 p) const { return {a * p.x + c * p.y + e, b * p.x + d * p.y + f}; }
@@ -26,7 +26,7 @@ PlaneMap operator*(const PlaneMap& m, const PlaneMap& n) {
           m.b * n.c + m.d * n.d, m.a * n.e + m.c * n.f + m.e, m.b * n.e + m.d * n.f + m.f};
 }
 
-// One of "translate(3, 4)" and so on; nothing if it is none.
+// Returns the map of a transform such as "translate(3, 4)", or null if it is invalid.
 std::optional<PlaneMap> map_of(std::string_view name, const std::vector<double>& v) {
   const auto number = [&](size_t n, double otherwise) { return n < v.size() ? v[n] : otherwise; };
   if (name == "matrix" && v.size() == 6) return PlaneMap{v[0], v[1], v[2], v[3], v[4], v[5]};
@@ -61,7 +61,7 @@ class SvgReader {
     return text ? millimetres(*text, 1).value_or(otherwise) : otherwise;
   }
 
-  // A number with a unit; `unitless` is the length of one without, in mm.
+  // Returns a length with a unit in mm; `unitless` is the length in mm of a unit-less 1.
   std::optional<double> millimetres(std::string_view text, double unitless) const {
     const std::vector<double> numbers = read_svg_numbers(text, 1);
     if (numbers.empty()) return std::nullopt;
@@ -77,7 +77,7 @@ class SvgReader {
     return numbers[0] * unit;
   }
 
-  // From units of the file to mm with y up.
+  // Returns the map from the file's units to mm with y up.
   PlaneMap page(pugi::xml_node root) const {
     const double pixel = 25.4 / options_.dots_per_inch;
     const auto side = [&](const char* name) {
@@ -171,7 +171,7 @@ class SvgReader {
     if (!(rx > 0) || !(ry > 0)) return {};
     Ring ring;
     append_arc({{length(node, "cx"), length(node, "cy")}, {rx, 0}, {0, ry}}, options_.chords_per_turn, ring);
-    ring.pop_back();  // which is its first
+    ring.pop_back();  // the last point repeats the first
     return ring;
   }
 

@@ -9,7 +9,7 @@ namespace ombre::formats {
 namespace {
 
 constexpr uint64_t most_pixels_of_bmp = 1'000'000'000;
-constexpr size_t file_header = 14;  // bytes before the header that says what the image is
+constexpr size_t file_header = 14;  // bytes before the header that describes the image
 
 class BmpReader {
  public:
@@ -83,7 +83,7 @@ class BmpReader {
     for (size_t n = 0; n < (size >= with_opacity ? 4U : 3U); ++n) masks_[n] = number<uint32_t>(54 + 4 * n);
   }
 
-  // What a mask takes out of a pixel, 0 to 255.
+  // Returns the masked part of a pixel, scaled to 0 ... 255.
   static uint8_t part(uint32_t pixel, uint32_t mask) {
     const uint32_t most = mask >> std::countr_zero(mask), value = (pixel & mask) >> std::countr_zero(mask);
     return static_cast<uint8_t>((uint64_t{value} * 255 + most / 2) / most);
@@ -112,7 +112,7 @@ class BmpReader {
   uint16_t bits_ = 0;
   bool goes_down_ = false;
   std::array<std::array<uint8_t, 3>, 256> palette_{};
-  std::array<uint32_t, 4> masks_{};  // of red, green, blue and opacity
+  std::array<uint32_t, 4> masks_{};  // masks of red, green, blue and opacity
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ void put_number(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Of 2 x 2 pixels: a header of 40 bytes, a palette, masks or nothing, and rows.
+// Returns a bitmap of 2 x 2 pixels: a header of 40 bytes; a palette, masks or nothing; and rows.
 std::string small_bmp(uint16_t bits, const std::string& table, const std::string& rows, uint32_t packing = 0,
                       int32_t height = 2) {
   std::string bytes = "BM";
@@ -47,7 +47,7 @@ std::string bmp_problem(const std::string& bytes) {
 
 TEST(Bmp, PixelsOfAllKindsAreRead) {
   using namespace std::string_literals;
-  // Palettes and pixels have blue first.
+  // Palettes and pixels start with blue.
   const std::string palette = "\xFF\0\0\0\xFF\xFF\xFF\0\0\0\xFF\0\0\xFF\0\0"s;  // blue, white, red, green
   const std::string wide = palette + std::string(48, '\0'), widest = palette + std::string(1008, '\0');
   EXPECT_EQ(decode_bmp(small_bmp(4, wide, "\x01\0\0\0\x23\0\0\0"s), "a").rgba, four_colours);
@@ -57,7 +57,7 @@ TEST(Bmp, PixelsOfAllKindsAreRead) {
   EXPECT_EQ(decode_bmp(small_bmp(24, "", high + low, 0, -2), "a").rgba, four_colours);
   EXPECT_EQ(decode_bmp(small_bmp(32, "", "\xFF\0\0\0\xFF\xFF\xFF\0\0\0\xFF\0\0\xFF\0\0"s), "a").rgba, four_colours);
   EXPECT_EQ(decode_bmp(small_bmp(16, "", "\x1F\0\xFF\x7F\0\x7C\xE0\x03"s), "a").rgba, four_colours);
-  // 5, 6 and 5 bits by masks.
+  // Masks define 5, 6 and 5 bits.
   const std::string masks = "\0\xF8\0\0\xE0\x07\0\0\x1F\0\0\0"s;
   EXPECT_EQ(decode_bmp(small_bmp(16, masks, "\x1F\0\xFF\xFF\0\xF8\xE0\x07"s, 3), "a").rgba, four_colours);
 }

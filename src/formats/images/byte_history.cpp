@@ -9,7 +9,7 @@ namespace ombre::formats {
 namespace {
 
 constexpr unsigned table_bits = 12, key_bits = 32;
-constexpr size_t most_kept = size_t{1} << 18;  // more, and all but the window goes
+constexpr size_t most_kept = size_t{1} << 18;  // number of bytes kept; beyond it, all but the window is dropped
 constexpr size_t fewest_bytes = 4, fewest_byte_repeats = 3;
 
 uint64_t load(const uint8_t* bytes) {
@@ -61,7 +61,7 @@ void ByteHistory::append(const uint8_t* bytes, size_t size) {
   std::memcpy(&bytes_[row_], bytes, size);
 }
 
-// What goes on longest of two: the bytes that stood here at last, and the byte before, repeated.
+// Returns the longer of two matches: with the latest place of these bytes, or with a repetition of the previous byte.
 ByteHistory::Match ByteHistory::find(size_t at) {
   const size_t there = std::exchange(latest_[slot(load(&bytes_[at]))], at);
   const size_t repeats = at == row_ ? 0 : common_length(at, at - 1);

@@ -1,4 +1,4 @@
-// The bytes of the last image rows, and where a few of them stood before.
+// The bytes of the last image rows, with the latest places of short sequences of bytes.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace ombre::formats {
 
-// Deflates smooth rows, whose edges take the course that edges took before. Only where a match or a literal
-// begins it is noted what stands there: mostly at edges, and so little is noted that it takes no time.
+// Deflates smooth rows, whose edges follow the course of the edges above. Places are recorded only where a match or a
+// literal begins, which is mostly at edges, so this takes little time.
 class ByteHistory {
  public:
   ByteHistory();
 
-  // What follows repeats nothing that came before.
+  // Forgets all rows, so that the following ones do not repeat them.
   void clear();
   void put_row(const uint8_t* bytes, size_t size, DeflateWriter& out);
 
@@ -28,9 +28,9 @@ class ByteHistory {
   Match find(size_t at);
   size_t common_length(size_t at, size_t there) const;
 
-  std::vector<uint8_t> bytes_;  // the first means nothing; and a word of zeros
-  size_t row_ = 1, end_ = 1;    // where the newest row begins and ends
-  std::vector<size_t> latest_;  // by hash, where some bytes stood at last, or 0
+  std::vector<uint8_t> bytes_;  // the first byte is unused; a word of zeros follows the data
+  size_t row_ = 1, end_ = 1;    // range of the newest row
+  std::vector<size_t> latest_;  // by hash: the latest place of a sequence of bytes, or 0
 };
 
 }  // namespace ombre::formats

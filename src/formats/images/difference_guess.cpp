@@ -11,7 +11,7 @@ constexpr uint64_t rows_a_sample = 16;
 constexpr size_t most_counted = size_t{1} << 16;
 constexpr double clearly = 0.9;
 
-// Most counts are small, and a logarithm takes longer than looking it up.
+// Most counts are small, and a table is faster than a logarithm.
 double log2_of(uint32_t count) {
   static const std::vector<double> known = [] {
     std::vector<double> values(2048);
@@ -35,8 +35,8 @@ bool DifferenceGuess::pays(const uint8_t* row, const uint8_t* above, size_t size
   return pays_;
 }
 
-// Bytes with equal ones on both sides lie in stretches, which take next to nothing. A branch would be guessed wrong
-// every other time.
+// Counts the bytes that differ from a neighbour; the others lie in stretches, which need almost no space. There is no
+// branch, because every second one would be mispredicted.
 template <class At>
 void DifferenceGuess::count(size_t size, At at, Counts& counts) {
   if (size == 0) return;
@@ -52,7 +52,7 @@ void DifferenceGuess::count(size_t size, At at, Counts& counts) {
   ++counts[value];
 }
 
-// Of a code that suits the counts.
+// Returns the number of bits of an optimal code for the counts.
 double DifferenceGuess::bits(const Counts& counts) {
   double total = 0, sum = 0;
   for (const uint32_t count : counts) {

@@ -1,4 +1,5 @@
-// Whether rows take fewer bytes as differences to those above, by how often bytes outside of stretches occur.
+// Estimates whether rows need fewer bytes as differences to the rows above, from the frequencies of bytes outside of
+// stretches.
 #pragma once
 
 #include <array>
@@ -7,11 +8,11 @@
 
 namespace ombre::formats {
 
-// Where each place has but a few of many materials, dithered rows look like noise of all of them, but the difference
-// to the row above is noise of a few numbers.
+// A dithered layer may have many materials, but only few at each place. Then the rows look like noise of all of them,
+// but their differences to the rows above are noise of few numbers.
 class DifferenceGuess {
  public:
-  // For the next of a layer's rows, from some of the last ones.
+  // Returns the estimate for the next row of a layer, from samples of the last rows.
   bool pays(const uint8_t* row, const uint8_t* above, size_t size);
 
  private:

@@ -9,7 +9,7 @@
 namespace ombre::formats {
 namespace {
 
-// One bit for each of 16 bytes, the first byte's lowest.
+// Returns one bit for each of 16 bytes, the first byte's lowest.
 #ifdef __SSE2__
 uint64_t equal_bits(const uint8_t* a, const uint8_t* b) {
   const __m128i x = _mm_loadu_si128(reinterpret_cast<const __m128i*>(a));
@@ -24,7 +24,7 @@ uint64_t equal_bits(const uint8_t* a, const uint8_t* b) {
 }
 #endif
 
-// The processor's own instruction for it is not on all of them, and a table takes longer.
+// Counts the set bits. Not all processors have an instruction for it, and a table is slower.
 size_t count_bits(uint64_t word) {
   constexpr uint64_t pairs = 0x5555555555555555, fours = 0x3333333333333333, bytes = 0x0F0F0F0F0F0F0F0F;
   word -= word >> 1 & pairs;

@@ -10,26 +10,26 @@
 
 namespace ombre::formats {
 
-// The least of 1, 2, 4, 8 bits that tells so many things apart.
+// Returns the least of 1, 2, 4 and 8 bits that can distinguish this many values.
 int bits_for(size_t count);
 
-// Entry 0 is void, then come the materials in the order added. All layers of a job share one palette, so that
-// a number means the same in all of them.
+// A palette whose entry 0 is void, followed by the materials in the order in which they are added. All layers of a job
+// share one palette, so that a number has the same meaning in all of them.
 class Palette {
  public:
   explicit Palette(Rgba background = {0, 0, 0, 0});
 
-  // Each id once, and not 0.
+  // Adds a material; each id at most once, and not 0.
   void add(MaterialId id, Rgba colour);
-  // As many entries from 0 on, or all if there are fewer.
+  // Returns a palette of the first `count` entries, or of all if there are fewer.
   Palette first(size_t count) const;
 
   const std::vector<Rgba>& colours() const { return colours_; }
-  // By entry; void is 0.
+  // Returns the ids by entry; void is 0.
   const std::vector<MaterialId>& ids() const { return ids_; }
-  // The entry of a material that was added.
+  // Returns the entry of an added material.
   uint8_t entry(MaterialId id) const;
-  // That hold every entry.
+  // Returns the number of bits that can hold every entry.
   int bit_depth() const;
 
  private:
@@ -39,7 +39,7 @@ class Palette {
   std::array<bool, 256> known_{};
 };
 
-// Luma of a colour (Rec. 601), alpha aside.
+// Returns the luma of a colour (Rec. 601), without alpha.
 uint8_t luminance(Rgba colour);
 
 }  // namespace ombre::formats

@@ -10,17 +10,17 @@ namespace ombre::formats {
 namespace {
 
 constexpr uint32_t window = DeflateWriter::window;
-constexpr uint32_t first_position = 2 * window;        // out of reach from there: position 0
-constexpr uint32_t last_position = uint32_t{1} << 30;  // far enough from overflow
+constexpr uint32_t first_position = 2 * window;        // beyond the window from position 0
+constexpr uint32_t last_position = uint32_t{1} << 30;  // far below overflow
 constexpr size_t word_bytes = sizeof(uint64_t);
-constexpr size_t stored_rows = 8;  // more than the window, so that its pixels seldom move
+constexpr size_t stored_rows = 8;  // more than the window needs, so that pixels rarely have to be moved
 
-// The window holds 8192 pixels, and in it stand most of half as many keys.
+// Greatest number of keys. The window holds 8192 pixels, and most of half as many keys occur in it.
 constexpr uint32_t most_keys = 4096;
 
-constexpr uint32_t most_known_colours = 9;  // with void
+constexpr uint32_t most_known_colours = 9;  // including void
 constexpr uint32_t very_long = 32;          // pixels of a match
-constexpr uint32_t equal_pixels = 4;        // distance of a match
+constexpr uint32_t equal_pixels = 4;        // distance of a match that repeats one pixel
 
 constexpr uint32_t power(uint32_t base, uint32_t exponent) {
   uint32_t result = 1;
@@ -28,7 +28,7 @@ constexpr uint32_t power(uint32_t base, uint32_t exponent) {
   return result;
 }
 
-// The most digits that make no more than `count` numbers, and two at least.
+// Returns the greatest number of digits, at least two, that form at most `count` numbers.
 constexpr uint32_t digits_within(uint32_t base, uint32_t count) {
   uint32_t digits = 2;
   while (power(base, digits + 1) <= count) ++digits;
@@ -88,7 +88,7 @@ uint8_t* PixelHistory::begin_row() {
 void PixelHistory::end_row(const uint8_t* image, DeflateWriter& out) {
   std::memset(&numbers_[index(row_) + width_], 0, 2 * word_bytes);
   make_keys(shape_.pixels, width_, keys_, other_keys_);
-  // Loops of a known length are faster.
+  // Loops of a constant length are faster.
   constexpr auto cutters = []<uint32_t... n>(std::integer_sequence<uint32_t, n...>) {
     return std::array{&PixelHistory::cut<0>, &PixelHistory::cut<0>, &PixelHistory::cut<n + 2>...};
   }
@@ -96,22 +96,23 @@ void PixelHistory::end_row(const uint8_t* image, DeflateWriter& out) {
   (this->*cutters[colours_ <= most_known_colours ? colours_ : 0])(image, out);
 }
 
-// With 0 for colours whose number is not known beforehand.
+// Cuts a row into matches and literals; known_colours is 0 if the number of colours is not a constant.
 template <uint32_t known_colours>
 void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
   constexpr KeyShape known = known_colours > 0 ? shape_for(known_colours) : KeyShape{};
-  // What no store below can change.
+  // Local copies cannot be changed by the stores below.
   const KeyShape shape = known_colours > 0 ? known : shape_;
   const uint32_t row = row_, width = width_, begins = begin_count();
   const uint16_t* const keys = keys_.data();
   uint32_t* const latest = latest_.data();
   const auto find_beginning = [&](uint32_t here, uint32_t key, uint32_t key_count, uint32_t pixels) {
     const uint32_t* const places = latest + (key - key % key_count);
-    int32_t there = 0;  // signed, which is what vectors compare
+    int32_t there = 0;  // signed, because vector instructions compare signed numbers
     for (uint32_t i = 0; i < key_count; ++i) there = std::max(there, static_cast<int32_t>(places[i]));
     return Found{here - static_cast<uint32_t>(there), pixels};
   };
-  // As many of the next pixels as a key has, or somewhat fewer, or half; at the end of the row what is left.
+  // Finds the next pixels: as many as a key has, else slightly fewer, else half as many; at the end of the row, those
+  // that remain.
   const auto find = [&](uint32_t column, uint32_t here) {
     const uint32_t key = keys[column];
     if (column >= begins) {
@@ -141,7 +142,8 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
       last_distance = found.distance;
       out.match(4 * count, found.distance);
     }
-    // The last few columns: behind a short match most of them stand there already, of a longer one they are enough.
+    // Only the last few columns are recorded: after a short match most of the others are recorded already, and for a
+    // longer one they are enough.
     const uint32_t end = column + count, from = std::max(end, shape.pixels) - shape.pixels;
     if (end - from == shape.pixels && end <= begins)
       for (uint32_t i = 0; i < shape.pixels; ++i) latest[keys[from + size_t{i}]] = row + 4 * (from + i);
@@ -150,10 +152,10 @@ void PixelHistory::cut(const uint8_t* image, DeflateWriter& out) {
   }
 }
 
-// In how many columns a key can begin.
+// Returns the number of columns at which a key can begin.
 uint32_t PixelHistory::begin_count() const { return width_ - std::min(width_, shape_.pixels - 1); }
 
-// Of all columns from one on.
+// Records the keys of all columns from `column` to `end`.
 void PixelHistory::enter(uint32_t column, uint32_t end) {
   const uint32_t begins = begin_count(), row = row_;
   const uint16_t* const keys = keys_.data();
@@ -161,8 +163,8 @@ void PixelHistory::enter(uint32_t column, uint32_t end) {
   for (; column < std::min(end, begins); ++column) latest[keys[column]] = row + 4 * column;
 }
 
-// Of the first `count` columns; zeros stand behind the row. Two keys of half as many pixels make one, with a digit
-// behind them if need be.
+// Makes the keys of the first `count` columns; zeros follow the row. A key is made of two keys of half as many pixels,
+// and one more digit if necessary.
 void PixelHistory::make_keys(uint32_t pixels, uint32_t count, std::vector<uint16_t>& keys,
                              std::vector<uint16_t>& halves) const {
   const uint8_t* const digits = &numbers_[index(row_)];

@@ -1,4 +1,4 @@
-// The pixels of the last image rows, and where a few of them in a row stood before.
+// The pixels of the last image rows, with the latest places of short sequences of pixels.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,25 @@
 
 namespace ombre::formats {
 
-// Deflates rows of four-byte pixels, each behind a byte that says how the row is stored. Here a pixel is a small
-// number, and a few of them are the digits of another, their key.
+// Deflates rows of four-byte pixels, each row preceded by its filter byte. Here a pixel is a small number, and several
+// of them are the digits of another number, their key.
 //
-// A dithered row says nothing new but which of the stretches seen before comes next. So it becomes matches of
-// a fixed number of pixels, each with the latest place where they stood; only one as far back as the match before is
-// followed to its end. Following all would save a byte or two in a hundred, but cost more time.
+// A dithered row only contains information on which of the earlier sequences comes next. So it is encoded as matches of
+// a fixed number of pixels, each with the latest place of their key. Only a match with the same distance as the
+// previous one is extended to its end. Extending all would save one or two per cent of the bytes, but take more time.
 class PixelHistory {
  public:
-  // Pixels are numbers below `colours`.
+  // Constructs a history for pixels that are numbers below `colours`.
   PixelHistory(uint32_t width, uint32_t colours);
 
-  // What follows repeats nothing that came before.
+  // Forgets all rows, so that the following ones do not repeat them.
   void clear();
-  // Where to put the numbers of the next row, before it ends with its image.
+  // Returns where to write the numbers of the next row, before end_row() encodes it.
   uint8_t* begin_row();
   void end_row(const uint8_t* image, DeflateWriter& out);
 
  private:
-  // How many pixels a key has, and how many keys begin with the same pixels, for two such numbers of pixels.
+  // The number of pixels of a key; and for two smaller numbers of pixels, how many keys begin with the same ones.
   struct KeyShape {
     uint32_t pixels, prefix_pixels, prefix_keys, half_pixels, half_keys;
   };
@@ -39,20 +39,20 @@ class PixelHistory {
   void cut(const uint8_t* image, DeflateWriter& out);
   void enter(uint32_t column, uint32_t end);
   uint32_t common_pixels(uint32_t column, uint32_t there, uint32_t known) const;
-  // Where in `numbers_` the pixel at a position is.
+  // Returns the index in `numbers_` of the pixel at a position.
   size_t index(uint32_t position) const { return position / 4 - first_; }
 
   uint32_t width_, colours_;
   KeyShape shape_;
-  // Positions are bytes of the image data. Rows follow each other here as they do there; the byte before a row
-  // takes a quarter of a pixel, rounded.
+  // Pixels as numbers. A position is an offset in bytes in the image data. Rows are contiguous, as in the image data;
+  // the filter byte before a row counts as a quarter of a pixel, rounded.
   std::vector<uint8_t> numbers_;
   size_t first_ = 0;
   uint32_t row_ = 0, next_row_ = 0;
-  // Of the newest row: from each column on, the next pixels as a number.
+  // Keys of the newest row: the pixels from each column on as a number.
   std::vector<uint16_t> keys_;
-  std::vector<uint16_t> other_keys_;  // from which they are made
-  // By key: where it stood at last, or 0.
+  std::vector<uint16_t> other_keys_;  // keys of half the pixels, from which they are made
+  // The latest position of each key, or 0.
   std::vector<uint32_t> latest_;
 };
 

@@ -1,4 +1,4 @@
-// The outside of a PNG file: its signature and chunks.
+// Writes the signature and chunks of a PNG file.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ class PngChunks {
 
   void add_header(uint32_t width, uint32_t height, PngColours type, int bit_depth);
   void add_palette(std::span<const Rgba> colours);
-  // Rounded to whole dots; none where one is 0.
+  // Adds a resolution, rounded to integers; none if one of the numbers is 0.
   void add_resolution(double dots_per_metre_x, double dots_per_metre_y);
 
-  // `type` has four letters.
+  // Adds a chunk; `type` has four letters.
   void add(std::string_view type, std::string_view data) { add(type, {data}); }
-  // The data in parts.
+  // Adds a chunk whose data are given in parts.
   void add(std::string_view type, std::initializer_list<std::string_view> data);
-  // Room for about so many bytes in all.
+  // Reserves memory for about this many bytes in total.
   void reserve(size_t bytes) { file_.reserve(bytes); }
   std::string take() { return std::move(file_); }
 
@@ -34,7 +34,7 @@ class PngChunks {
   std::string file_;
 };
 
-// Four bytes, the highest first.
+// Returns the number as four big-endian bytes.
 std::string big_endian(uint32_t value);
 
 }  // namespace ombre::formats

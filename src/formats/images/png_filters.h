@@ -1,4 +1,4 @@
-// The byte before each row of a PNG image: what its bytes are differences to.
+// The filter byte before each row of a PNG image, which defines what its bytes are relative to.
 #pragma once
 
 #include <cstdint>

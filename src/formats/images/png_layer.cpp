@@ -1,5 +1,5 @@
-// Layers to PNG files. Compression is our own: libraries pick their code by processor, some with it their
-// bytes, and none sees runs.
+// Encodes layers as PNG files with our own compression. Libraries choose code by processor, and some of them with it
+// their output; none uses runs of voxels.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +28,7 @@ PngColours colour_type(ImageFormat format) {
   }
 }
 
-// What a pixel says of its material, where it is one number.
+// Returns the sample of each material, for formats with one number per pixel.
 Samples samples(const Palette& palette, const PngLayout& layout) {
   Samples result;
   result.ids = palette.ids();
@@ -58,7 +58,7 @@ std::vector<MaterialId> occurring(const RunLayer& layer, const Palette& palette)
   return result;
 }
 
-// As much of it as the fewest bits can tell apart that hold the layer.
+// Returns the part of the palette that fits the least bit depth for the layer's materials.
 Palette fitting(const RunLayer& layer, const Palette& palette) {
   int bits = 1;
   find_materials(layer, [&](MaterialId id) {
@@ -68,12 +68,12 @@ Palette fitting(const RunLayer& layer, const Palette& palette) {
   return palette.first(size_t{1} << bits);
 }
 
-// The data of the image in chunks, as it comes.
+// Writes the image data in chunks as they become available.
 class DataChunks {
  public:
   explicit DataChunks(PngChunks& file) : file_(file) {}
 
-  // After so much of the image, above 0.
+  // Writes a chunk if enough data is available; `share_done` is the share of the image that is encoded, greater than 0.
   void take(DeflateWriter& deflate, double share_done) {
     if (deflate.size() < data_chunk_bytes) return;
     const double expected_bytes = spare * static_cast<double>(deflate.size()) / share_done;

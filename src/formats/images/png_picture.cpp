@@ -1,5 +1,5 @@
-// Pictures to PNG files, whole: libdeflate takes half of zlib's time for as small ones. Its bytes do not depend on the
-// processor.
+// Encodes whole pictures as PNG files. libdeflate takes half of zlib's time for files of the same size, and its bytes
+// do not depend on the processor.
 #include <libdeflate.h>
 
 #include <cstring>
@@ -15,13 +15,13 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int level = 6;  // of 12
+constexpr int level = 6;  // the highest level is 12
 constexpr size_t most_colours = 256;
 
-// Of at most so many colours: each pixel's number among them, in the order in which they come up.
+// The colours of a picture in the order of their first occurrence, if they are few, and each pixel's number among them.
 struct FewColours {
   std::vector<Rgba> colours;
-  std::vector<uint8_t> numbers;  // empty if there are more
+  std::vector<uint8_t> numbers;  // empty if there are too many colours
 };
 
 FewColours few_colours(const std::vector<uint8_t>& rgba) {
@@ -41,7 +41,7 @@ FewColours few_colours(const std::vector<uint8_t>& rgba) {
   return few;
 }
 
-// Each row behind the number of its filter: none. Flat colours compress better without one.
+// Returns the rows, each preceded by the filter byte for none. Flat colours compress better without a filter.
 std::string rows_of(const std::vector<uint8_t>& bytes, size_t height) {
   const size_t row_bytes = bytes.size() / height;
   std::string rows;
@@ -63,9 +63,9 @@ std::string compressed(const std::string& bytes) {
   return out;
 }
 
-// Each row as its differences to the row above, which are small where shades change slowly.
+// Returns the rows as differences to the rows above, which are small where shades vary slowly.
 std::string differences_of(const std::vector<uint16_t>& pixels, uint32_t width, uint32_t height) {
-  constexpr char up = 2;  // the filter's number
+  constexpr char up = 2;  // number of the filter
   std::string rows;
   rows.reserve((size_t{2} * width + 1) * height);
   const auto byte = [&](size_t row, size_t n, int shift) {
@@ -82,7 +82,7 @@ std::string differences_of(const std::vector<uint16_t>& pixels, uint32_t width, 
 
 }  // namespace
 
-// Pictures of at most 256 colours are indexed, which makes them several times smaller.
+// Pictures of at most 256 colours are indexed, which makes files several times smaller.
 std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba) try {
   ASSERT(!rgba.empty() && rgba.size() == size_t{4} * width * height);
   const FewColours few = few_colours(rgba);

@@ -1,4 +1,4 @@
-// PNG images to pixels, through libpng.
+// Decodes PNG images by libpng.
 #include "formats/images/png.h"
 
 #include <png.h>
@@ -10,8 +10,8 @@
 #include "base/text/error.h"
 #include "base/text/text.h"
 
-// libpng leaves by longjmp, which runs no destructors. So everything that owns memory lives in a PngReader, outside the
-// functions that call libpng, and those hold plain values only.
+// libpng exits by longjmp, which does not run destructors. So all objects that own memory are members of PngReader,
+// outside of the functions that call libpng, which have only trivial local variables.
 
 namespace ombre::formats {
 namespace {
@@ -26,7 +26,7 @@ void on_error(png_structp png, png_const_charp message) {
   auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
   try {
     failure->message = message;
-  } catch (...) {  // without memory the message stays empty
+  } catch (...) {  // if memory runs out, the message stays empty
   }
   png_longjmp(png, 1);
 }
@@ -78,7 +78,7 @@ bool read_header(PngReader& reader) {
   return true;
 }
 
-// Grey as it is stored, two bytes a pixel; numbers of fewer bits are not stretched.
+// Reads the header for gray pixels of two bytes each; smaller samples are not scaled.
 bool read_gray_header(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
   png_set_read_fn(reader.png, &reader, take);
@@ -119,7 +119,7 @@ std::vector<Rgba> read_palette(PngReader& reader) {
   return palette;
 }
 
-// Checked by the header, before memory is taken.
+// Checks the size in the header before memory is allocated.
 void check_size(const PngReader& reader, uint32_t width, uint32_t height, uint64_t most_pixels,
                 const std::string& name) {
   const std::string size = format_count(width) + " x " + format_count(height) + " pixels";
@@ -127,7 +127,7 @@ void check_size(const PngReader& reader, uint32_t width, uint32_t height, uint64
     throw Error(Code::cannot_read,
                 "cannot read " + name + ": it has " + size + ", more than " + format_count(most_pixels),
                 {{"file", name}});
-  // Deflate makes at most 1032 bytes of one.
+  // Deflate expands a byte to at most 1032 bytes.
   constexpr double most_inflated = 1040;
   const double stored_bits = double{1} * width * height * reader.stored_bits_per_pixel;
   if (stored_bits / 8 > most_inflated * static_cast<double>(reader.bytes.size()))
@@ -179,7 +179,7 @@ Rgba PngImage::colour(uint32_t column, uint32_t row) const {
   const size_t pixel = size_t{row} * width + column;
   if (format == ImageFormat::indexed) {
     const uint8_t index = pixels[pixel];
-    return index < palette.size() ? palette[index] : Rgba{0, 0, 0, 255};  // as browsers show it
+    return index < palette.size() ? palette[index] : Rgba{0, 0, 0, 255};  // as browsers do
   }
   const uint8_t* at = pixels.data() + 4 * pixel;
   return {at[0], at[1], at[2], at[3]};

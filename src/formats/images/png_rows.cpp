@@ -11,11 +11,11 @@
 namespace ombre::formats {
 namespace {
 
-constexpr size_t fewest_changes = 16;  // of bytes, that a row with fewer has little to gain
-constexpr size_t fewest_repeats = 8;   // in a match
-constexpr size_t pixels_at = 2;        // in the buffers of PackedRows
+constexpr size_t fewest_changes = 16;  // changes of bytes; a row with fewer has little to gain
+constexpr size_t fewest_repeats = 8;   // fewest bytes of a match
+constexpr size_t pixels_at = 2;        // index of the first pixel in the buffers of PackedRows
 
-// `sample` in every pixel of a byte.
+// Returns a byte with `sample` in every pixel.
 uint8_t repeated(uint8_t sample, unsigned bit_depth) {
   unsigned byte = sample;
   for (unsigned filled = bit_depth; filled < 8; filled *= 2) byte |= byte << filled;
@@ -26,7 +26,7 @@ void merge(uint8_t& byte, unsigned value, unsigned mask) {
   byte = static_cast<uint8_t>((byte & ~mask) | (value & mask));
 }
 
-// Pointers of its own, since bytes that are written might move members.
+// Uses its own pointers, because the compiler assumes that stores of bytes may change members.
 void subtract(const uint8_t* from, const uint8_t* what, size_t count, uint8_t* out) {
   for (size_t i = 0; i < count; ++i) out[i] = static_cast<uint8_t>(from[i] - what[i]);
 }
@@ -106,7 +106,7 @@ template <int bits>
 void RowPacker::pack_pairs(uint8_t* out) const {
   constexpr size_t pairs_in_byte = 4 / bits;
   const MaterialId* at = voxels_.data();
-  const uint8_t* const pairs = pairs_.data();  // which no byte written can move
+  const uint8_t* const pairs = pairs_.data();  // local, because stores of bytes might change a member
   for (uint8_t* const end = out + size(); out != end; ++out) {
     unsigned byte = 0;
     for (size_t k = 0; k < pairs_in_byte; ++k, at += 2) byte = byte << (2 * bits) | pairs[pair_of(at[0], at[1])];
@@ -145,7 +145,7 @@ void PackedRows::put(const RowView& row) {
   write(difference_);
 }
 
-// Many edges, but far more between them.
+// Returns true if a smooth row has many edges, but far more equal bytes between them.
 bool PackedRows::has_edges_to_follow(const RowView& row, size_t changes) const {
   return changes >= fewest_changes && 4 * changes < equal_.size() && is_smooth(row, packer_.width());
 }
@@ -156,21 +156,22 @@ void PackedRows::compare_neighbours(std::vector<uint8_t>& bytes, uint8_t filter)
   equal_.compare(bytes.data() + 1, bytes.data(), bytes.size() - 1);
 }
 
-// Smooth shapes change little from row to row: there the difference is mostly zero. The difference of
-// dithered rows says more than the row. An edge is two changes along the row, of which one may have moved.
+// Returns true if the difference to the row above has fewer changes. In smooth shapes it is mostly zero; for dithered
+// rows it contains more information than the row. An edge is two changes along the row, one of which may have moved.
 bool PackedRows::pays_as_difference(bool repeats, size_t changes) {
   if (repeats) return changes > 0;
   equal_above_.compare(row_.data() + pixels_at, row_above_.data() + pixels_at, packer_.size());
   return 2 * (packer_.size() - equal_above_.equal_count()) < changes;
 }
 
-// Rows of two materials cannot gain: each bit is as likely beside any above.
+// Returns true for noise of few materials that compresses better as a difference. Rows of two materials cannot gain,
+// because each bit is equally likely beside any bit above.
 bool PackedRows::is_noise_of_few(size_t changes) {
   if (packer_.bit_depth() == 1 || 4 * changes < equal_.size()) return false;
   return guess_.pays(row_.data() + pixels_at, row_above_.data() + pixels_at, packer_.size());
 }
 
-// Long stretches of one byte become matches; in shorter ones a byte is often but one bit.
+// Writes long stretches of equal bytes as matches; in short stretches a byte often takes only one bit.
 void PackedRows::write(const std::vector<uint8_t>& bytes) {
   const uint8_t* const stream = bytes.data() + 1;
   size_t written = 0;

@@ -1,4 +1,4 @@
-// Rows of voxels to the bytes of image rows that hold one small number a pixel.
+// Packs rows of voxels into image rows with one small number per pixel.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace ombre::formats {
 
-// What a pixel of each material is.
+// The pixel value of each material.
 struct Samples {
   int bit_depth = 8;              // 1, 2, 4 or 8
-  std::vector<MaterialId> ids;    // that occur, at least one
-  std::array<uint8_t, 256> of{};  // by id
+  std::vector<MaterialId> ids;    // the materials that occur, at least one
+  std::array<uint8_t, 256> of{};  // pixel values by id
 };
 
-// Packs rows, the first pixel into the highest bits; spare bits are zero.
+// Packs rows; the first pixel is in the highest bits, and unused bits are zero.
 class RowPacker {
  public:
   RowPacker(uint32_t width, const Samples& samples, bool flip_x);
@@ -41,10 +41,10 @@ class RowPacker {
   unsigned bit_depth_;
   bool flip_x_;
   std::array<uint8_t, 256> samples_;
-  DoubleBits few_;                  // the materials whose sample is not 0, if they are few
-  size_t registered_ = 0;           // how many they are
-  std::vector<uint8_t> pairs_;      // the samples of two neighbours, by their ids
-  std::vector<MaterialId> voxels_;  // of one row, and some more
+  DoubleBits few_;                  // the materials whose sample is not 0, if there are few
+  size_t registered_ = 0;           // number of these materials
+  std::vector<uint8_t> pairs_;      // samples of two neighbours, by their ids
+  std::vector<MaterialId> voxels_;  // voxels of one row, with a margin
 };
 
 // Writes packed rows, each as it is or as the difference to the row above.
@@ -52,7 +52,7 @@ class PackedRows {
  public:
   PackedRows(uint32_t width, const Samples& samples, bool flip_x, ZlibStream& out);
 
-  // From the top. The layer outlives this.
+  // Adds the next row, from the top. The layer must outlive this object.
   void put(const RowView& row);
 
  private:
@@ -66,11 +66,11 @@ class PackedRows {
   RowPacker packer_;
   ZlibStream& out_;
   RowView above_;
-  // The last byte written before, the filter, then pixels.
+  // Each holds the last byte written before, the filter, then the pixels.
   std::vector<uint8_t> row_, row_above_, difference_;
-  ByteHistory history_;             // of rows with such edges, while no other comes in between
-  DifferenceGuess guess_;           // of noisy rows
-  EqualBytes equal_, equal_above_;  // to the byte before, to the byte above
+  ByteHistory history_;             // consecutive rows with edges to follow
+  DifferenceGuess guess_;           // for noisy rows
+  EqualBytes equal_, equal_above_;  // compared with the previous byte and with the byte above
   uint8_t last_byte_ = 0xFF;        // not a filter, so nothing repeats it
 };
 

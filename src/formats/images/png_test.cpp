@@ -11,7 +11,7 @@
 namespace ombre::formats {
 namespace {
 
-// Runs of random length and material, 0 included.
+// Returns a layer with runs of random length and material, including 0.
 RunLayer random_layer(uint32_t width, uint32_t height, int materials, uint32_t longest, uint32_t seed) {
   std::mt19937 random(seed);
   RunLayer layer(width);
@@ -37,7 +37,7 @@ Palette palette_of(int materials) {
   return palette;
 }
 
-// What a reader should see of a material.
+// Returns the colour that a reader should see for a material.
 Rgba seen(MaterialId id, const Palette& palette, const PngLayout& layout) {
   const Rgba colour = palette.colours()[palette.entry(id)];
   const uint8_t gray = layout.format == ImageFormat::mask ? id == layout.mask_of ? 255 : 0 : luminance(colour);
@@ -63,7 +63,7 @@ void expect_same_voxels(const RunLayer& layer, const Palette& palette, const Png
   }
 }
 
-// In every format and direction.
+// Checks every format and direction.
 void expect_same_voxels(const RunLayer& layer, const Palette& palette) {
   for (const ImageFormat format : {ImageFormat::indexed, ImageFormat::rgba, ImageFormat::gray, ImageFormat::mask}) {
     for (const int flips : {0, 1, 2, 3}) {
@@ -77,7 +77,8 @@ void expect_same_voxels(const RunLayer& layer, const Palette& palette) {
   }
 }
 
-// Each row a material more, or less, or as the one before; some of it dithered.
+// Returns a layer in which each row has one material more or less than the previous row, or equals it; parts of it are
+// dithered.
 RunLayer mixed_layer(uint32_t width, uint32_t height, int materials, uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<MaterialId> row(width);
@@ -135,7 +136,8 @@ TEST(Png, KeepsEmptyAndUniformLayers) {
   }
 }
 
-// Each place has two of the materials: which two changes along the row. One bit a voxel at most says which.
+// Each place has two of the materials, which vary along the row. At most one bit per voxel is needed to distinguish
+// them.
 TEST(Png, CodesNoiseOfAFewOfManyMaterialsByTheRowAbove) {
   constexpr uint32_t width = 2048, height = 256;
   for (const int materials : {4, 8, 16, 64, 200}) {
@@ -151,14 +153,15 @@ TEST(Png, CodesNoiseOfAFewOfManyMaterialsByTheRowAbove) {
     }
     const Palette palette = palette_of(materials);
     expect_same_voxels(layer, palette, {});
-    // Differences are -1, 0, 1 with 1/6, 2/3, 1/6 on the average: 1.25 bits.
+    // Differences are -1, 0 and 1 with average probabilities of 1/6, 2/3 and 1/6: 1.25 bits.
     const double bits = 8.0 * static_cast<double>(encode_png(layer, palette, {}).size()) / (width * height);
     EXPECT_LT(bits, 1.55) << materials;
   }
 }
 
-// Void, a material, two in equal shares, the other: one bit for each voxel of the noise, where differences to the row
-// above would take one and a half, though bytes of all kinds are as frequent as in noise of the whole row.
+// The row is void, one material, noise of two in equal shares, and the other material. The noise needs one bit per
+// voxel; differences to the row above would need one and a half, although all bytes are as frequent as in a row of
+// noise.
 TEST(Png, CodesNoiseBetweenStretchesAsItIs) {
   constexpr uint32_t stretch = 1920, noise = 2240, height = 128;
   std::mt19937 random(7);
@@ -209,7 +212,7 @@ TEST(Png, DitheredRgbaLayersOfManyMaterialsTakeLittleMoreThanTheirEntropy) {
   constexpr uint32_t side = 1024;
   PngLayout rgba;
   rgba.format = ImageFormat::rgba;
-  for (const int materials : {2, 3, 4, 7, 15}) {  // and void
+  for (const int materials : {2, 3, 4, 7, 15}) {  // plus void
     const double entropy = std::log2(materials + 1) * side * side / 8;
     const RunLayer layer = random_layer(side, side, materials, 1, 1);
     EXPECT_LT(static_cast<double>(encode_png(layer, palette_of(materials), rgba).size()), 1.7 * entropy) << materials;
@@ -236,7 +239,7 @@ TEST(Png, SmoothRgbaLayersTakeFewBytesForEachEdge) {
   EXPECT_LT(encode_png(layer, palette_of(1), rgba).size(), 3 * waves * height);
 }
 
-// Of a job of twenty materials: entries keep their numbers, be there few or many bits for them.
+// The job has twenty materials: entries keep their numbers, whether few or many bits are used.
 TEST(Png, StoresTheFewestBitsThatHoldTheLayer) {
   struct Case {
     MaterialId material;
@@ -333,7 +336,7 @@ TEST(Png, PicturesKeepTheirPixels) {
   for (uint32_t n = 0; n < 15; ++n)
     EXPECT_EQ(few.colour(n % 5, n / 5), (Rgba{rgba[4 * n], rgba[4 * n + 1], rgba[4 * n + 2], rgba[4 * n + 3]}));
 
-  std::vector<uint8_t> many(4 * 20 * 20);  // more colours than a palette holds
+  std::vector<uint8_t> many(4 * 20 * 20);  // more colours than fit a palette
   for (size_t i = 0; i < many.size(); ++i) many[i] = static_cast<uint8_t>(i % 4 == 0 ? i / 4 : i / 1024 + i % 4);
   EXPECT_EQ(decode_png(encode_png(20, 20, many), "test").pixels, many);
 }
@@ -355,7 +358,7 @@ TEST(Png, DamagedFilesAreErrorsThatNameTheFile) {
 
 namespace {
 
-// By the polynomial of the PNG specification, its Annex D.
+// Computes the checksum by the polynomial of the PNG specification, Annex D.
 uint32_t crc_of(std::string_view bytes) {
   uint32_t crc = 0xFFFFFFFF;
   for (const char c : bytes) {
@@ -369,10 +372,10 @@ void put(std::string& bytes, size_t at, uint32_t value) {
   for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
 }
 
-// A small file whose header says another size; interlaced, of 16 bits, perhaps.
+// Returns a small file whose header has another size, and optionally interlacing and 16 bits.
 std::string with_header(uint32_t width, uint32_t height, int depth, bool is_interlaced) {
   std::string bytes = encode_png(20, 20, std::vector<uint8_t>(4 * 20 * 20, 200));
-  constexpr size_t header = 16, length = 13;  // behind the signature, a length and "IHDR"
+  constexpr size_t header = 16, length = 13;  // after the signature, a length and "IHDR"
   put(bytes, header, width);
   put(bytes, header + 4, height);
   bytes[header + 8] = static_cast<char>(depth);

@@ -8,9 +8,9 @@
 
 namespace ombre::formats {
 
-using Rgba = std::array<uint8_t, 4>;  // red, green, blue in sRGB, alpha; not premultiplied
+using Rgba = std::array<uint8_t, 4>;  // red, green, blue in sRGB, and alpha; not premultiplied
 
-// "#RRGGBB" or "#RRGGBBAA".
+// Parses "#RRGGBB" or "#RRGGBBAA"; null if the text is neither.
 std::optional<Rgba> parse_colour(std::string_view text);
 
 }  // namespace ombre::formats

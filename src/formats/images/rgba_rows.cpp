@@ -17,7 +17,7 @@ Rgba difference(Rgba a, Rgba b) {
   return result;
 }
 
-// Steps through the runs of a row in the order of the image.
+// Iterates over the runs of a row in the order of the image.
 class RunReader {
  public:
   RunReader(const std::vector<Run>& runs, bool flip) : runs_(runs), flip_(flip) { load(); }
@@ -78,7 +78,7 @@ void RgbaRows::put_smooth(const RowView& row) {
   history_.clear();
 }
 
-// All of them, be they ever so short.
+// Collects all runs of a row, however short.
 void RgbaRows::set_runs(const RowView& row) {
   runs_.clear();
   const MaterialId* loose = row.dense.data();
@@ -101,7 +101,7 @@ void RgbaRows::put_difference() {
   put_filter(filter_up);
   RunReader here(runs_, flip_x_), above(runs_above_, flip_x_);
   Rgba pixel{};
-  uint32_t count = 0;  // of equal differences so far
+  uint32_t count = 0;  // pixels of the current stretch of equal differences
   for (uint32_t column = 0; column < width_;) {
     const uint32_t step = std::min(here.left(), above.left());
     const Rgba next = difference(colours_[here.material()], colours_[above.material()]);

@@ -1,4 +1,4 @@
-// Rows of voxels to RGBA image rows, seen as whole pixels.
+// Encodes rows of voxels as RGBA image rows, in units of whole pixels.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@
 
 namespace ombre::formats {
 
-// Smooth rows are written as the difference to the row above, stretch by stretch, without making their
-// bytes. Dithered rows repeat what was written before wherever a few pixels agree.
+// Smooth rows are written as differences to the row above, stretch by stretch, without generating their bytes. Dithered
+// rows repeat earlier data wherever a few pixels are equal.
 class RgbaRows {
  public:
-  // `materials` are those that occur, at least one.
+  // Constructs an encoder; `materials` are those that occur, at least one.
   RgbaRows(uint32_t width, const Palette& palette, std::vector<MaterialId> materials, bool flip_x, ZlibStream& out);
 
-  // From the top.
+  // Adds the next row, from the top.
   void put(const RowView& row);
 
  private:
-  static constexpr size_t few = 16;  // materials, that vectors take
+  static constexpr size_t few = 16;  // number of materials that vector instructions can look up
 
   void put_smooth(const RowView& row);
   void set_runs(const RowView& row);
@@ -39,13 +39,13 @@ class RgbaRows {
   uint32_t width_;
   bool flip_x_;
   std::vector<MaterialId> materials_;
-  std::array<uint8_t, 256> number_of_{};    // by id, as they stand in `materials_`
+  std::array<uint8_t, 256> number_of_{};    // by id: index in `materials_`
   std::array<Rgba, 256> colours_{};         // by id
-  std::array<Rgba, few> colours_of_few_{};  // by number
+  std::array<Rgba, few> colours_of_few_{};  // by index in `materials_`
   ZlibStream& out_;
-  std::vector<Run> runs_, runs_above_;  // of smooth rows
+  std::vector<Run> runs_, runs_above_;  // runs of smooth rows
   StretchHistory stretches_;
-  std::vector<uint8_t> image_;  // of a dithered row
+  std::vector<uint8_t> image_;  // bytes of a dithered row
   PixelHistory history_;
 };
 

@@ -9,8 +9,8 @@ namespace ombre::formats {
 namespace {
 
 constexpr uint32_t stretch_window = DeflateWriter::window;
-constexpr uint32_t first_stretch = 2 * stretch_window;  // out of reach from there: position 0
-constexpr uint32_t last_stretch = uint32_t{1} << 31;    // far enough from overflow
+constexpr uint32_t first_stretch = 2 * stretch_window;  // beyond the window from position 0
+constexpr uint32_t last_stretch = uint32_t{1} << 31;    // far below overflow
 constexpr unsigned stretch_bits = 10;
 
 size_t slot(Rgba pixel, uint32_t count) {

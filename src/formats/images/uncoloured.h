@@ -1,12 +1,12 @@
-// Materials without a colour, in formats that need one.
+// The colour of materials without one, in formats that require a colour.
 #pragma once
 
 #include "formats/images/rgba.h"
 
 namespace ombre::formats {
 
-// What stands for "no colour" in files that we write: a gray that is not quite opaque, and so hardly anybody's own.
-// Readers of solids take it for none.
+// A colour that means "no colour" in files written by this project: a gray that is not quite opaque, so rarely used
+// otherwise. Readers of solids treat it as none.
 inline constexpr Rgba uncoloured{128, 128, 128, 254};
 
 }  // namespace ombre::formats

@@ -1,4 +1,4 @@
-// Beams and balls between vertices, as 3MF files have them (Beam Lattice Extension 1.2).
+// Beams and balls between vertices, as in 3MF files (Beam Lattice Extension 1.2).
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ namespace ombre::formats {
 
 struct Mesh;
 
-// How a beam is closed at an end: by a ball of the end's radius, by the half of it that lies beyond the end, or flat.
+// The closing of a beam at an end: a ball with the end's radius, the half of it beyond the end, or flat.
 enum class BeamCap : uint8_t { sphere, hemisphere, butt };
 
-// A conical frustum between two vertices, and its caps.
+// A conical frustum between two vertices, with its caps.
 struct Beam {
-  std::array<uint32_t, 2> ends{};  // vertices of the lattice, not the same
-  std::array<double, 2> radii{};   // at the ends; positive
+  std::array<uint32_t, 2> ends{};  // two different vertices of the lattice
+  std::array<double, 2> radii{};   // radii at the ends; positive
   std::array<BeamCap, 2> caps{};
 };
 
@@ -27,16 +27,16 @@ struct Ball {
   double radius = 0;    // positive
 };
 
-// Which part of a lattice there is.
+// The part of a lattice that exists.
 enum class LatticeClipping : uint8_t { none, inside, outside };
 
-// The union of its beams and balls, clipped. All lengths are in the unit of its vertices.
+// The union of beams and balls, clipped. All lengths are in the unit of the vertices.
 struct BeamLattice {
   std::vector<Vec3> vertices;
   std::vector<Beam> beams;
   std::vector<Ball> balls;
   LatticeClipping clipping = LatticeClipping::none;
-  std::shared_ptr<const Mesh> clip;  // by the triangles of this; set where there is clipping
+  std::shared_ptr<const Mesh> clip;  // the clipping mesh; set if there is clipping
 };
 
 }  // namespace ombre::formats

@@ -1,11 +1,11 @@
-// Which colour the parts of a body have.
+// Colours of bodies and their vertices.
 #pragma once
 
 #include "formats/mesh/mesh_document.h"
 
 namespace ombre::formats {
 
-// Its material's; gray without one.
+// Returns the colour of the body's material; gray if it has none.
 inline Rgba colour_of(const MeshDocument& document, const MeshBody& body) {
   return body.material ? document.materials[*body.material].colour : MeshMaterial{}.colour;
 }

@@ -1,4 +1,4 @@
-// glTF 2.0, binary: a chunk of JSON that describes the chunk of numbers behind it.
+// Writes binary glTF 2.0: a chunk of JSON that describes the following chunk of numbers.
 #include <algorithm>
 #include <limits>
 
@@ -33,7 +33,7 @@ Data material_of(const MeshMaterial& material, bool is_translucent) {
 
 Vec3 rounded_to_float(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
 
-// Least and greatest of each coordinate, as they stand in the numbers.
+// Returns the least and greatest of each coordinate, rounded as in the file.
 std::pair<Vec3, Vec3> extent(const std::vector<Vec3>& points) {
   Vec3 least = rounded_to_float(points.front()), greatest = least;
   for (const Vec3& point : points) {
@@ -55,8 +55,8 @@ bool has_translucent_vertices(const MeshDocument& document) {
   });
 }
 
-// The document's materials. Colours of vertices multiply their material's, so bodies that have them share a white one
-// behind the others.
+// Returns the document's materials. Colours of vertices are multiplied by their material's colour, so bodies with such
+// colours share a white material after the others.
 DataList materials_of(const MeshDocument& document) {
   DataList materials;
   for (const MeshMaterial& material : document.materials)
@@ -67,7 +67,7 @@ DataList materials_of(const MeshDocument& document) {
   return materials;
 }
 
-// Describes bodies one after the other: their nodes, meshes and where their numbers lie.
+// Describes bodies one after another: their nodes, meshes and the positions of their numbers.
 class Scene {
  public:
   explicit Scene(const MeshDocument& document) : material_count_(document.materials.size()) {}
@@ -101,7 +101,7 @@ class Scene {
   }
 
  private:
-  // The bodies, and last the node that holds them: mm become metres, z goes up as y.
+  // Returns the nodes: the bodies, then their parent, which converts mm to metres and z to the upward axis y.
   DataList nodes(const MeshDocument& document) const {
     constexpr double metre = 0.001;
     DataList all = nodes_, children;
@@ -113,7 +113,7 @@ class Scene {
     return all;
   }
 
-  // The number of an accessor of its own.
+  // Adds an accessor with its own buffer view, and returns its number.
   Data add_accessor(size_t bytes, double target, DataMembers accessor) {
     accessor.insert(accessor.begin(), {"bufferView", number(views_.size())});
     accessors_.push_back(std::move(accessor));
@@ -167,7 +167,7 @@ std::array<uint16_t, 256> linear_table() {
   return table;
 }
 
-// In the order of Scene.
+// Adds the numbers of a body in the order of Scene.
 void add_numbers(LazyBytes& bytes, const MeshBody& body) {
   bytes.add_rows(body.vertices.size(),
                  [&body](std::string& out, size_t index) { append_point_f32(out, body.vertices[index]); });

@@ -1,4 +1,5 @@
-// Triangle meshes as files give them: a plain struct and one reader per format. Those of packages: package_readers.h.
+// Triangle meshes as read from files: a plain struct, and one reader per format. Readers of packages are in
+// package_readers.h.
 #pragma once
 
 #include <array>
@@ -16,42 +17,43 @@
 
 namespace ombre::formats {
 
-// A run of triangles: an STL solid, what an OBJ file calls an object or a group, a volume of AMF, an object of 3MF as
-// far as one material goes. A name may come back when a file returns to it.
+// A consecutive range of triangles: an STL solid, an object or group of OBJ, a volume of AMF, or the triangles of one
+// material in a 3MF object. A name may occur several times.
 struct MeshGroup {
   std::string name;
   uint32_t first_triangle = 0, triangle_count = 0;
-  std::string material = {};        // OBJ usemtl; it is also the name where the file gives no other
-  std::string object = {};          // the AMF object or the 3MF part that it belongs to, where that has a name
-  std::optional<Rgba> colour = {};  // AMF, 3MF: its own or its material's
+  std::string material = {};        // name in OBJ's usemtl; it is also the group's name if the file has no other
+  std::string object = {};          // name of the AMF object or 3MF part that contains it, if it has one
+  std::optional<Rgba> colour = {};  // AMF and 3MF: its own colour, or that of its material
 };
 
-// A lattice of one material in its place. Several places may share it.
+// A placed lattice of one material. Several placements may share a lattice.
 struct PlacedLattice {
-  MeshGroup group;  // what it is called and made of; it has no triangles
+  MeshGroup group;  // its name and material; without triangles
   std::shared_ptr<const BeamLattice> lattice;
-  Affine mm_from_lattice = {};  // with an inverse
+  Affine mm_from_lattice = {};  // invertible
 };
 
 struct Mesh {
-  // As in the file, 3MF and AMF in mm; finite, at most greatest_coordinate away from 0.
+  // In the file's unit, or mm for 3MF and AMF; finite, with coordinates of at most greatest_coordinate.
   std::vector<Vec3> vertices;
-  std::vector<std::array<uint32_t, 3>> triangles;          // counter-clockwise from outside; empty only beside lattices
-  std::vector<MeshGroup> groups;                           // in order, none empty, together all triangles
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside; empty only if there are lattices
+  std::vector<MeshGroup> groups;                   // in order, not empty, covering all triangles
   std::vector<std::array<double, 2>> texture_coordinates;  // may be empty
-  std::vector<std::array<uint32_t, 3>> texture_triangles;  // empty, or one per triangle, into texture_coordinates
-  std::vector<PlacedLattice> lattices;  // of 3MF; they unite with the triangles, and what comes first wins
+  // empty, or one per triangle; indices into texture_coordinates
+  std::vector<std::array<uint32_t, 3>> texture_triangles;
+  std::vector<PlacedLattice> lattices;  // from 3MF; united with the triangles, the earlier has precedence
 };
 
-// STL, binary and text; vertices at the same place become one.
+// Reads binary and text STL; vertices at the same place are merged.
 std::optional<Mesh> read_stl(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
-// Wavefront OBJ; free-form surfaces, lines and normals are passed over.
+// Reads Wavefront OBJ; free-form surfaces, lines and normals are ignored.
 std::optional<Mesh> read_obj(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
-// PLY 1.0: ascii, binary little-endian and big-endian.
+// Reads PLY 1.0: ascii, binary little-endian and big-endian.
 std::optional<Mesh> read_ply(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
-// Geomview OFF as text, in three dimensions; normals, colours and texture coordinates may be there.
+// Reads Geomview OFF as text, in three dimensions; normals, colours and texture coordinates are accepted.
 std::optional<Mesh> read_off(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
-// What the bytes show for certain, whatever the file is called.
+// These return true if the bytes are certainly of the format, whatever the file's name.
 bool is_stl(std::string_view bytes);
 bool is_ply(std::string_view bytes);
 bool is_off(std::string_view bytes);

@@ -1,4 +1,4 @@
-// Puts a mesh together from what a file lists: vertices, polygons, groups.
+// Builds a mesh from the vertices, polygons and groups that a file lists.
 #include "formats/mesh/mesh_builder.h"
 
 namespace ombre::formats {

@@ -1,4 +1,4 @@
-// Puts a mesh together from what a file lists: vertices, polygons, groups.
+// Builds a mesh from the vertices, polygons and groups that a file lists.
 #pragma once
 
 #include <span>
@@ -13,27 +13,28 @@ class MeshBuilder {
  public:
   static constexpr size_t most_vertices = UINT32_MAX - 1;
 
-  // The faces that follow belong to this group.
+  // Starts a group, to which the following faces belong.
   void start_group(const std::string& name, const std::string& material = "");
 
-  // At most most_vertices in all.
+  // Adds a vertex; at most most_vertices in total.
   void add_vertex(Vec3 p) { mesh_.vertices.push_back(p); }
   void add_texture_coordinate(double u, double v) { mesh_.texture_coordinates.push_back({u, v}); }
   size_t vertex_count() const { return mesh_.vertices.size(); }
   size_t texture_coordinate_count() const { return mesh_.texture_coordinates.size(); }
   size_t triangle_count() const { return mesh_.triangles.size(); }
 
-  // At least three corners, all numbers of vertices. Texture coordinates: none, or one per corner.
+  // Adds a polygon of at least three corners, which are numbers of vertices. Texture coordinates: none, or one per
+  // corner.
   void add_polygon(std::span<const uint32_t> corners, std::span<const uint32_t> texture = {});
 
-  // The mesh, with its groups complete. `untextured` tells how many triangles got the texture
-  // coordinate (0, 0) because only others have their own.
+  // The mesh with complete groups. `untextured` is the number of triangles that got the texture coordinate (0, 0)
+  // because only other triangles have texture coordinates.
   struct Result {
     Mesh mesh;
     size_t untextured = 0;
   };
   Result finish();
-  // In place of vertices added one by one.
+  // Finishes with these vertices instead of those added one by one.
   Result finish(std::vector<Vec3> vertices);
 
  private:

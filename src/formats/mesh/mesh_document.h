@@ -1,4 +1,4 @@
-// What a mesh file is written from: bodies of triangles, with names, materials and colours.
+// The contents of a mesh file to be written: bodies of triangles, with names, materials and colours.
 #pragma once
 
 #include <array>
@@ -21,21 +21,22 @@ struct MeshMaterial {
 
 struct MeshBody {
   std::string name;
-  std::vector<Vec3> vertices;                                      // mm
-  std::vector<std::array<uint32_t, 3>> triangles;                  // counter-clockwise from outside
-  std::optional<uint32_t> material = {};                           // an index into the document's
-  std::vector<Rgba> vertex_colours = {};                           // empty, or one per vertex
-  std::vector<std::pair<std::string, std::string>> settings = {};  // PrusaSlicer's keys: fill_density, 15%
+  std::vector<Vec3> vertices;                      // mm
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
+  std::optional<uint32_t> material = {};           // index of a material of the document
+  std::vector<Rgba> vertex_colours = {};           // empty, or one per vertex
+  std::vector<std::pair<std::string, std::string>> settings =
+      {};  // with PrusaSlicer's keys, such as fill_density = 15%
 };
 
-// Beams between vertices. Only 3MF holds them.
+// Beams between vertices, which only 3MF supports.
 struct WrittenBeams {
   std::string name;
   std::vector<Vec3> vertices;  // mm
   std::vector<Beam> beams;
-  std::vector<uint32_t> materials;  // one for each beam, indices into the document's; or empty
+  std::vector<uint32_t> materials;  // empty, or one per beam: indices of materials of the document
   LatticeClipping clipping = LatticeClipping::none;
-  uint32_t clip = 0;  // where there is clipping: an index into the document's clips
+  uint32_t clip = 0;  // if clipped: index into the document's clips
 };
 
 struct MeshDocument {
@@ -43,9 +44,9 @@ struct MeshDocument {
   std::vector<MeshMaterial> materials;
   std::vector<MeshBody> bodies;
   std::vector<WrittenBeams> beams = {};
-  std::vector<MeshBody> clips = {};  // solids that are not there themselves
+  std::vector<MeshBody> clips = {};  // solids that only serve for clipping
 
-  // Of the bodies.
+  // Totals over the bodies.
   size_t vertex_count() const;
   size_t triangle_count() const;
   size_t beam_count() const;

@@ -9,7 +9,7 @@ namespace {
 
 bool is_called(const MeshGroup& group, const std::string& name) { return group.name == name || group.object == name; }
 
-// Gives the mesh those of the vertices that its triangles use, and numbers them anew.
+// Gives the mesh only the vertices that its triangles use, and renumbers them.
 void take_used_vertices(const std::vector<Vec3>& vertices, Mesh& mesh) {
   constexpr uint32_t unused = UINT32_MAX;
   std::vector<uint32_t> number(vertices.size(), unused);

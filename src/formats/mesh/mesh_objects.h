@@ -8,16 +8,17 @@
 
 namespace ombre::formats {
 
-// The names by which keep_object() finds something, each once, in the order of the file.
+// Returns the names accepted by keep_object(), each once, in the order of the file.
 std::vector<std::string> object_names(const Mesh& mesh);
 
-// Those of the triangles, then those of the lattices.
+// Returns the groups of triangles, followed by those of lattices.
 std::vector<MeshGroup> all_groups(const Mesh& mesh);
 
-// The groups whose flag is set, in order, with the vertices that they use; `flags` is for all_groups().
+// Returns the groups whose flag is set, in order, with the vertices that they use; `flags` belongs to all_groups().
 Mesh groups_of(const Mesh& mesh, const std::vector<bool>& flags);
 
-// Keeps the groups whose name is `name`, or whose object's is. False, and an unchanged mesh, if there are none.
+// Keeps only the groups whose name, or whose object's name, is `name`. Returns false and leaves the mesh unchanged if
+// there are none.
 bool keep_object(Mesh& mesh, const std::string& name);
 
 }  // namespace ombre::formats

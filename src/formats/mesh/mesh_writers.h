@@ -1,8 +1,8 @@
-// Mesh files from a document, one writer per format. Lengths are mm, z is up; bodies without triangles are left out,
-// and beams. 3MF and AMF have writers of their own: package_writers.h.
+// Writes mesh files from a document, with one writer per format. Lengths are mm, z is up; bodies without triangles and
+// beams are left out. 3MF and AMF have their own writers, in package_writers.h.
 //
-// The bytes are made while they are read, from the document, which must live as long. Equal documents give equal
-// bytes. Coordinates are rounded to floats. Writers throw Error for what a format cannot hold.
+// The bytes are generated from the document while they are read, so the document must outlive them. Equal documents
+// give equal bytes. Coordinates are rounded to floats. Writers throw Error for contents that a format cannot hold.
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@
 
 namespace ombre::formats {
 
-// Binary STL: triangles alone, of all bodies in order.
+// Returns binary STL: only triangles, of all bodies in order.
 LazyBytes stl_bytes(const MeshDocument& document);
-// Wavefront OBJ: objects with their materials, which lie in the file `library_name` beside it; colours of vertices
-// behind their coordinates.
+// Returns Wavefront OBJ: objects with their materials, which are in the file `library_name` beside it; colours of
+// vertices follow their coordinates.
 LazyBytes obj_bytes(const MeshDocument& document, const std::string& library_name);
 LazyBytes mtl_bytes(const MeshDocument& document);
-// Binary PLY: one mesh, a colour for each vertex.
+// Returns binary PLY: one mesh with a colour for each vertex.
 LazyBytes ply_bytes(const MeshDocument& document);
-// OFF as text: one mesh, the colour of its body for each face.
+// Returns OFF as text: one mesh, in which each face has the colour of its body.
 LazyBytes off_bytes(const MeshDocument& document);
-// glTF 2.0, binary: a node for each body. Its own unit and axes are metres with y up, so the nodes lie in one with a
-// matrix; colours are linear.
+// Returns binary glTF 2.0 with a node for each body. glTF uses metres and y up, so a parent node has a matrix; colours
+// are linear.
 LazyBytes glb_bytes(const MeshDocument& document);
 
 }  // namespace ombre::formats

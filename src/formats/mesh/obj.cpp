@@ -1,4 +1,4 @@
-// Wavefront OBJ: vertices, texture coordinates, faces, and the names of objects, groups and materials.
+// Reads Wavefront OBJ: vertices, texture coordinates, faces, and the names of objects, groups and materials.
 #include <algorithm>
 #include <charconv>
 #include <span>
@@ -12,12 +12,12 @@
 namespace ombre::formats {
 namespace {
 
-// Statements without a bearing on the surface, and what belongs to a free-form surface.
+// Statements that do not affect the surface, and those that belong to a free-form surface.
 constexpr std::string_view passed_over[]{
     "vn",     "s",        "mtllib", "l",    "p",    "vp",     "cstype",     "deg",       "bmat",  "step",     "curv",
     "curv2",  "parm",     "trim",   "hole", "sp",   "end",    "con",        "mg",        "bevel", "c_interp", "lod",
     "maplib", "d_interp", "res",    "cdc",  "scrv", "usemap", "shadow_obj", "trace_obj", "ctech", "stech"};
-// What adds to the surface but is not read: free-form surfaces, and the contents of other files.
+// Statements that add to the surface but are not supported: free-form surfaces, and the contents of other files.
 constexpr std::string_view left_out[]{"surf", "bsp", "bzp", "cdp", "call", "csh"};
 
 bool is_one_of(std::string_view word, std::span<const std::string_view> list) {
@@ -67,7 +67,7 @@ class ObjReader {
     warnings_.add("a statement" + statement + " is not read", "statements" + statement + " are not read");
   }
 
-  // A file without faces that has something else is no OBJ file.
+  // Reports the first unknown statement of a file without faces, which is not an OBJ file.
   [[noreturn]] void fail_at_unknown() const {
     TextScanner word(scanner_);
     word.go_to(unknown_begin_);
@@ -77,7 +77,7 @@ class ObjReader {
 
   void start_group() { builder_.start_group(object_.empty() ? material_ : object_, material_); }
 
-  // Weights and colours may follow; next_line() passes over them.
+  // Reads a vertex; weights and colours may follow, which next_line() skips.
   void read_vertex() {
     need_in_line("a coordinate of a vertex");
     Vec3 p;
@@ -110,13 +110,13 @@ class ObjReader {
     if (corners_.size() < 3)
       return warnings_.add("a face of fewer than three corners is no part of the surface",
                            "faces of fewer than three corners are no part of the surface");
-    // A face of which only some corners have texture coordinates counts as one without.
+    // Texture coordinates of a face are ignored if only some of its corners have them.
     if (texture_.size() != corners_.size()) texture_.clear();
     builder_.add_polygon(corners_, texture_);
   }
 
-  // V, V/VT, V//VN or V/VT/VN. Some programs write V/VN, or texture coordinates that the file does not have: the
-  // surface needs neither.
+  // Reads V, V/VT, V//VN or V/VT/VN. Some programs write V/VN, or texture coordinates that do not exist; the surface
+  // needs neither.
   void read_corner(std::string_view text) {
     const char* at = text.data();
     const char* const end = at + text.size();
@@ -151,7 +151,7 @@ class ObjReader {
                     "corners use texture coordinates that the file does not have");
   }
 
-  // Indices count from 1; negative ones count back from the last. Nothing for one beyond.
+  // Resolves an index, which counts from 1, or backwards from the last if negative. Null if it is out of range.
   static std::optional<uint32_t> resolve(int64_t index, size_t count) {
     const auto known = static_cast<int64_t>(count);
     if (index > known || index < -known) return std::nullopt;
@@ -170,7 +170,7 @@ class ObjReader {
   CountedWarnings warnings_;
   std::string object_, material_;
   std::vector<uint32_t> corners_, texture_;
-  size_t unknown_begin_ = 0, unknown_end_ = 0;  // the first statement of an unknown name
+  size_t unknown_begin_ = 0, unknown_end_ = 0;  // the first statement with an unknown name
 };
 
 }  // namespace

@@ -1,11 +1,11 @@
-// Wavefront OBJ and its material library.
+// Writes Wavefront OBJ and its material library.
 #include "formats/containers/append_numbers.h"
 #include "formats/mesh/mesh_writers.h"
 
 namespace ombre::formats {
 namespace {
 
-// Readers end a name at a space, and lines at a backslash or #.
+// Returns a name without blanks and special characters: readers end a name at a space, and a line at a backslash or #.
 std::string one_word(const std::string& name) {
   std::string word;
   for (const char c : name) {

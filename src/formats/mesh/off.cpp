@@ -1,4 +1,4 @@
-// Geomview OFF as text: [ST][C][N]OFF, counts, vertices, polygons.
+// Reads Geomview OFF as text: [ST][C][N]OFF, counts, vertices, polygons.
 #include <algorithm>
 
 #include "base/text/text.h"
@@ -14,14 +14,14 @@ constexpr char comment = '#';
 
 struct Header {
   bool has_texture = false, has_colours = false, has_normals = false;
-  bool has_other_dimension = false;  // 4OFF, nOFF
+  bool has_other_dimension = false;  // headers 4OFF and nOFF
 };
 
 bool is_number(std::string_view word) {
   return std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Nothing if the word is not an OFF header. The number of vertices may follow without a blank.
+// Parses a header; null if the word is not one. The number of vertices may follow without a blank.
 std::optional<Header> parse_header(std::string_view word) {
   Header header;
   const auto take = [&word](std::string_view prefix) {
@@ -46,11 +46,11 @@ class OffReader {
   Mesh read() {
     read_header();
     const uint64_t vertices = scanner_.count("the number of vertices");
-    const bool is_edges_next = scanner_.at_line_end();  // then each count has a line
-    // "0 0 0" with its line end.
+    const bool is_edges_next = scanner_.at_line_end();  // each count has its own line then
+    // The least size is that of "0 0 0" with a line end.
     check_fits(vertices, 6, "vertices");
     const uint64_t faces = scanner_.count("the number of faces");
-    // "3 0 1 2" with its line end.
+    // The least size is that of "3 0 1 2" with a line end.
     check_fits(faces, 8, "faces");
     if (is_edges_next) scanner_.count("the number of edges");
     find_lines(vertices + faces, is_edges_next);
@@ -66,7 +66,7 @@ class OffReader {
   void read_header() {
     const std::string_view word = scanner_.word();
     if (!word.empty() && is_number(word))
-      return scanner_.go_to(scanner_.position() - word.size());  // it may be left out
+      return scanner_.go_to(scanner_.position() - word.size());  // the header is optional
     const auto header = parse_header(word);
     if (!header) scanner_.fail_at_word("expected OFF, COFF, NOFF or STOFF at the beginning, found " + quoted(word));
     if (header->has_other_dimension) scanner_.fail_at_word("only OFF files in three dimensions can be read");
@@ -78,8 +78,8 @@ class OffReader {
       scanner_.fail_at(before, before + 6, "binary OFF files cannot be read", "save it as text, or as PLY or STL");
   }
 
-  // Passes over the number of edges, which is there for its own sake. Most files have a line for each vertex and face,
-  // in which more may follow than the header says; in others, lines mean nothing.
+  // Skips the number of edges, which is not needed. Most files have a line for each vertex and face, which may contain
+  // more than the header promises; in other files, line ends are ignored.
   void find_lines(uint64_t elements, bool are_edges_passed) {
     TextScanner next(scanner_);
     next.next_line();
@@ -94,7 +94,7 @@ class OffReader {
                           ", more than the file has room for");
   }
 
-  // Normals and colours are passed over; texture coordinates come last.
+  // Reads a vertex; normals and colours are skipped, texture coordinates come last.
   void read_vertex() {
     builder_.add_vertex(scanner_.point("a coordinate of a vertex"));
     if (!is_one_a_line_) return read_rest_of_vertex();
@@ -142,7 +142,7 @@ class OffReader {
     else
       builder_.add_polygon(corners_,
                            header_.has_texture ? std::span<const uint32_t>(corners_) : std::span<const uint32_t>());
-    // A colour may follow.
+    // A colour may follow the corners.
     if (is_one_a_line_) scanner_.next_line();
   }
 

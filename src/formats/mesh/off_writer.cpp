@@ -1,4 +1,4 @@
-// OFF as text with a colour for each face.
+// Writes OFF as text with a colour for each face.
 #include "formats/containers/append_numbers.h"
 #include "formats/mesh/body_colours.h"
 #include "formats/mesh/mesh_writers.h"

@@ -1,4 +1,4 @@
-// PLY: a header that lists elements and their properties, then their values as text or binary.
+// Reads PLY: a header that lists elements and their properties, followed by their values as text or binary.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace ombre::formats {
 namespace {
 
-// Reads value after value in any of the three encodings.
+// Reads values in any of the three encodings.
 class Values {
  public:
   Values(TextScanner& scanner, PlyEncoding encoding, const std::string& name, std::string_view bytes,
@@ -46,7 +46,7 @@ class Values {
       if (scanner_.word().empty()) scanner_.fail_here("expected " + std::string(what) + ", but the file ends here");
   }
 
-  // The length of a list; there are enough bytes left for it.
+  // Reads the length of a list, and checks that the file has room for it.
   uint64_t length(const PlyProperty& property) {
     const double length = number(property.count_type, "the length of a list");
     const size_t least = encoding_ == PlyEncoding::ascii ? 2 : byte_size(property.type);
@@ -57,7 +57,7 @@ class Values {
                   "a list of " + format_number(length) + " values is more than the file has room for");
   }
 
-  // Points at the value that was read last.
+  // Reports an error at the value that was read last.
   [[noreturn]] void fail_at_value(PlyType type, const std::string& message) const {
     if (encoding_ == PlyEncoding::ascii) scanner_.fail_at_word(message);
     fail(diagnostics_, name_, message + " (at byte " + format_count(at_ - byte_size(type)) + ")");
@@ -71,7 +71,7 @@ class Values {
              format_count(bytes_.size()) + " bytes");
   }
 
-  // The bytes of the next value as an unsigned number.
+  // Returns the bytes of the next value as an unsigned number.
   uint64_t load_bits(size_t size) const {
     uint64_t bits = 0;
     for (size_t i = 0; i < size; ++i) {
@@ -107,10 +107,10 @@ class Values {
   const std::string& name_;
   std::string_view bytes_;
   Diagnostics& diagnostics_;
-  size_t at_;  // of binary values
+  size_t at_;  // position of binary values
 };
 
-// What a property is to us.
+// The meaning of a property for the mesh.
 enum class Role { none, x, y, z, u, v, corners };
 
 Role vertex_role(const PlyProperty& property) {
@@ -157,8 +157,8 @@ class PlyReader {
   }
 
  private:
-  // Of text, where each element has its own. What a line has beyond its element's properties is passed over; where
-  // there are fewer lines, they mean nothing.
+  // Returns the number of lines if each element of a text file has its own. Then further values of a line are ignored;
+  // if there are fewer lines, line ends have no meaning.
   uint64_t text_lines() const {
     uint64_t lines = 0;
     for (const PlyElement& element : header_.elements)
@@ -255,7 +255,7 @@ class PlyReader {
       values_.fail_at_value(property.type, "the coordinate " + property.name + " of vertex " +
                                                format_count(builder_.vertex_count()) + " is " + format_number(value) +
                                                ", which is not a usable number");
-    return value + 0.0;  // -0 becomes 0
+    return value + 0.0;  // maps -0 to 0
   }
 
   void read_faces(const PlyElement& element, void (PlyReader::*read_one)(const PlyProperty&, uint64_t)) {
@@ -284,8 +284,8 @@ class PlyReader {
     add_face();
   }
 
-  // Strips one behind the other, each ended by -1: every corner makes a triangle with the two before it, whose sides
-  // alternate.
+  // Reads triangle strips, each ended by -1: every corner forms a triangle with the two before it, with alternating
+  // orientation.
   void read_strips(const PlyProperty& property, uint64_t number) {
     const uint64_t count = values_.length(property);
     std::vector<uint32_t> strip;

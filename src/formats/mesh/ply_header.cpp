@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, with which properties.
+// Reads the header of a PLY file, which lists the elements and their properties.
 #include "formats/mesh/ply_header.h"
 
 #include <array>

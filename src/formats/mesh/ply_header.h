@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, with which properties.
+// Reads the header of a PLY file, which lists the elements and their properties.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;  // of a list
+  PlyType count_type = PlyType::uint8;  // for lists
 };
 
 struct PlyElement {
@@ -31,10 +31,11 @@ struct PlyHeader {
 };
 
 size_t byte_size(PlyType type);
-// What an element takes at the least: its lists are empty; numbers in text are a digit and a blank.
+// Returns the least size of an element: with empty lists, and numbers in text of one digit and a blank.
 size_t least_bytes(const PlyElement& element, PlyEncoding encoding);
 
-// Leaves the scanner at the first byte of the first element. Mistakes are reported, then DesignError.
+// Reads the header; leaves the scanner at the first byte of the first element. Errors are reported, and DesignError is
+// thrown.
 PlyHeader read_ply_header(TextScanner& scanner);
 
 }  // namespace ombre::formats

@@ -1,4 +1,4 @@
-// Binary little-endian PLY with a colour for each vertex.
+// Writes binary little-endian PLY with a colour for each vertex.
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "formats/containers/append_numbers.h"

@@ -1,4 +1,4 @@
-// Cuts polygons into triangles by clipping ears.
+// Triangulates polygons by ear clipping.
 #include "formats/mesh/polygon.h"
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 namespace ombre::formats {
 namespace {
 
-// Bounds the time that a hostile polygon takes: so many point-in-ear tests for each corner, and the
-// rest is clipped unseen.
+// Limit on point-in-ear tests per corner, which bounds the time for malicious polygons; beyond it, corners are clipped
+// without tests.
 constexpr size_t most_tests_per_corner = 2000;
 
-// Twice the polygon's area vector (Newell), about its first corner to keep digits.
+// Returns twice the polygon's area vector (Newell), relative to its first corner to keep precision.
 Vec3 area_vector(std::span<const Vec3> corners) {
   Vec3 sum;
   for (size_t i = 1; i + 1 < corners.size(); ++i)
@@ -23,7 +23,7 @@ Vec3 area_vector(std::span<const Vec3> corners) {
 
 }  // namespace
 
-// > 0 where a, b, c turn left.
+// Returns a positive number if a, b and c turn left.
 double PolygonCutter::turn(Point a, Point b, Point c) { return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u); }
 
 const std::vector<Corners>& PolygonCutter::cut(std::span<const Vec3> corners) {
@@ -41,7 +41,7 @@ const std::vector<Corners>& PolygonCutter::cut(std::span<const Vec3> corners) {
   uint32_t corner = 1;
   while (left > 3) {
     const uint32_t following = next_[corner];
-    // A whole round without an ear: the polygon crosses itself.
+    // A whole round found no ear, so the polygon crosses itself.
     if (stalled >= left || tests_left == 0 || is_ear(corner, tests_left)) {
       if (tests_left == 0) reflex_.clear();
       clip(corner);
@@ -56,7 +56,7 @@ const std::vector<Corners>& PolygonCutter::cut(std::span<const Vec3> corners) {
   return triangles_;
 }
 
-// Leaves out the axis along which the polygon faces most: no rounding, and convex corners stay so.
+// Projects along the axis nearest to the normal, which causes no rounding and keeps convex corners convex.
 void PolygonCutter::flatten(std::span<const Vec3> corners) {
   const Vec3 normal = area_vector(corners);
   int axis = 0;
@@ -91,7 +91,7 @@ bool PolygonCutter::is_ear(uint32_t corner, size_t& tests_left) const {
   for (const uint32_t other : reflex_) {
     if (tests_left > 0) --tests_left;
     const Point p = points_[other];
-    // A slit that joins a hole to the outline visits the same place twice.
+    // A slit that joins a hole to the outline visits a place twice.
     if (p == a || p == b || p == c) continue;
     if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
   }

@@ -1,4 +1,4 @@
-// Cuts polygons into triangles.
+// Triangulates polygons.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ namespace ombre::formats {
 
 using Corners = std::array<uint32_t, 3>;
 
-// Keeps its buffers from one polygon to the next.
+// A triangulator that keeps its buffers from one polygon to the next.
 class PolygonCutter {
  public:
-  // Cuts a polygon of n >= 3 corners into n - 2 triangles of corner numbers, with the polygon's
-  // orientation, in its plane (that of its area vector). Convex ones become fans about corner 0,
-  // concave ones do not fold. A polygon that crosses itself still gives n - 2 triangles whose outer
-  // edges are its edges, so that a closed mesh stays closed.
+  // Divides a polygon of n >= 3 corners into n - 2 triangles of corner numbers, with the polygon's orientation in its
+  // plane (perpendicular to its area vector). Convex polygons become fans about corner 0, and concave ones do not fold.
+  // A polygon that crosses itself also gives n - 2 triangles whose outer edges are its edges, so that a closed mesh
+  // stays closed.
   const std::vector<Corners>& cut(std::span<const Vec3> corners);
 
  private:
@@ -36,7 +36,7 @@ class PolygonCutter {
 
   std::vector<Point> points_;
   std::vector<uint32_t> next_, previous_;
-  std::vector<uint32_t> reflex_;  // only these can lie in an ear
+  std::vector<uint32_t> reflex_;  // only reflex corners can lie in an ear
   std::vector<Corners> triangles_;
 };
 

@@ -15,7 +15,7 @@ Vec3 area_vector(const Polygon& polygon, const Corners& t) {
   return 0.5 * cross(polygon[t[1]] - polygon[t[0]], polygon[t[2]] - polygon[t[0]]);
 }
 
-// The triangles' areas add up to the polygon's, and none is turned over.
+// Checks that the triangles' areas add up to the polygon's, and that none is turned over.
 void expect_no_folds(const Polygon& polygon, double area) {
   PolygonCutter cutter;
   const auto triangles = cutter.cut(polygon);
@@ -25,7 +25,7 @@ void expect_no_folds(const Polygon& polygon, double area) {
   EXPECT_NEAR(sum, area, 1e-9 * area);
 }
 
-// A star about the origin of the plane that `map` makes of z = 0.
+// Returns a star about the origin in the plane to which `map` maps z = 0.
 Polygon star(size_t corners, double inner, const Affine& map) {
   Polygon polygon;
   for (size_t i = 0; i < corners; ++i) {
@@ -74,7 +74,7 @@ TEST(PolygonCutter, AnyPolygonKeepsItsEdges) {
     Polygon polygon(4 + turn % 9);
     for (Vec3& p : polygon) p = {double(coordinate(random)), double(coordinate(random)), double(coordinate(random))};
     const auto n = polygon.size();
-    // +1 for each directed edge, -1 for its reverse: only the polygon's own remain.
+    // Directed edges count +1, their reverses -1: only the polygon's own edges remain.
     std::vector<int> uses(n * n, 0);
     for (const Corners& t : cutter.cut(polygon))
       for (size_t i = 0; i < 3; ++i) {

@@ -7,7 +7,8 @@ namespace ombre::formats {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-// In PrusaSlicer's keys: the body's own, and the extruder of its material, from 1, unless it names one.
+// Returns settings with PrusaSlicer's keys: the body's own, and the extruder of its material, from 1, unless the body
+// sets one.
 Settings slicer_settings(const MeshBody& body);
 
 }  // namespace ombre::formats

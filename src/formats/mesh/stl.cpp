@@ -1,4 +1,4 @@
-// STL: binary (an 80-byte header, a count, 50 bytes for each triangle); tells it from text.
+// Reads binary STL (an 80-byte header, a count, 50 bytes for each triangle), and distinguishes it from text.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -32,7 +32,8 @@ bool has_binary_size(std::string_view bytes) {
          bytes.size() == bytes_before_triangles + bytes_of_triangle * promised_triangles(bytes);
 }
 
-// Binary files may begin with "solid" as well, but text has no zero bytes. Some writers leave out the first line.
+// Returns true for text. Binary files may begin with "solid" too, but text has no zero bytes. Some writers omit the
+// first line.
 bool is_like_text(std::string_view bytes) {
   const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == std::string_view::npos) return false;
@@ -62,7 +63,7 @@ Vec3 load_corner(std::string_view bytes, uint64_t triangle, size_t corner) {
   return {load_float(from), load_float(from + 4), load_float(from + 8)};
 }
 
-// Whether what stands there can be triangles: no zeros that fill up the file, no other data.
+// Returns true if the bytes can be triangles: neither zeros used as padding nor other data.
 bool hold_triangles(std::string_view bytes, uint64_t begin, uint64_t end) {
   for (uint64_t t = begin; t < end; ++t) {
     const Vec3 a = load_corner(bytes, t, 0), b = load_corner(bytes, t, 1), c = load_corner(bytes, t, 2);
@@ -71,7 +72,7 @@ bool hold_triangles(std::string_view bytes, uint64_t begin, uint64_t end) {
   return true;
 }
 
-// How many triangles there are. Where the header's count is wrong, the size of the file says it.
+// Returns the number of triangles. If the header's count is wrong, it follows from the size of the file.
 uint64_t count_triangles(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   if (bytes.size() < bytes_before_triangles || is_plain_text(bytes.substr(0, sniffed_bytes)))
     fail_not_stl(name, bytes, diagnostics);

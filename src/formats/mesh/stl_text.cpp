@@ -1,4 +1,4 @@
-// STL as text: solid NAME, then facets, then endsolid NAME; any number of solids.
+// Reads STL as text: solid NAME, facets, endsolid NAME; any number of solids.
 #include "formats/mesh/stl_text.h"
 
 #include "base/text/text.h"
@@ -26,7 +26,7 @@ class StlTextReader {
   }
 
  private:
-  // DOS ended texts by Ctrl-Z, and some programs fill up blocks with zero bytes.
+  // Skips padding: DOS ended texts with Ctrl-Z, and some programs fill blocks with zero bytes.
   bool at_end() {
     TextScanner ahead(scanner_);
     return ahead.word().find_first_not_of(std::string_view("\x1A\0", 2)) == std::string_view::npos && ahead.at_end();
@@ -45,7 +45,7 @@ class StlTextReader {
                           formats::quoted(found));
   }
 
-  // One word, or two as FORTRAN programs write them: "endloop", "end loop".
+  // Returns true for a keyword written as one word, or as two by FORTRAN programs: "endloop", "end loop".
   bool is_pair(const std::string& found, std::string_view first, std::string_view second) {
     if (found == std::string(first) + std::string(second)) return true;
     if (found != first) return false;
@@ -68,7 +68,7 @@ class StlTextReader {
     facets_ = 0;
   }
 
-  // The rest of the line, up to a facet that begins in it.
+  // Returns the rest of the line, up to a facet that begins in it.
   std::string name_of_solid() {
     scanner_.at_line_end();
     const size_t begin = scanner_.position();
@@ -80,7 +80,7 @@ class StlTextReader {
     return std::string(trim(line.substr(0, facet)));
   }
 
-  // False when the solid ends.
+  // Reads a facet. Returns false at the end of the solid.
   bool read_facet() {
     const size_t before = scanner_.position();
     const std::string found = next();
@@ -104,7 +104,7 @@ class StlTextReader {
     return true;
   }
 
-  // Normals follow from the corners, and many files hold none worth reading.
+  // Skips the normal, which follows from the corners; many files contain incorrect ones.
   void pass_normal() {
     constexpr std::string_view where = "a facet's corners begin";
     std::string found = next();
@@ -118,7 +118,7 @@ class StlTextReader {
     expect("loop", where);
   }
 
-  // Three, or more where a program has written polygons.
+  // Reads three corners, or more if a program has written polygons.
   void read_corners() {
     corners_.clear();
     points_.clear();
@@ -148,7 +148,7 @@ class StlTextReader {
   CountedWarnings warnings_;
   std::vector<uint32_t> corners_;
   std::vector<Vec3> points_;
-  size_t facets_ = 0;  // of this solid
+  size_t facets_ = 0;  // number of facets in this solid
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Binary STL: a header of 80 bytes, a count, 50 bytes for each triangle.
+// Writes binary STL: a header of 80 bytes, a count, 50 bytes for each triangle.
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "formats/containers/append_numbers.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr size_t header_bytes = 80;
 
-// Not "solid", by which text begins.
+// Returns the header, which must not begin with "solid", as text does.
 std::string header(size_t triangles) {
   std::string bytes = "binary STL, mm";
   bytes.resize(header_bytes, '\0');
@@ -17,7 +17,7 @@ std::string header(size_t triangles) {
   return bytes;
 }
 
-// A triangle without area has no normal: zeros.
+// Returns the unit normal; zero for a triangle without area.
 Vec3 normal(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 doubled = cross(b - a, c - a);
   const double size = length(doubled);

@@ -9,7 +9,7 @@
 
 namespace ombre::formats::test {
 
-// Corners (0,0,0), (1,0,0), (0,2,0), (0,0,4): a volume of 8/6 mm3.
+// Returns a tetrahedron with corners (0,0,0), (1,0,0), (0,2,0) and (0,0,4), which has a volume of 8/6 mm3.
 inline MeshBody tetrahedron(const std::string& name, Vec3 at = {}) {
   return {name,
           {at, at + Vec3{1, 0, 0}, at + Vec3{0, 2, 0}, at + Vec3{0, 0, 4}},
@@ -17,7 +17,7 @@ inline MeshBody tetrahedron(const std::string& name, Vec3 at = {}) {
 }
 inline constexpr double tetrahedron_mm3 = 8.0 / 6;
 
-// Two of them, of two materials.
+// Returns two tetrahedra of two materials.
 inline MeshDocument pair() {
   MeshDocument document{"pair", {{"red", {255, 0, 0, 255}}, {"clear blue", {0, 0, 255, 51}}}, {}};
   document.bodies = {tetrahedron("left"), tetrahedron("right", {10, 0, 0})};

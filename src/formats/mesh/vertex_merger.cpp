@@ -16,7 +16,7 @@ uint64_t mix(uint64_t h, double value) {
 
 }  // namespace
 
-// Where p is, or where it belongs.
+// Returns the slot of p, or the free slot where it belongs.
 size_t VertexMerger::slot(Vec3 p) const {
   const size_t mask = slots_.size() - 1;
   size_t at = mix(mix(mix(0, p.x), p.y), p.z) & mask;
@@ -26,7 +26,7 @@ size_t VertexMerger::slot(Vec3 p) const {
 
 uint32_t VertexMerger::add(Vec3 p) {
   if (2 * places_.size() >= slots_.size()) grow();
-  p = p + Vec3{0, 0, 0};  // -0 becomes 0: equal places get equal bits
+  p = p + Vec3{0, 0, 0};  // maps -0 to 0, so that equal places have equal bits
   uint32_t& found = slots_[slot(p)];
   if (found == free_slot) {
     found = static_cast<uint32_t>(places_.size());

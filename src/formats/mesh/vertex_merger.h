@@ -8,10 +8,12 @@
 
 namespace ombre::formats {
 
-// Same place: equal coordinates, exactly (-0 is 0). Memory: about 40 bytes for each distinct point.
+// Numbers distinct places; coordinates must be exactly equal, with -0 equal to 0. Uses about 40 bytes per distinct
+// point.
 class VertexMerger {
  public:
-  // The number of this place, new ones counting from 0. Not for NaN. At most 2^32 - 1 places.
+  // Returns the number of a place; new places are numbered from 0. Coordinates must not be NaN. At most 2^32 - 1
+  // places.
   uint32_t add(Vec3 p);
 
   const std::vector<Vec3>& places() const { return places_; }
@@ -22,7 +24,7 @@ class VertexMerger {
   size_t slot(Vec3 p) const;
 
   std::vector<Vec3> places_;
-  std::vector<uint32_t> slots_;  // open addressing; a power of two, at most half full
+  std::vector<uint32_t> slots_;  // open addressing; the size is a power of two, at most half is in use
 };
 
 }  // namespace ombre::formats

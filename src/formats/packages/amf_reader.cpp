@@ -1,4 +1,4 @@
-// AMF (ISO/ASTM 52915), as text or zipped: objects with volumes, materials, constellations.
+// Reads AMF (ISO/ASTM 52915), as text or zipped: objects with volumes, materials, constellations.
 #ifdef OMBRE_3MF
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::string metadata_of(xml_node node, std::string_view type) {
 
 std::string name_of(xml_node node) { return metadata_of(node, "name"); }
 
-// Slic3r and the slicers that came from it write angles in radians, against the standard.
+// Returns true if angles are in radians: Slic3r and slicers derived from it write them so, contrary to the standard.
 bool has_radians(xml_node amf) {
   const std::string program = to_lower(metadata_of(amf, "cad"));
   for (const char* name : {"slic3r", "prusaslicer", "superslicer"})
@@ -42,7 +42,8 @@ bool has_radians(xml_node amf) {
   return !metadata_of(amf, "slic3rpe_amf_version").empty();
 }
 
-// A quarter turn has no end in radians. These are written with six digits.
+// Converts radians to degrees. Quarter turns are restored exactly, because the files have only six digits of an
+// irrational number.
 double degrees_of_radians(double radians) {
   constexpr double written_exactly = 1e-6, quarter = std::numbers::pi / 2;
   const double quarters = std::round(radians / quarter);
@@ -50,7 +51,7 @@ double degrees_of_radians(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
-// The elements that are read, or that have no bearing on shapes and materials.
+// Elements that are read, or that do not affect shapes and materials.
 constexpr std::string_view of_amf[]{"object", "material", "constellation", "metadata", "texture"};
 constexpr std::string_view of_material[]{"metadata", "color"};
 constexpr std::string_view of_object[]{"metadata", "color", "mesh", "layer_config_ranges"};
@@ -63,7 +64,7 @@ constexpr std::string_view of_constellation[]{"instance", "metadata"};
 constexpr std::string_view of_instance[]{"deltax", "deltay", "deltaz", "rx",      "ry",      "rz",      "scale",
                                          "scalex", "scaley", "scalez", "mirrorx", "mirrory", "mirrorz", "printable"};
 
-// Colours may be formulas of the place, which are not read.
+// Returns the colour of an element. Colours given by formulas of the position are not supported.
 std::optional<Rgba> colour_of(xml_node node) {
   const xml_node colour = node.child("color");
   if (!colour) return std::nullopt;
@@ -96,7 +97,7 @@ class AmfReader {
     for (const xml_node object : amf.children("object")) add(object, read_object(object));
     for (const xml_node constellation : amf.children("constellation"))
       add(constellation, read_instances(constellation));
-    // What stands in no constellation stands for itself.
+    // Objects outside of all constellations are built by themselves.
     for (const auto& [id, object] : assembly_.objects)
       if (!placed_.contains(id)) assembly_.build.push_back({id, {}});
   }
@@ -111,7 +112,7 @@ class AmfReader {
     assembly_.mm_per_unit = *mm;
   }
 
-  // Of the children that are not in the list.
+  // Warns of children that are not in the list.
   void warn_of_others(xml_node node, std::span<const std::string_view> known) {
     for (const xml_node child : node.children()) {
       const std::string_view name = child.name();
@@ -218,13 +219,13 @@ class AmfReader {
     return Affine::rotation(axis, has_radians_ ? degrees_of_radians(angle) : angle);
   }
 
-  // Of one axis; negative where it is mirrored.
+  // Returns the scale of one axis, negative if it is mirrored.
   double scale(xml_node instance, const std::string& axis) const {
     const double scale = value(instance, "scale" + axis, value(instance, "scale", 1));
     return value(instance, "mirror" + axis, 1) < 0 ? -scale : scale;
   }
 
-  // Mirrored and scaled, turned about x, then y, then z, then moved.
+  // Returns the map that mirrors and scales, rotates about x, then y, then z, then translates.
   Affine transform(xml_node instance) const {
     const auto delta = [&](const char* element) { return value(instance, element, 0); };
     const Affine map = Affine::translation({delta("deltax"), delta("deltay"), delta("deltaz")}) *
@@ -243,7 +244,7 @@ class AmfReader {
   ExtruderColours extruders_;
 };
 
-// The text of a zipped file: its first entry that is called so.
+// Returns the text of a zipped file: the first entry whose name ends in .amf.
 std::string unpacked(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   ZipReader archive(name, bytes, diagnostics);
   for (const std::string& entry : archive.names())

@@ -32,7 +32,7 @@ void expect_amf_message(const std::string& bytes, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << "expected: " << part << "\nfound: " << text;
 }
 
-// An object by hand.
+// Returns an object written by hand.
 std::string amf_object(const std::string& corner = "0") {
   std::string text = "<object id=\"1\"><metadata type=\"name\">t</metadata><mesh><vertices>";
   for (const std::string& point : {"<x>" + corner + "</x><y>0</y><z>0</z>", std::string("<x>1</x><y>0</y><z>0</z>"),
@@ -87,12 +87,12 @@ TEST(Amf, ConstellationsPlaceObjects) {
       amf(amf_object() + "<constellation id=\"c\"><instance objectid=\"1\"><deltax>5</deltax><rz>90</rz></instance>"
                          "<instance objectid=\"1\"><rx>90</rx></instance></constellation>"));
   EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
-  EXPECT_EQ(mesh.vertices[1], (Vec3{5, 1, 0}));  // x turned to y, and moved
-  EXPECT_EQ(mesh.vertices[6], (Vec3{0, 0, 2}));  // y turned to z
+  EXPECT_EQ(mesh.vertices[1], (Vec3{5, 1, 0}));  // x was rotated to y and translated
+  EXPECT_EQ(mesh.vertices[6], (Vec3{0, 0, 2}));  // y was rotated to z
   EXPECT_EQ(mesh.groups[0].object, "constellation c");
 }
 
-// One object, in one place.
+// Returns a file with one object in one place.
 std::string placed(const std::string& inner, const std::string& beside = "") {
   return amf(beside + amf_object() + "<constellation id=\"c\"><instance objectid=\"1\">" + inner +
              "</instance></constellation>");
@@ -104,7 +104,7 @@ std::string amf_warnings(const std::string& bytes) {
   return to_text(diagnostics);
 }
 
-// Mirrored and scaled first, as in PrusaSlicer: x goes to -2, 3 times y to x after the turn.
+// As in PrusaSlicer, mirroring and scaling come first: x goes to -2; 3 times y goes to x after the rotation.
 TEST(Amf, InstancesAreScaledAndMirrored) {
   const Mesh mesh =
       read_quiet_amf(placed("<scalex>2</scalex><scaley>3</scaley><scalez>0.5</scalez><mirrorx>-1</mirrorx>"

@@ -1,4 +1,4 @@
-// AMF (ISO/ASTM 52915): one object with a volume for each body, and PrusaSlicer's metadata.
+// Writes AMF (ISO/ASTM 52915): one object with a volume for each body, and PrusaSlicer's metadata.
 #include "formats/containers/append_numbers.h"
 #include "formats/containers/xml_text.h"
 #include "formats/mesh/slicer_settings.h"
@@ -28,7 +28,7 @@ void append_colour(std::string& text, const Rgba& colour) {
   text += "</color>";
 }
 
-// Number 0 is void.
+// Returns a material; ids count from 1, because 0 is void.
 std::string material_text(const MeshMaterial& material, size_t index) {
   std::string text = "<material id=\"" + std::to_string(index + 1) + "\">\n" + metadata("name", material.name);
   append_colour(text, material.colour);

@@ -10,7 +10,7 @@ namespace ombre::formats {
 namespace {
 
 constexpr size_t most_levels = 32;
-// Of what repeated objects come to; what a file lists one by one may be more.
+// Limits on the totals that repetition of objects creates; a file may exceed them if it lists everything individually.
 constexpr uint64_t most_instances = 1'000'000, most_groups = 1'000'000;
 constexpr uint64_t most_triangles = 50'000'000, most_vertices = 50'000'000, most_beams = 50'000'000;
 
@@ -18,7 +18,7 @@ struct Amount {
   uint64_t instances = 0, groups = 0, vertices = 0, triangles = 0, beams = 0;
   size_t levels = 0;
 
-  // An object without its components. A ball counts as a beam.
+  // Returns the amount of an object without its components. A ball counts as a beam.
   static Amount of(const Mesh& mesh) {
     Amount amount{1, mesh.groups.size() + mesh.lattices.size(), mesh.vertices.size(), mesh.triangles.size()};
     for (const PlacedLattice& placed : mesh.lattices)
@@ -26,7 +26,7 @@ struct Amount {
     return amount;
   }
 
-  // Each is cut off beyond all limits, so that sums of sums stay numbers.
+  // Adds an amount; sums are clamped far above all limits, so that they cannot overflow.
   void add(const Amount& other) {
     constexpr uint64_t beyond = uint64_t{1} << 40;
     instances = std::min(instances + other.instances, beyond);
@@ -64,7 +64,7 @@ class Assembler {
     return found->second;
   }
 
-  // Every object once.
+  // Returns the amount of all objects counted once.
   Amount listed() const {
     Amount amount;
     for (const auto& [key, object] : assembly_.objects) amount.add(Amount::of(object.mesh));
@@ -93,7 +93,7 @@ class Assembler {
       fail(diagnostics_, file_, "there are too many triangles or vertices: more than 4,294,967,295");
   }
 
-  // What an object comes to; each is looked at once.
+  // Returns the total amount of an object; each is visited once.
   Amount measure(const std::string& key, size_t level) {
     if (const auto known = amounts_.find(key); known != amounts_.end()) {
       if (known->second.instances == 0) fail(diagnostics_, file_, "the object " + key + " consists of itself");
@@ -101,13 +101,13 @@ class Assembler {
     }
     if (level > most_levels) fail_deep();
     const AssemblyObject& object = find(key);
-    amounts_[key] = {};  // on the way
+    amounts_[key] = {};  // marks an object whose components are being measured
     if (!object.no_solid.empty())
       warnings_.add("an object " + object.no_solid + " is no part of the solid and is left out",
                     "objects " + object.no_solid + " are no part of the solid and are left out");
     Amount amount = Amount::of(object.mesh);
     for (const Placement& component : object.components) amount.add(measure(component.object, level + 1));
-    // What was measured before may stand deeper here.
+    // An object that was measured before may be nested more deeply here.
     if (++amount.levels > most_levels) fail_deep();
     return amounts_[key] = amount;
   }
@@ -152,7 +152,7 @@ class Assembler {
 
   Vec3 usable(Vec3 p) const {
     const double greatest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    if (is_finite(p) && greatest <= greatest_coordinate) return p + Vec3{0, 0, 0};  // -0 becomes 0
+    if (is_finite(p) && greatest <= greatest_coordinate) return p + Vec3{0, 0, 0};  // maps -0 to 0
     fail(diagnostics_, file_,
          "a corner comes to lie too far away: (" + format_number(p.x) + ", " + format_number(p.y) + ", " +
              format_number(p.z) + ") mm",
@@ -163,7 +163,7 @@ class Assembler {
   const std::string& file_;
   Diagnostics& diagnostics_;
   CountedWarnings warnings_;
-  std::map<std::string, Amount> amounts_;  // 0 instances: on the way
+  std::map<std::string, Amount> amounts_;  // 0 instances: being measured
   Mesh mesh_;
 };
 

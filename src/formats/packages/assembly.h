@@ -1,4 +1,4 @@
-// Objects that consist of meshes and of other objects in place, as 3MF and AMF files have them.
+// Objects composed of meshes and of placed other objects, as in 3MF and AMF files.
 #pragma once
 
 #include <map>
@@ -12,29 +12,29 @@
 namespace ombre::formats {
 
 struct Placement {
-  std::string object;         // its key in the assembly
-  Affine parent_from_object;  // with an inverse
+  std::string object;         // key in the assembly
+  Affine parent_from_object;  // invertible
 };
 
 struct AssemblyObject {
   std::string name;
-  Mesh mesh;  // its groups may lack names; no triangles in objects that only hold others
+  Mesh mesh;  // groups may lack names; there are no triangles in objects that only contain others
   std::vector<Placement> components;
-  std::string no_solid = {};  // what it is in place of a solid, where that is worth a warning if it is used
+  std::string no_solid = {};  // what the object is instead of a solid, if its use deserves a warning
 };
 
 struct Assembly {
   double mm_per_unit = 1;
   std::map<std::string, AssemblyObject> objects;
-  std::vector<Placement> build;  // what the file is about
-  CountedWarnings warnings;      // of what the reader left out
+  std::vector<Placement> build;  // the objects to build
+  CountedWarnings warnings;      // about contents that the reader left out
 };
 
-// Millimetres in a unit by its name in these formats; nothing for another word.
+// Returns the number of millimetres in a unit of these formats, or null for an unknown name.
 std::optional<double> mm_per_unit(std::string_view unit);
 
-// Everything that is built, in mm. What was left out is warned of. Files that hold themselves, or repeat an object
-// beyond all use, are reported, as are those without triangles; that ends the reading by DesignError.
+// Returns everything that is built, in mm, and warns of contents that were left out. Objects that contain themselves,
+// excessive repetition, and files without triangles are reported, and DesignError is thrown.
 Mesh assemble(const Assembly& assembly, const std::string& file, Diagnostics& diagnostics);
 
 }  // namespace ombre::formats

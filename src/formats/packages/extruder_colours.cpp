@@ -1,4 +1,4 @@
-// The colours of a slicer's extruders, as its project says them.
+// Colours of a slicer's extruders, as stored in its project.
 #include "formats/packages/extruder_colours.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace ombre::formats {
 namespace {
 
-// The value in a line "; key = value"; empty without such a line.
+// Returns the value in a line "; key = value"; empty if there is none.
 std::string_view value_of(std::string_view settings, std::string_view key) {
   while (!settings.empty()) {
     const size_t end = std::min(settings.find('\n'), settings.size());
@@ -23,7 +23,7 @@ std::string_view value_of(std::string_view settings, std::string_view key) {
   return {};
 }
 
-// "#FF0000;\"\";#0000FF"
+// Parses a list such as "#FF0000;\"\";#0000FF".
 std::vector<std::optional<Rgba>> colour_list(std::string_view text) {
   std::vector<std::optional<Rgba>> colours;
   if (text.empty()) return colours;
@@ -35,7 +35,7 @@ std::vector<std::optional<Rgba>> colour_list(std::string_view text) {
   return colours;
 }
 
-// 0 if the text is no number.
+// Returns the number; 0 if the text is not a number.
 uint64_t count_of(std::string_view text) {
   uint64_t value = 0;
   const std::string_view digits = trim(text);

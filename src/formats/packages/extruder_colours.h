@@ -1,4 +1,4 @@
-// The colours of a slicer's extruders, as its project says them.
+// Colours of a slicer's extruders, as stored in its project.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ class ExtruderColours {
  public:
   ExtruderColours() = default;
 
-  // Settings of Bambu Studio and OrcaSlicer (JSON), and of PrusaSlicer and SuperSlicer (lines "; key = value"). What
-  // cannot be read has no colours.
+  // Read the settings of Bambu Studio and OrcaSlicer (JSON), and of PrusaSlicer and SuperSlicer (lines "; key =
+  // value"). Unreadable settings have no colours.
   static ExtruderColours of_bambu(std::string_view settings);
   static ExtruderColours of_prusa(std::string_view settings);
 
-  // Gives groups the colour of this extruder, counted from 1, unless they have one.
+  // Gives the colour of this extruder, counted from 1, to groups without a colour.
   void paint(std::vector<MeshGroup>& groups, uint64_t extruder) const;
 
  private:
   std::vector<std::optional<Rgba>> colours_;
 };
 
-// The number of an extruder as settings say it: of a part, or else of the object; 1 if neither does.
+// Returns the number of an extruder in settings: that of the part, else of the object; 1 if neither is set.
 uint64_t extruder_of(std::string_view part, std::string_view object);
 
 }  // namespace ombre::formats

@@ -101,7 +101,7 @@ Mesh read_named(const std::string& name, const std::string& bytes) {
   return mesh ? *mesh : Mesh{};
 }
 
-// The messages of bytes that hold no mesh.
+// Returns the messages about bytes that hold no mesh.
 std::string message_of(const std::string& name, const std::string& bytes) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_mesh(name, bytes, diagnostics)) << name;
@@ -114,7 +114,7 @@ void expect_message_of(const std::string& name, const std::string& bytes, const 
   EXPECT_NE(text.find(part), std::string::npos) << "expected: " << part << "\nfound: " << text;
 }
 
-// Corner by corner, so that the numbering of vertices does not matter.
+// Returns the corners of each triangle, so that the numbering of vertices does not matter.
 std::vector<std::array<Vec3, 3>> shape(const Mesh& mesh) {
   std::vector<std::array<Vec3, 3>> triangles;
   for (const auto& t : mesh.triangles)
@@ -209,7 +209,7 @@ TEST(Stl, BytesAfterTheLastTriangleAreAWarning) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_stl("a.stl", binary_stl() + "more", diagnostics));
   EXPECT_NE(to_text(diagnostics).find("warning: a.stl: 4 bytes after the last of 4 triangles"), std::string::npos);
-  // As many bytes as a triangle has are none where they cannot be one.
+  // Trailing bytes with the length of a triangle are ignored if they cannot be one.
   for (const char fill : {'\0', '\xFF'}) {
     Diagnostics others;
     const auto mesh = read_stl("a.stl", binary_stl() + std::string(50, fill), others);
@@ -269,7 +269,7 @@ std::vector<std::array<Vec3, 3>> expected_shape() {
   return shape(expected);
 }
 
-// What is read, with a warning.
+// Checks that the bytes are read with a warning.
 void expect_warning(const std::string& name, const std::string& bytes, const std::string& warning) {
   Diagnostics diagnostics;
   const auto mesh = read_mesh(name, bytes, diagnostics);
@@ -401,7 +401,7 @@ TEST(Obj, FacesOfTwoCornersAreNoPart) {
                  "2 faces of fewer than three corners are " + no_part);
 }
 
-// Vertex and normal by V/VN, or texture coordinates that are not there.
+// Corners are given as V/VN, or with texture coordinates that do not exist.
 TEST(Obj, TextureCoordinatesNeedNotBeThere) {
   const std::string normals = "vn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n";
   for (const std::string form : {"/1", "/1/1", "/-9/1", "/4"}) {
@@ -426,7 +426,7 @@ TEST(Obj, WhatIsNotReadIsCounted) {
 TEST(Ply, LinesMayHoldMoreThanTheHeaderSays) {
   const std::string text = ply_header("ascii") + rows_of_numbers();
   EXPECT_EQ(shape(read_named("a.ply", replaced(text, "\n3 ", " 7 7\n3 "))), expected_shape());
-  // Where there are fewer lines than elements, or more, they mean nothing.
+  // With fewer or more lines than elements, line ends have no meaning.
   const size_t body = text.find("end_header\n") + 11;
   EXPECT_EQ(shape(read_named("a.ply", text.substr(0, body) + replaced(text.substr(body), "\n", " "))),
             expected_shape());
@@ -434,7 +434,7 @@ TEST(Ply, LinesMayHoldMoreThanTheHeaderSays) {
             expected_shape());
 }
 
-// Two strips in one list: the tetrahedron's first three faces, and its last.
+// One list contains two strips: the tetrahedron's first three faces, and its last.
 TEST(Ply, StripsOfTrianglesAreRead) {
   const std::string header = replaced(replaced(ply_header("ascii"), "face 4", "tristrips 1"), "list uchar", "list int");
   std::string text = rows_of_numbers();

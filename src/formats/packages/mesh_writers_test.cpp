@@ -40,10 +40,10 @@ TEST(MeshWriters, StlIsTrianglesWithNormals) {
   ASSERT_EQ(bytes.size(), 84u + 4 * 50);
   EXPECT_NE(bytes.substr(0, 5), "solid");
   EXPECT_EQ(u32_at(bytes, 80), 4u);
-  // The first triangle lies in z = 0 and faces down; its corners are (0,0,0), (0,2,0), (1,0,0).
+  // The first triangle lies in z = 0 and faces down; its corners are (0,0,0), (0,2,0) and (1,0,0).
   const std::array<float, 12> first{0, 0, -1, 0, 0, 0, 0, 2, 0, 1, 0, 0};
   for (size_t i = 0; i < first.size(); ++i) EXPECT_EQ(float_at(bytes, 84 + 4 * i), first[i]) << i;
-  // The third has the normal (1/1, 1/2, 1/4), scaled to length 1.
+  // The third has the normal (1/1, 1/2, 1/4), normalized.
   const double size = std::sqrt(1 + 0.25 + 0.0625);
   EXPECT_FLOAT_EQ(float_at(bytes, 184), static_cast<float>(1 / size));
   EXPECT_FLOAT_EQ(float_at(bytes, 192), static_cast<float>(0.25 / size));
@@ -77,7 +77,7 @@ TEST(MeshWriters, PlyColoursVertices) {
   const std::string bytes = whole(ply_bytes(pair()));
   const size_t begin = bytes.find("end_header\n") + 11;
   ASSERT_EQ(bytes.size(), begin + 8 * 16 + 8 * 13);
-  // The sixth vertex is (11, 0, 0), clear blue; the fifth face 4 6 5.
+  // The sixth vertex is (11, 0, 0) in clear blue; the fifth face is 4 6 5.
   EXPECT_EQ(float_at(bytes, begin + 5 * 16), 11);
   EXPECT_EQ(bytes.substr(begin + 5 * 16 + 12, 4), std::string("\x00\x00\xFF\x33", 4));
   EXPECT_EQ(bytes[begin + 8 * 16 + 4 * 13], 3);
@@ -150,7 +150,7 @@ class Glb : public testing::Test {
 
   std::string bytes_;
   Data scene_;
-  size_t numbers_ = 0;  // where they begin
+  size_t numbers_ = 0;  // beginning of the numbers
 };
 
 TEST_F(Glb, HeaderSaysTheSizes) {
@@ -162,7 +162,7 @@ TEST_F(Glb, HeaderSaysTheSizes) {
   EXPECT_EQ(bytes_.substr(numbers_ - 4, 4), std::string("BIN\0", 4));
   EXPECT_EQ(u32_at(bytes_, numbers_ - 8), bytes_.size() - numbers_);
   EXPECT_EQ(numbers_ % 4, 0u);
-  // Twice 4 points and 4 triangles.
+  // There are twice 4 points and 4 triangles.
   EXPECT_EQ(number(at("buffers", 0), "byteLength"), 2 * (4 * 12 + 4 * 12));
 }
 
@@ -170,7 +170,7 @@ TEST_F(Glb, BodiesAreNodesInMetres) {
   make(pair());
   EXPECT_EQ(*at("nodes", 1).find("name")->string(), "right");
   EXPECT_EQ(list(at("nodes", 2), "children"), (std::vector<double>{0, 1}));
-  // Columns: x stays, y goes back, z goes up.
+  // The columns of the matrix: x stays, y goes back, z goes up.
   EXPECT_EQ(list(at("nodes", 2), "matrix"),
             (std::vector<double>{0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1}));
   EXPECT_EQ(list(at("accessors", 2), "min"), (std::vector<double>{10, 0, 0}));
@@ -186,12 +186,12 @@ TEST_F(Glb, ColoursAreLinear) {
   make(document);
   const Data& material = *at("materials", 0).find("pbrMetallicRoughness");
   const auto factor = list(material, "baseColorFactor");
-  // ((128 / 255 + 0.055) / 1.055) ^ 2.4
+  // The expected value is ((128 / 255 + 0.055) / 1.055) ^ 2.4.
   EXPECT_NEAR(factor[1], 0.2158605, 1e-7);
   EXPECT_EQ(factor[0], 1);
   EXPECT_EQ(factor[3], 0.2);
   EXPECT_EQ(*at("materials", 0).find("alphaMode")->string(), "BLEND");
-  // Which colours of vertices would multiply.
+  // The material is white, because colours of vertices are multiplied by it.
   EXPECT_EQ(number(at("meshes", 0).find("primitives")->list()->at(0), "material"), 2);
   const Data& white = *at("materials", 2).find("pbrMetallicRoughness");
   EXPECT_EQ(list(white, "baseColorFactor"), (std::vector<double>{1, 1, 1, 1}));

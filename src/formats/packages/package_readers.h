@@ -1,4 +1,5 @@
-// Readers of mesh formats that are XML, alone or in a zip archive. Without libzip and pugixml they report that.
+// Readers of mesh formats based on XML, alone or in a zip archive. In builds without libzip and pugixml they only
+// report that.
 #pragma once
 
 #include <optional>
@@ -9,9 +10,9 @@
 
 namespace ombre::formats {
 
-// 3MF: the objects that are built, in place; materials and colours as far as triangles have one.
+// Reads 3MF: the objects that are built, placed; materials and colours as far as whole triangles have them.
 std::optional<Mesh> read_3mf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
-// AMF as text or zipped; curved edges are taken as straight.
+// Reads AMF as text or zipped; curved edges are treated as straight.
 std::optional<Mesh> read_amf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 }  // namespace ombre::formats

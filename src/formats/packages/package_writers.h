@@ -1,4 +1,4 @@
-// Writers of 3MF and AMF. Lengths are mm; bodies without triangles are left out, and from AMF beams. Equal documents
+// Writers of 3MF and AMF. Lengths are mm; bodies without triangles are left out, and in AMF beams too. Equal documents
 // give equal bytes. Coordinates are rounded to floats.
 #pragma once
 
@@ -9,19 +9,21 @@
 
 namespace ombre::formats {
 
-// AMF: one object, a volume for each body. Made while it is read, from the document, which must live as long.
+// Returns AMF: one object with a volume for each body. The bytes are generated from the document, which must outlive
+// them.
 LazyBytes amf_bytes(const MeshDocument& document);
 
-// Whom a 3MF file is for, since slicers take the material of a region from files of their own.
+// The target program of a 3MF file; slicers read the material of a region from their own files inside of it.
 enum class SlicerFlavour {
-  generic,  // for any program: an object for each body, together one part; both slicers below find their settings
+  generic,  // any program: an object for each body, together one part, with the settings of both slicers below
   prusa,    // PrusaSlicer: one object, whose bodies are ranges of its triangles
-  bambu,    // Bambu Studio and OrcaSlicer: as generic, with colours in the form that these read
+  bambu,    // Bambu Studio and OrcaSlicer: like generic, with colours in the form that they read
 };
 
-// False in builds without libzip.
+// Returns false in builds without libzip.
 bool can_write_3mf();
-// Throws what the standard library throws, std::system_error where the disk fails; Error where it cannot be written.
+// Writes a file. Throws exceptions of the standard library, std::system_error for I/O errors; Error if this build
+// cannot write 3MF.
 void write_3mf(const std::string& path, const MeshDocument& document, SlicerFlavour flavour);
 
 }  // namespace ombre::formats

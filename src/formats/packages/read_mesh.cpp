@@ -1,4 +1,4 @@
-// Finds the reader for a mesh file.
+// Selects the reader for a mesh file.
 #include "formats/packages/read_mesh.h"
 
 #include "base/text/file_ending.h"

@@ -9,10 +9,10 @@
 
 namespace ombre::formats {
 
-// Chooses the reader by the file's content, else by its extension. Throws Error if the file cannot be
-// read. Nothing is returned, and the reason is in the diagnostics, if it holds no mesh.
+// Reads a file with the reader chosen by its content, or by its extension otherwise. Throws Error if the file cannot be
+// read. Returns null, with the reason in the diagnostics, if it holds no mesh.
 std::optional<Mesh> read_mesh(const std::string& path, Diagnostics& diagnostics);
-// Reads bytes in memory; `name` is for messages and for its extension.
+// Reads bytes in memory; `name` is used in messages, and for its extension.
 std::optional<Mesh> read_mesh(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 }  // namespace ombre::formats

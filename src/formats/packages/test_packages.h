@@ -19,7 +19,7 @@
 
 namespace ombre::formats::test {
 
-// What a writer writes to a path.
+// Returns the bytes that a writer writes to a path.
 template <class Write>
 inline std::string written(const Write& write) {
   const std::string path =

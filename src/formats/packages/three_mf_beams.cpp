@@ -1,4 +1,4 @@
-// The beam lattices of a 3MF model (3MF Beam Lattice Extension 1.2, with its balls).
+// Reads the beam lattices of a 3MF model (3MF Beam Lattice Extension 1.2, with its balls).
 #ifdef OMBRE_3MF
 
 #include "formats/packages/three_mf_beams.h"
@@ -41,11 +41,11 @@ class LatticeReader {
   }
 
  private:
-  // Beams and balls of one property.
+  // The beams and balls with one property.
   struct Part {
     PropertyReference property;
-    xml_node user;                        // the first element of the property
-    size_t last_beam = 0, last_ball = 0;  // counted from 1; 0: none
+    xml_node user;                        // the first element with that property
+    size_t last_beam = 0, last_ball = 0;  // counted from 1; 0 for none
     BeamLattice lattice = {};
   };
 
@@ -111,7 +111,7 @@ class LatticeReader {
     return vertex_number(file_, node, attribute, vertices_.size());
   }
 
-  // Balls by their elements, and those of the vertices of beams that have no such element.
+  // Reads the balls: those with elements, and those at other vertices of beams if the mode requires them.
   void read_balls() {
     const auto mode = word(element_, "ballmode", ball_words, BallMode::none);
     if (mode == BallMode::none) return;
@@ -197,8 +197,8 @@ class LatticeReader {
   LatticeClipping clipping_ = LatticeClipping::none;
   std::shared_ptr<const Mesh> clip_;
   std::vector<Part> parts_;
-  std::map<PropertyReference, size_t> numbers_;  // of parts
-  std::vector<uint32_t> number_;                 // of each vertex in the lattice that is being finished
+  std::map<PropertyReference, size_t> numbers_;  // by property: number of the part
+  std::vector<uint32_t> number_;                 // by vertex: number in the lattice that is being finished
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The beam lattices of a 3MF model. Only for files that are built with pugixml.
+// Reads the beam lattices of a 3MF model. Only for builds with pugixml.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,12 @@
 
 namespace ombre::formats {
 
-// The mesh of an object that is clipped by; `user` is the element that refers to it.
+// Returns the mesh of the object `id`, which clips a lattice; `user` is the element that refers to it.
 using ClippingMeshes = std::function<std::shared_ptr<const Mesh>(pugi::xml_node user, uint64_t id)>;
 
-// Adds what a <beamlattice> element holds to the mesh of its object, whose vertices are read already: one lattice for
-// each material. Those whose elements come last are first, since they win where beams overlap, and beams win over
-// balls. `usual` is the object's property.
+// Adds the lattices of a <beamlattice> element to the mesh of its object, whose vertices are already read: one for each
+// material. Lattices whose elements come last are first, because they have precedence where beams overlap, and beams
+// have precedence over balls. `usual` is the object's property.
 void add_lattices(const XmlFile& file, pugi::xml_node element, const PropertyTable& properties,
                   const PropertyReference& usual, const ClippingMeshes& clipping_meshes, CountedWarnings& warnings,
                   Mesh& mesh);

@@ -76,7 +76,7 @@ TEST(ThreeMfBeams, BallsByMode) {
   const auto mixed = balls("n:ballmode=\"mixed\" n:ballradius=\"2\"");
   ASSERT_EQ(mixed.size(), 1u);
   EXPECT_EQ(mixed[0].radius, 4);
-  // Vertex 2 is at no beam.
+  // Vertex 2 belongs to no beam.
   const auto all = balls("n:ballmode=\"all\" n:ballradius=\"2\"");
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0].radius, 4);
@@ -112,7 +112,7 @@ TEST(ThreeMfBeams, UniteWithTrianglesAndPlaces) {
   EXPECT_EQ(end, (Vec3{25.4 * 5, 25.4 * 6, 25.4 * 15}));
 }
 
-// The file's last beam wins where beams overlap, so it comes first.
+// The file's last beam has precedence where beams overlap, so its material comes first.
 TEST(ThreeMfBeams, MaterialsComeLastFirst) {
   const std::string materials =
       "<basematerials id=\"5\"><base name=\"PLA\" displaycolor=\"#FF0000\"/><base name=\"TPU\" "
@@ -124,7 +124,7 @@ TEST(ThreeMfBeams, MaterialsComeLastFirst) {
                     "<n:balls><n:ball vindex=\"3\" p=\"2\"/></n:balls>",
                 materials));
   ASSERT_EQ(mesh.lattices.size(), 4u);
-  EXPECT_EQ(mesh.lattices[0].group.material, "");  // of a beam whose ends differ
+  EXPECT_EQ(mesh.lattices[0].group.material, "");  // a beam whose ends have different materials
   EXPECT_EQ(mesh.lattices[1].group.material, "TPU");
   EXPECT_EQ(mesh.lattices[1].lattice->beams.size(), 2u);
   EXPECT_EQ(mesh.lattices[2].group.material, "PLA");

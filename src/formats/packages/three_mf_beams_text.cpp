@@ -16,7 +16,7 @@ constexpr std::string_view clipping_texts[]{"none", "inside", "outside"};
 
 std::string_view word(BeamCap cap) { return cap_texts[static_cast<size_t>(cap)]; }
 
-// What most beams have, the least of equally frequent values.
+// Finds the most frequent value; the least of several equally frequent ones.
 template <class T>
 class MostFrequent {
  public:
@@ -30,7 +30,7 @@ class MostFrequent {
   std::map<T, size_t> counts_;
 };
 
-// What the lattice says, and beams only where they differ.
+// Defaults of the lattice; beams only state differences from them.
 struct Usual {
   float radius = 0;
   BeamCap cap = BeamCap::sphere;
@@ -52,7 +52,7 @@ Usual usual_of(const WrittenBeams& written) {
 
 Vec3 rounded(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
 
-// Below the length of each beam, also as programs that compute in floats find it.
+// Returns a number less than the length of every beam, even for programs that compute in single precision.
 double least_length(const WrittenBeams& written) {
   constexpr double rounding = 1e-4;
   double least = std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ void append_beam(std::string& text, const WrittenBeams& written, const Usual& us
   text += "<b:beam";
   append_index(text, "v1", beam.ends[0]);
   append_index(text, "v2", beam.ends[1]);
-  // The second radius is that of the lattice, or the first where this is written.
+  // If r1 is written, r2 defaults to it; otherwise both default to the lattice's radius.
   const auto first = static_cast<float>(beam.radii[0]), second = static_cast<float>(beam.radii[1]);
   if (first != usual.radius || second != usual.radius) append_length(text, "r1", first);
   if (first != second) append_length(text, "r2", second);

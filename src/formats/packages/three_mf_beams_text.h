@@ -1,4 +1,4 @@
-// Beams as text of a 3MF model (3MF Beam Lattice Extension 1.2).
+// Writes beams as text of a 3MF model (3MF Beam Lattice Extension 1.2).
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace ombre::formats {
 
-// What a model that has beams says of the extension.
+// Attributes of the extension for a model with beams.
 inline constexpr std::string_view beam_lattice_space =
     " xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\" requiredextensions=\"b\"";
 
-// The element of a mesh behind its vertices. `clip` is the number of the clipping object where there is clipping,
-// `materials` that of the group of materials. What the bytes are made from must live as long.
+// Returns the element that follows the vertices of a mesh. `clip` is the id of the clipping object if there is
+// clipping, `materials` that of the group of materials. The beams must outlive the result.
 LazyBytes beam_lattice_text(const WrittenBeams& written, std::optional<uint64_t> clip, uint64_t materials);
 
 }  // namespace ombre::formats

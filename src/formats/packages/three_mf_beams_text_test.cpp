@@ -29,7 +29,7 @@ WrittenBeams three_beams() {
 }
 
 TEST(ThreeMfBeamsText, SaysWhatDiffersFromTheUsual) {
-  // The least length is 2, of which a ten-thousandth is left for rounding.
+  // The least length is 2, reduced by 1/10000 for rounding.
   EXPECT_EQ(whole(beam_lattice_text(three_beams(), std::nullopt, 7)),
             "<b:beamlattice minlength=\"1.9998\" radius=\"0.5\">\n<b:beams>\n"
             "<b:beam v1=\"0\" v2=\"1\"/>\n"
@@ -69,7 +69,7 @@ TEST(ThreeMfBeamsText, ModelsRequireTheExtension) {
   EXPECT_NE(text.find("xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\" "
                       "requiredextensions=\"b\">"),
             std::string::npos);
-  // Bodies are 1 and 2, the whole is 3, materials 4; colours would be 5 and 6.
+  // Bodies have the ids 1 and 2, the whole 3, materials 4; colours would have 5 and 6.
   const size_t clip = text.find("<object id=\"7\" type=\"model\" name=\"clip\">"),
                beams = text.find("<object id=\"8\" type=\"model\" name=\"grid\">"), all = text.find("<object id=\"3\"");
   EXPECT_LT(clip, beams);

@@ -1,4 +1,4 @@
-// What a 3MF model has of extensions that are not read.
+// Warns of extensions in a 3MF model that are not supported.
 #ifdef OMBRE_3MF
 
 #include "formats/packages/three_mf_extensions.h"
@@ -16,11 +16,11 @@ namespace {
 
 using pugi::xml_node;
 
-// Parts of the names of those that are read, and of those in which slicers keep settings.
+// Parts of the names of namespaces that are read, and of those that only contain slicers' settings.
 constexpr std::string_view read_spaces[]{"/core/", "/material/", "/production/", "/beamlattice/"};
 constexpr std::string_view harmless_spaces[]{"/trianglesets/", "slic3r.org", "bambulab.com", "ultimaker.com"};
 
-// Elements that hold others, among which extensions put theirs.
+// Elements with children, among which extensions insert their own.
 constexpr std::string_view holders[]{"resources", "build", "object", "mesh", "beamlattice"};
 constexpr std::string_view known_elements[]{"resources",       "build",       "object",         "mesh",
                                             "vertices",        "triangles",   "components",     "item",
@@ -45,7 +45,7 @@ std::string prefix_of(xml_node node) {
   return std::string(name.substr(0, name.size() - local_name(node).size()));
 }
 
-// The namespace that a prefix stands for; empty if nothing says so.
+// Returns the namespace of a prefix; empty if it is undefined.
 std::string_view space_of(xml_node node, std::string prefix) {
   if (prefix.ends_with(':')) prefix.pop_back();
   const std::string attribute = prefix.empty() ? "xmlns" : "xmlns:" + prefix;
@@ -85,7 +85,7 @@ class ExtensionFinder {
  private:
   struct Extension {
     std::string prefix, space;
-    std::map<std::string, uint64_t> elements;  // how often each is there
+    std::map<std::string, uint64_t> elements;  // number of occurrences by name
   };
 
   Extension& extension(std::string prefix, std::string_view space) {

@@ -1,4 +1,4 @@
-// The model files of a 3MF package (3MF Core 1.3; base materials and colour groups; the paths of Production 1.1).
+// Reads the model files of a 3MF package (3MF Core 1.3; base materials and colour groups; the paths of Production 1.1).
 #ifdef OMBRE_3MF
 
 #include "formats/packages/three_mf_model.h"
@@ -16,7 +16,7 @@ namespace {
 
 using pugi::xml_node;
 
-// Twelve numbers, column by column of our matrices: 3MF multiplies rows by matrices.
+// Parses twelve numbers, column by column of our matrices: 3MF multiplies row vectors by matrices.
 Affine parse_transform(const XmlFile& file, xml_node node) {
   auto text = file.attribute(node, "transform");
   if (!text) return {};
@@ -65,7 +65,7 @@ class ObjectReader {
       file_.fail_at(node, "there are two objects with the number " + std::to_string(id));
   }
 
-  // Supports are not part of the solid, nor are meshes that only change settings where they are.
+  // Returns false for supports, and for meshes that only change settings in their region.
   bool is_solid(xml_node node, AssemblyObject& object) const {
     const std::string_view type = file_.attribute(node, "type").value_or("model");
     const bool is_model = type.empty() || type == "model";
@@ -77,7 +77,7 @@ class ObjectReader {
            !has_cura_mark(node, "anti_overhang_mesh") && !has_cura_mark(node, "infill_mesh");
   }
 
-  // Cura keeps its settings of an object as metadata; older versions had an element of their own.
+  // Returns true if Cura marked the object: in its metadata, or in a separate element of older versions.
   bool has_cura_mark(xml_node node, std::string_view key) const {
     const auto is_set = [&](xml_node list, std::string_view element, std::string_view attribute) {
       for (const xml_node child : list.children())
@@ -108,7 +108,7 @@ class ObjectReader {
           assembly_.warnings, object.mesh);
   }
 
-  // The mesh by which a lattice is clipped: that of an object before its own.
+  // Returns the mesh that clips a lattice: that of an object before the lattice's own.
   std::shared_ptr<const Mesh> clip(xml_node user, uint64_t id) {
     std::shared_ptr<const Mesh>& known = clips_[id];
     if (known) return known;
@@ -150,7 +150,7 @@ class ObjectReader {
   std::map<uint64_t, std::shared_ptr<const Mesh>> clips_;
 };
 
-// Slicers' ways to give parts of a surface to other extruders.
+// Warns of painted triangles, by which slicers assign parts of a surface to other extruders.
 void warn_of_paint(const XmlFile& file, CountedWarnings& warnings) {
   for (const std::string_view attribute : {" paint_color=\"", "mmu_segmentation=\""})
     for (size_t at = file.text().find(attribute); at != std::string_view::npos;

@@ -1,4 +1,4 @@
-// The model files of a 3MF package. Only for files that are built with pugixml.
+// Reads the model files of a 3MF package. Only for builds with pugixml.
 #pragma once
 
 #include <set>
@@ -8,15 +8,15 @@
 
 namespace ombre::formats {
 
-// The key of an object in an assembly.
+// Returns the key of an object in an assembly.
 std::string object_key(std::string_view part, uint64_t id);
 std::string id_of_key(const std::string& key);
 
-// Adds the objects of a model file, which is called `part` in the package, and to `further` the parts that it
-// refers to.
+// Adds the objects of a model file, which is named `part` in the package, and adds the parts that it refers to to
+// `further`.
 void add_objects(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further);
 
-// Adds what a package's main model file says of the whole: its unit, and what is built.
+// Adds the global settings of a package's main model file: its unit, and the objects to build.
 void add_build(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further);
 
 }  // namespace ombre::formats

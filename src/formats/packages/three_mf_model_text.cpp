@@ -1,4 +1,4 @@
-// 3D/3dmodel.model: materials, colours, objects, and what is built of them.
+// Writes 3D/3dmodel.model: materials, colours, objects, and the items to build.
 #include "formats/containers/append_numbers.h"
 #include "formats/containers/xml_text.h"
 #include "formats/packages/package_writers.h"
@@ -34,10 +34,10 @@ void append_attribute(std::string& text, std::string_view name, uint64_t value) 
   text += '"';
 }
 
-// What triangles say besides their corners.
+// Attributes of triangles other than their corners.
 struct TriangleProperties {
-  uint64_t group = 0;           // 0: nothing
-  std::optional<uint32_t> all;  // one property for all corners, else each vertex has its own
+  uint64_t group = 0;           // 0 for none
+  std::optional<uint32_t> all;  // one property for all corners; if null, each vertex has its own
 };
 
 void append_triangle(std::string& text, const std::array<uint32_t, 3>& t, uint64_t first_vertex,
@@ -93,7 +93,7 @@ class ModelText {
     bytes_.add(text + "<metadata name=\"Application\">ombre</metadata>\n<resources>\n");
   }
 
-  // Bambu Studio reads colours where it passes over materials.
+  // Adds the materials; for Bambu Studio as colours, because it ignores materials.
   void add_materials() {
     if (document_.materials.empty()) return;
     const bool is_colours = flavour_ == SlicerFlavour::bambu;
@@ -127,7 +127,7 @@ class ModelText {
     });
   }
 
-  // What an object's triangles have to say where the object says its material already, or does not.
+  // Returns the properties that an object's triangles need, given whether the object states its material.
   TriangleProperties properties_of(size_t index, bool object_has_material) const {
     const MeshBody& body = *bodies_[index];
     if (!body.vertex_colours.empty()) return {first_colours_id_ + index, std::nullopt};
@@ -135,7 +135,7 @@ class ModelText {
     return {};
   }
 
-  // The bodies are ranges of triangles, whose vertices lie together too: so PrusaSlicer cuts them apart.
+  // Adds one object whose bodies are ranges of triangles and vertices, as PrusaSlicer expects.
   void add_joint_object() {
     bytes_.add("<object" + id_text(1) + " type=\"model\"" + xml_attribute("name", document_.title) +
                ">\n<mesh>\n<vertices>\n");
@@ -180,7 +180,7 @@ class ModelText {
     bytes_.add("</triangles>\n</mesh>\n</object>\n");
   }
 
-  // Not built: only lattices refer to it.
+  // Adds a clipping object, which is not built but only referred to by lattices.
   void add_clip(size_t index) {
     const MeshBody& clip = document_.clips[index];
     bytes_.add("<object" + id_text(first_clip_id_ + index) + " type=\"model\"" + xml_attribute("name", clip.name) +
@@ -210,8 +210,8 @@ class ModelText {
 
   const MeshDocument& document_;
   SlicerFlavour flavour_;
-  std::vector<const MeshBody*> bodies_;     // those with triangles
-  std::vector<const WrittenBeams*> beams_;  // those with beams
+  std::vector<const MeshBody*> bodies_;     // bodies with triangles
+  std::vector<const WrittenBeams*> beams_;  // lattices with beams
   uint64_t materials_id_ = 0, first_colours_id_ = 0, first_clip_id_ = 0, first_beams_id_ = 0;
   LazyBytes bytes_;
 };

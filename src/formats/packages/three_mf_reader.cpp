@@ -1,4 +1,4 @@
-// 3MF: finds the model in the archive, and what it refers to.
+// Reads 3MF: finds the model in the archive, and the parts that it refers to.
 #ifdef OMBRE_3MF
 
 #include "base/text/text.h"
@@ -34,7 +34,7 @@ class ThreeMfReader {
   }
 
  private:
-  // The archive's file to which the package points.
+  // Returns the file in the archive that the package refers to as its model.
   std::string root_model() {
     const std::string text = text_of(relationships_path);
     if (text.empty()) return only_model("it has no file \"" + std::string(relationships_path) + '"');
@@ -48,7 +48,7 @@ class ThreeMfReader {
     return only_model(std::string(relationships_path) + " lacks a relationship of the type 3dmodel");
   }
 
-  // Where the package does not point to its model, but there is but one.
+  // Returns the only model of a package that does not refer to its model; fails if there are several.
   std::string only_model(const std::string& fault) {
     std::vector<std::string> models = names_ending({".model"});
     if (models.size() == 1) {
@@ -78,10 +78,10 @@ class ThreeMfReader {
     if (is_root) add_build(file, part, assembly_, further_);
   }
 
-  // Empty if the archive lacks it.
+  // Returns the text of an entry; empty if the archive lacks it.
   std::string text_of(const char* entry) { return archive_.has(entry) ? archive_.read(entry) : ""; }
 
-  // What a slicer's file says, if the archive has it.
+  // Applies a slicer's settings file, if the archive has it.
   void apply(const char* entry, void (*settings)(const XmlFile&, const std::string&, const ExtruderColours&, Assembly&),
              const ExtruderColours& extruders, const std::string& root) {
     if (!archive_.has(entry)) return;

@@ -1,5 +1,5 @@
-// How the elements of a 3MF model refer to materials and other things (3MF Core 1.3: base materials; Materials and
-// Properties 1.2: colour groups).
+// References of 3MF elements to materials and other resources (3MF Core 1.3: base materials; Materials and Properties
+// 1.2: colour groups).
 #ifdef OMBRE_3MF
 
 #include "formats/packages/three_mf_resources.h"

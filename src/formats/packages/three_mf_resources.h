@@ -1,5 +1,4 @@
-// How the elements of a 3MF model refer to materials, colours, objects and vertices. Only for files that are built with
-// pugixml.
+// References of 3MF elements to materials, colours, objects and vertices. Only for builds with pugixml.
 #pragma once
 
 #include <map>
@@ -22,25 +21,25 @@ struct PropertyReference {
   }
 };
 
-// The base materials and the colour groups of a model file.
+// The base materials and colour groups of a model file.
 class PropertyTable {
  public:
   explicit PropertyTable(const XmlFile& file) : file_(file) {}
 
   void read(pugi::xml_node resources);
 
-  // What the attributes `pid` and `index` of an element refer to; `usual` where they are missing.
+  // Returns the reference in the attributes `pid` and `index` of an element; `usual` replaces missing ones.
   PropertyReference reference(pugi::xml_node node, std::string_view index, PropertyReference usual) const;
-  // The same for an element with properties at several corners; no property where these differ, since there is no
-  // place for mixtures.
+  // Returns the reference of an element with properties at several corners; no property if they differ, because
+  // mixtures are not supported.
   PropertyReference reference(pugi::xml_node node, std::initializer_list<const char*> corners,
                               const PropertyReference& usual) const;
 
-  // Gives a group the material and the colour. Resources of other kinds (textures, mixtures) give neither. `user` is
+  // Sets the material and the colour of a group. Resources of other kinds (textures, mixtures) set neither. `user` is
   // the element that refers to them.
   void describe(const PropertyReference& reference, pugi::xml_node user, MeshGroup& group) const;
 
-  // The name of the element that mixes properties, if the reference is to one; else empty.
+  // Returns the name of the element that mixes properties if the reference is to one, else an empty text.
   std::string mixture(const PropertyReference& reference) const;
 
  private:
@@ -53,16 +52,16 @@ class PropertyTable {
 
   const XmlFile& file_;
   std::map<uint64_t, std::vector<Property>> properties_;
-  std::map<uint64_t, std::string> mixtures_;  // the kinds of resources that mix others
+  std::map<uint64_t, std::string> mixtures_;  // by resource: kind of mixture
 };
 
-// The number of an object or a resource.
+// Returns the id of an object or a resource.
 uint64_t resource_id(const XmlFile& file, pugi::xml_node node, std::string_view attribute);
 
-// The number of a vertex of an object that has so many.
+// Returns the number of a vertex of an object with `vertices` vertices.
 uint32_t vertex_number(const XmlFile& file, pugi::xml_node node, std::string_view attribute, size_t vertices);
 
-// The first child of that local name; null without one.
+// Returns the first child with that local name, or null.
 pugi::xml_node child_of(pugi::xml_node node, std::string_view name);
 
 }  // namespace ombre::formats

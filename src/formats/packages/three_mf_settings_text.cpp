@@ -1,4 +1,4 @@
-// The files in which slicers keep what 3MF has no place for: the extruder and the infill of a region.
+// Writes slicers' own files for settings that 3MF does not support: the extruder and the infill of a region.
 #include <array>
 
 #include "formats/containers/xml_text.h"
@@ -9,7 +9,7 @@
 namespace ombre::formats {
 namespace {
 
-// Settings that Bambu Studio and OrcaSlicer know by another name.
+// Settings that have other names in Bambu Studio and OrcaSlicer.
 constexpr std::array<std::array<std::string_view, 2>, 5> bambu_keys{{{"fill_density", "sparse_infill_density"},
                                                                      {"fill_pattern", "sparse_infill_pattern"},
                                                                      {"perimeters", "wall_loops"},
@@ -49,7 +49,7 @@ std::string bambu_part(const MeshBody& body, uint64_t id) {
 
 }  // namespace
 
-// Components become objects of their own in PrusaSlicer; then each has one volume.
+// Components become separate objects in PrusaSlicer; each then has one volume.
 std::string prusa_settings(const MeshDocument& document, SlicerFlavour flavour) {
   const bool is_joint = flavour == SlicerFlavour::prusa;
   std::string text = std::string(xml_declaration) + "<config>\n";

@@ -23,7 +23,7 @@ TEST(ThreeMf, NamesMaterialsAndColoursComeBack) {
     EXPECT_EQ(mesh.groups[1].colour, (Rgba{0, 0, 255, 51}));
     EXPECT_EQ(mesh.groups[1].name, "right");
     EXPECT_EQ(mesh.groups[1].object, "pair");
-    // Bambu Studio takes colours alone.
+    // Bambu Studio only reads colours.
     EXPECT_EQ(mesh.groups[1].material, flavour == SlicerFlavour::bambu ? "" : "clear blue");
   }
 }
@@ -32,7 +32,7 @@ TEST(ThreeMf, EqualDocumentsGiveEqualBytes) {
   EXPECT_EQ(package(pair(), SlicerFlavour::generic), package(pair(), SlicerFlavour::generic));
 }
 
-// Versions of libzip differ in the flag of names in UTF-8, which the names of 3MF's entries do not need.
+// Versions of libzip differ in the flag for UTF-8 names, which the names of 3MF's entries do not need.
 TEST(ThreeMf, HasTheSameBytesWithAnyLibzip) {
   const std::string bytes = zipped({{"a", "text"}});
   ASSERT_EQ(bytes.substr(0, 4), "PK\x03\x04");
@@ -50,16 +50,16 @@ TEST(ThreeMf, UnitsBecomeMillimetres) {
                  "a.3mf/3D/a.model:2:1: error: there is no unit \"mile\"");
 }
 
-// Rows of the matrix are where x, y, z go: here to y, z, x. Then the outer matrix doubles, then the item moves.
+// The matrix maps x, y, z to y, z, x. Then the outer matrix scales by two, then the item translates.
 TEST(ThreeMf, TransformsMultiplyFromTheInside) {
   const std::string resources = object(1, "name=\"inner\"") +
                                 components(2, "<component objectid=\"1\" transform=\"0 1 0 0 0 1 1 0 0 10 0 0\"/>") +
                                 components(3, "<component objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 0 0 0\"/>");
   const Mesh mesh = read(archive(model(resources, "<item objectid=\"3\" transform=\"1 0 0 0 1 0 0 0 1 0 0 5\"/>")));
   EXPECT_EQ(mesh.vertices[0], (Vec3{20, 0, 5}));
-  EXPECT_EQ(mesh.vertices[1], (Vec3{20, 2, 5}));  // x went to y
-  EXPECT_EQ(mesh.vertices[2], (Vec3{20, 0, 9}));  // y went to z
-  EXPECT_EQ(mesh.vertices[3], (Vec3{28, 0, 5}));  // z went to x
+  EXPECT_EQ(mesh.vertices[1], (Vec3{20, 2, 5}));  // x was mapped to y
+  EXPECT_EQ(mesh.vertices[2], (Vec3{20, 0, 9}));  // y was mapped to z
+  EXPECT_EQ(mesh.vertices[3], (Vec3{28, 0, 5}));  // z was mapped to x
   EXPECT_NEAR(volume(mesh), 8 * tetrahedron_mm3, 1e-12);
   EXPECT_EQ(mesh.groups[0].name, "inner");
   EXPECT_EQ(mesh.groups[0].object, "object 3");
@@ -102,7 +102,7 @@ std::string prusa_config(const std::string& volumes) {
   return "<config><object id=\"1\">" + volumes + "</object></config>";
 }
 
-// A volume that takes all but the last triangle, one that is the last.
+// One volume has all triangles but the last, the other only the last.
 TEST(ThreeMf, VolumesOfPrusaSlicerAreGroups) {
   const auto with = [](const std::string& volumes) {
     return zipped({relationships(),
@@ -142,7 +142,7 @@ TEST(ThreeMf, PartsOfBambuStudioHaveNames) {
   EXPECT_EQ(mesh.groups[0].object, "all");
 }
 
-// What has colours of its own keeps them; extruder 0 stands for the object's.
+// Parts with their own colours keep them; extruder 0 means that of the object.
 TEST(ThreeMf, PartsWithoutColoursGetThoseOfTheirExtruders) {
   const std::string config =
       "<config><object id=\"3\"><metadata key=\"extruder\" value=\"2\"/>"
@@ -307,7 +307,7 @@ TEST(ThreeMf, ObjectsThatMultiplyAreStopped) {
   std::string deep = object(1);
   for (int id = 2; id <= 60; ++id) deep += components(id, "<component objectid=\"" + std::to_string(id - 1) + "\"/>");
   expect_message(archive(model(deep, "<item objectid=\"60\"/>")), "go deeper than 32 levels");
-  // Nor step by step, where what lies below is known already.
+  // Objects that were measured before count with their depth.
   expect_message(archive(model(deep, "<item objectid=\"30\"/><item objectid=\"60\"/>")), "go deeper than 32 levels");
 }
 
@@ -358,7 +358,7 @@ TEST(ThreeMf, BombsAreNotUnpacked) {
 
 TEST(ThreeMf, EncryptedFilesAreExplained) {
   std::string bytes = package(pair(), SlicerFlavour::generic);
-  // Bit 0 of the flags in local headers and in the directory says so.
+  // Bit 0 of the flags in the local headers and in the directory marks encryption.
   for (size_t at = bytes.find("PK\x03\x04"); at != std::string::npos; at = bytes.find("PK\x03\x04", at + 4))
     bytes[at + 6] |= 1;
   for (size_t at = bytes.find("PK\x01\x02"); at != std::string::npos; at = bytes.find("PK\x01\x02", at + 4))

@@ -13,8 +13,8 @@ inline constexpr const char* bambu_settings_path = "Metadata/model_settings.conf
 inline constexpr const char* prusa_project_path = "Metadata/Slic3r_PE.config";
 inline constexpr const char* bambu_project_path = "Metadata/project_settings.config";
 
-// Objects are numbered from 1: one for each body that has triangles, and the next for the part that they make up,
-// behind which beams and what clips them have theirs. For PrusaSlicer all bodies are object 1, and there are no beams.
+// Returns the model. Objects are numbered from 1: one for each body with triangles, then the part that contains them,
+// then beams and their clipping objects. For PrusaSlicer all bodies are object 1, and there are no beams.
 LazyBytes three_mf_model(const MeshDocument& document, SlicerFlavour flavour);
 
 std::string prusa_settings(const MeshDocument& document, SlicerFlavour flavour);

@@ -1,4 +1,4 @@
-// What slicers' own files in a 3MF package say of its objects.
+// Reads slicers' own files about the objects in a 3MF package.
 #ifdef OMBRE_3MF
 
 #include "formats/packages/three_mf_volumes.h"
@@ -27,9 +27,9 @@ AssemblyObject* object_of(const XmlFile& file, xml_node node, const std::string&
   return found == assembly.objects.end() ? nullptr : &found->second;
 }
 
-// Volumes that slicers take away from the others.
+// The volumes that slicers subtract from the others.
 struct Negatives {
-  std::string first;  // its name
+  std::string first;  // name of the first
   size_t count = 0;
 
   void add(const std::string& name) {
@@ -43,7 +43,7 @@ struct Negatives {
   }
 };
 
-// A range of an object's triangles that is a solid of its own.
+// A range of an object's triangles that is a separate solid.
 struct Volume {
   std::string name;
   uint32_t begin = 0, end = 0;
@@ -69,7 +69,7 @@ std::vector<Volume> read_volumes(const XmlFile& file, xml_node object, size_t tr
   return volumes;
 }
 
-// Adds what a group and a volume share.
+// Adds the triangles that a group and a volume have in common.
 void keep(const Mesh& from, const MeshGroup& group, const Volume& volume, const ExtruderColours& extruders,
           Mesh& kept) {
   const uint32_t begin = std::max(group.first_triangle, volume.begin);
@@ -84,7 +84,7 @@ void keep(const Mesh& from, const MeshGroup& group, const Volume& volume, const 
   kept.groups.push_back(std::move(part[0]));
 }
 
-// Both are in order, so each step is done with one of them.
+// Both lists are sorted, so each step advances one of them.
 void cut(Mesh& mesh, const std::vector<Volume>& volumes, const ExtruderColours& extruders) {
   Mesh kept;
   auto volume = volumes.begin();
@@ -105,7 +105,7 @@ struct Part {
   uint64_t extruder = 1;
 };
 
-// By the number of the component's object.
+// Reads the parts by the id of the component's object.
 std::map<std::string, Part> read_parts(const XmlFile& file, xml_node object, Negatives& negatives) {
   std::map<std::string, Part> parts;
   for (const xml_node node : object.children("part")) {
@@ -118,7 +118,7 @@ std::map<std::string, Part> read_parts(const XmlFile& file, xml_node object, Neg
   return parts;
 }
 
-// Names and paints the components of an object; true for those that are no solid.
+// Names and colours a component of an object. Returns true if it is not a solid.
 bool apply_part(const std::map<std::string, Part>& parts, const Placement& component, const ExtruderColours& extruders,
                 Assembly& assembly) {
   const auto part = parts.find(id_of_key(component.object));

@@ -1,4 +1,4 @@
-// What slicers' own files in a 3MF package say of its objects. Only for files that are built with pugixml.
+// Reads slicers' own files about the objects in a 3MF package. Only for builds with pugixml.
 #pragma once
 
 #include "formats/containers/xml_file.h"
@@ -7,12 +7,13 @@
 
 namespace ombre::formats {
 
-// PrusaSlicer keeps several volumes in one mesh: they get their names, and those that are no solid (modifiers, places
-// for supports) go. What has no colour gets that of its extruder. `part` is the package's main model file.
+// Separates the volumes that PrusaSlicer stores in one mesh: they get their names, and those that are not solids
+// (modifiers, regions for supports) are removed. Volumes without a colour get that of their extruder. `part` is the
+// package's main model file.
 void apply_prusa_volumes(const XmlFile& settings, const std::string& part, const ExtruderColours& extruders,
                          Assembly& assembly);
 
-// Bambu Studio and OrcaSlicer: the same of the components of an object.
+// Names, removes and colours the components of an object in the same way, for files of Bambu Studio and OrcaSlicer.
 void apply_bambu_parts(const XmlFile& settings, const std::string& part, const ExtruderColours& extruders,
                        Assembly& assembly);
 

@@ -1,4 +1,4 @@
-// 3MF: an archive with a model, what points to it, and what slicers want besides.
+// Writes 3MF: an archive with a model, the relationships to it, and slicers' own files.
 #include "formats/containers/xml_text.h"
 #include "formats/containers/zip_archive.h"
 #include "formats/packages/package_writers.h"

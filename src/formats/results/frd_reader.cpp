@@ -1,4 +1,4 @@
-// Results of CalculiX (.frd), as text: nodes, elements, and what the last step says of the nodes. After G. Dhondt,
+// Reads results of CalculiX (.frd) as text: nodes, elements, and the last step's values at nodes. Sources: G. Dhondt,
 // CalculiX CrunchiX User's Manual and the manual of CalculiX GraphiX, "Result Format".
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ std::optional<ElementKind> frd_kind(uint64_t type) {
   return found == kinds.end() ? std::nullopt : std::optional(found->second);
 }
 
-// CalculiX' names of fields, and those that they get here.
+// Returns the usual name of a field for its name in CalculiX.
 std::string plain_name(const std::string& name) {
   static const std::map<std::string, std::string> names{
       {"DISP", "displacement"}, {"STRESS", "stress"}, {"TOSTRAIN", "strain"}, {"NDTEMP", "temperature"},
@@ -65,7 +65,7 @@ class FrdReader {
     if (line_.ends_with('\r')) line_.remove_suffix(1);
     return true;
   }
-  // The next line of a block; empty at the block's end.
+  // Reads the next line of a block; returns an empty text at the block's end.
   std::string_view next_in_block() {
     if (!next()) fail_line("the file is cut off");
     const std::string_view key = word(0, 3);
@@ -83,7 +83,7 @@ class FrdReader {
       fail_line("expected a whole number in column " + std::to_string(begin + 1) + ", found " + formats::quoted(text));
     return value;
   }
-  // CalculiX writes exponents of three digits without their E.
+  // Parses a number; CalculiX omits the E of exponents of three digits.
   double number(size_t begin) const {
     std::string text(word(begin, number_size));
     if (text.size() > 4 && (text[text.size() - 4] == '-' || text[text.size() - 4] == '+') &&
@@ -97,7 +97,7 @@ class FrdReader {
     return *value;
   }
 
-  // The last number of a block's first line says how it is written.
+  // Reads the format of a block, which is the last number of its first line.
   void read_format() {
     const std::string_view text = trim(line_);
     const char format = text.empty() ? ' ' : text.back();
@@ -142,7 +142,7 @@ class FrdReader {
     if (nodes.size() != node_count(kind))
       fail_line("element " + std::to_string(element) + " has " + std::to_string(nodes.size()) +
                 " nodes; its kind has " + std::to_string(node_count(kind)));
-    // In .frd the nodes of upright edges come before those of the upper side.
+    // In .frd files, the nodes of vertical edges precede those of the upper side.
     if (kind == ElementKind::brick20) std::rotate(nodes.begin() + 12, nodes.begin() + 16, nodes.end());
     const std::string wrong = mesh_.add_element(kind, element, nodes);
     if (!wrong.empty()) fail_line(wrong);
@@ -157,7 +157,7 @@ class FrdReader {
       if (key == "-4") {
         field.name = plain_name(std::string(word(5, 8)));
       } else if (key == "-5") {
-        // The length of a vector is not in the file.
+        // The length of a vector is listed as a component, but not in the file.
         if (!field.values.empty()) fail_line("the name of a component comes behind values");
         if (word(5, 8) != "ALL") ++components;
       } else if (key == "-1" || key == "-2") {
@@ -167,7 +167,7 @@ class FrdReader {
       }
     }
     if (field.name.empty() || field.values.empty()) return;
-    // A later step takes the place of those before.
+    // A field of a later step replaces the earlier one.
     std::erase_if(mesh_.results.fields, [&](const ResultField& known) { return known.name == field.name; });
     mesh_.results.fields.push_back(std::move(field));
   }

@@ -1,4 +1,4 @@
-// Meshes of Abaqus and CalculiX decks (.inp): nodes and solid elements; everything else is passed over.
+// Reads meshes of Abaqus and CalculiX decks (.inp): nodes and solid elements; everything else is ignored.
 #include <algorithm>
 #include <array>
 
@@ -9,8 +9,8 @@
 namespace ombre::formats {
 namespace {
 
-// "C3D10M", "DC3D4": the number of nodes of solid elements; nothing for other types. Types of solids have one or two
-// digits.
+// Returns the number of nodes of a solid element type such as "C3D10M" or "DC3D4", or null for other types. Solid types
+// have one or two digits.
 std::optional<size_t> solid_nodes(std::string_view type) {
   const size_t at = type.find("c3d");
   if (at == std::string_view::npos) return std::nullopt;
@@ -134,7 +134,7 @@ class InpReader {
   size_t begin_ = 0, end_ = 0;
   Block block_ = Block::other;
   ElementKind kind_ = ElementKind::brick8;
-  std::vector<uint64_t> element_;  // its number, then its nodes'
+  std::vector<uint64_t> element_;  // number of the element, followed by those of its nodes
   NumberedResults result_;
   uint64_t flat_ = 0;
 };

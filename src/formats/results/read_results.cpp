@@ -10,7 +10,7 @@
 namespace ombre::formats {
 namespace {
 
-// The second field of a name gets a number.
+// Appends a number to the second and further fields of a name.
 void make_names_unique(std::vector<ResultField>& fields) {
   std::set<std::string> taken;
   for (ResultField& field : fields) {
@@ -20,7 +20,7 @@ void make_names_unique(std::vector<ResultField>& fields) {
   }
 }
 
-// Von Mises' stress of stresses, where the file has none.
+// Adds the von Mises stress of stresses, if the file has none.
 void add_von_mises(Results& results) {
   if (find_field(results, "von_mises")) return;
   const ResultField* stress = find_field(results, "stress");
@@ -31,7 +31,7 @@ void add_von_mises(Results& results) {
   results.fields.push_back(std::move(added));
 }
 
-// Nodes and elements that the file names after a field have no value there.
+// Fills up fields: nodes and elements that the file lists after a field have no value in it.
 void fill_up_fields(Results& results) {
   for (ResultField& field : results.fields) {
     const size_t count = field.is_of_elements ? results.kinds.size() : results.points.size();

@@ -1,4 +1,4 @@
-// Results of simulations: meshes of elements, or points alone, with the numbers that belong to them.
+// Results of simulations: meshes of elements, or only points, with their values.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace ombre::formats {
 
-// Nodes are in the order of Abaqus' C3D4, C3D10, C3D8 and C3D20, which is that of VTK too.
+// The kinds of elements; nodes are in the order of Abaqus' C3D4, C3D10, C3D8 and C3D20, which is also VTK's.
 enum class ElementKind : uint8_t { tetrahedron4, tetrahedron10, brick8, brick20 };
 
 inline size_t node_count(ElementKind kind) {
@@ -21,34 +21,35 @@ inline size_t node_count(ElementKind kind) {
   return counts[static_cast<size_t>(kind)];
 }
 
-// Numbers of all nodes, or of all elements, `components` for each.
+// Values of all nodes or all elements, with `components` values each.
 struct ResultField {
-  std::string name, unit;  // "stress", "MPa"
+  std::string name, unit;  // such as "stress" and "MPa"
   size_t components = 1;
   bool is_of_elements = false;
   std::vector<double> values;
 };
 
 struct Results {
-  std::vector<Vec3> points;         // mm, as the file has them; finite
-  std::vector<ElementKind> kinds;   // of elements; none: points alone
-  std::vector<uint64_t> first;      // the place of an element's first node in `nodes`
+  std::vector<Vec3> points;         // in the file's unit, taken as mm; finite
+  std::vector<ElementKind> kinds;   // kinds of the elements; empty if there are only points
+  std::vector<uint64_t> first;      // by element: index of its first node in `nodes`
   std::vector<uint32_t> nodes;      // numbers of points
-  std::vector<ResultField> fields;  // no two with the same name
+  std::vector<ResultField> fields;  // names are unique
 
   void add_element(ElementKind kind, const uint32_t* first_node);
 };
 
-// Splits "stress [MPa]" into name and unit.
+// Splits a text such as "stress [MPa]" into name and unit.
 void set_name(ResultField& field, std::string_view text);
-// Letters and digits alone, small: "von Mises stress" and "von_mises_stress" are called alike.
+// Returns the name in lower case with only letters and digits, so that "von Mises stress" and "von_mises_stress" are
+// equal.
 std::string folded_field_name(std::string_view name);
-// The field that is called so, or the only one whose name begins so; null where there is none, or where several do.
+// Returns the field with this name, or the only field whose name begins with it; null if there is none, or several.
 const ResultField* find_field(const Results& results, std::string_view name);
-// The von Mises stress of a tensor xx, yy, zz, xy, yz, zx.
+// Returns the von Mises stress of a tensor given as xx, yy, zz, xy, yz, zx.
 double von_mises(const double* tensor);
 
-// Moves the points by the displacement, times `factor`. False where the results have none.
+// Moves the points by the displacement times `factor`. Returns false if the results have no displacement.
 bool deform(Results& results, double factor);
 
 // A file beside another one.
@@ -58,8 +59,8 @@ struct ResultsFile {
 };
 
 // Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. `values` is the .csv file with the fields of an .inp
-// mesh, or the file of HDF5 with the numbers of an .xdmf one; nothing: there are none. Nothing, and diagnostics, where
-// a file is wrong.
+// mesh, or the HDF5 file with the numbers of an .xdmf file, or null. Returns null, with diagnostics, if a file is
+// invalid.
 std::optional<Results> read_results(const std::string& name, std::string_view bytes,
                                     const std::optional<ResultsFile>& values, Diagnostics& diagnostics);
 

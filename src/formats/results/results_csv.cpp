@@ -1,4 +1,4 @@
-// Tables of results (.csv): a line for each node, element or point.
+// Reads tables of results (.csv) with a line for each node, element or point.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,10 +13,10 @@ namespace ombre::formats {
 namespace {
 
 struct CsvTable {
-  std::vector<std::string> names;  // of columns
-  bool has_names = false;          // in the file
+  std::vector<std::string> names;  // names of columns
+  bool has_names = false;          // true if the file has names
   std::vector<std::vector<double>> rows;
-  std::vector<std::pair<size_t, size_t>> places;  // of rows: their bytes
+  std::vector<std::pair<size_t, size_t>> places;  // by row: its bytes in the file
 };
 
 class CsvReader {
@@ -71,14 +71,15 @@ class CsvReader {
   CsvTable table_;
 };
 
-// Columns that belong together, as the ends of their names say, in our order of components.
+// Columns that belong together by the endings of their names, in our order of components.
 struct ColumnGroup {
   std::string name;
   std::vector<size_t> columns;
 };
 using Ends = std::vector<std::string_view>;
 
-// The common beginning of the names of columns from `first` on that end so, in this order; empty where they do not.
+// Returns the common beginning of the names of columns from `first` on that have these endings in this order; empty if
+// they do not.
 std::string common_stem(const std::vector<std::string>& names, size_t first, const Ends& ends) {
   std::string stem;
   for (size_t n = 0; n < ends.size(); ++n) {
@@ -126,7 +127,7 @@ std::vector<ColumnGroup> groups_of(const std::vector<std::string>& names, size_t
   return groups;
 }
 
-// Row n of the table belongs to places[n] of `count`; the others have no value.
+// Adds fields: row n of the table belongs to places[n] of `count`; the others have no value.
 void add_fields(const CsvTable& table, size_t first_column, const std::vector<uint32_t>& places, size_t count,
                 bool is_of_elements, Results& results) {
   for (const ColumnGroup& group : groups_of(table.names, first_column)) {
@@ -148,7 +149,7 @@ void add_csv_values(const std::string& name, std::string_view bytes, NumberedRes
   CsvTable table = CsvReader(name, bytes, diagnostics).run();
   const TextScanner scanner(name, bytes, diagnostics);
   if (table.names.size() < 2) scanner.fail_at(0, 0, "expected a column of numbers of nodes, and columns of values");
-  // Without names, three values are a displacement.
+  // In a table without names, three values are a displacement.
   if (!table.has_names && table.names.size() == 4) table.names = {"node", "dx", "dy", "dz"};
   if (!table.has_names && table.names.size() == 2) table.names = {"node", "value"};
   const bool is_of_elements = to_lower(table.names[0]).starts_with("el");

@@ -1,4 +1,4 @@
-// The readers of results, one for each format. Failures are reported and end the reading by DesignError.
+// Readers of results, one for each format. Errors are reported, and DesignError is thrown.
 #pragma once
 
 #include <span>
@@ -8,32 +8,32 @@
 
 namespace ombre::formats {
 
-// Unstructured grids of VTK: text, base64 or raw, packed by zlib or not.
+// Reads VTK's unstructured grids: text, base64 or raw, optionally compressed by zlib.
 Results read_vtu(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
-// Uniform grids of XDMF 3. `numbers` is the file of HDF5 beside it, if there is one.
+// Reads uniform grids of XDMF 3. `numbers` is the HDF5 file beside it, if there is one.
 Results read_xdmf(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& numbers,
                   Diagnostics& diagnostics);
 
-// Results of CalculiX, as text. Of several steps the last one's.
+// Reads results of CalculiX as text; of several steps the last.
 Results read_frd(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
-// A mesh whose nodes and elements have numbers of their own.
+// A mesh whose nodes and elements have arbitrary numbers.
 struct NumberedResults {
   Results results;
   std::unordered_map<uint64_t, uint32_t> node_places, element_places;
 
-  // False where the number is taken.
+  // Adds a node. Returns false if the number is already used.
   bool add_node(uint64_t number, Vec3 point);
-  // Empty, or what is wrong.
+  // Adds an element. Returns an error message, or an empty text.
   std::string add_element(ElementKind kind, uint64_t number, std::span<const uint64_t> nodes);
 };
-// The mesh of a deck of Abaqus or CalculiX.
+// Reads the mesh of an Abaqus or CalculiX deck.
 NumberedResults read_inp(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
-// A CSV file whose first column has the numbers of nodes ("node"), or of elements ("element"), of the mesh.
+// Reads a CSV file whose first column contains numbers of nodes ("node") or elements ("element") of the mesh.
 void add_csv_values(const std::string& name, std::string_view bytes, NumberedResults& mesh, Diagnostics& diagnostics);
-// A CSV file of points: columns x, y and z, and those of values.
+// Reads a CSV file of points with columns x, y and z, and columns of values.
 Results read_csv_points(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 }  // namespace ombre::formats

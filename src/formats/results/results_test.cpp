@@ -9,7 +9,7 @@
 namespace ombre::formats {
 namespace {
 
-// One tetrahedron with numbers of its nodes and of itself, as text.
+// Returns one tetrahedron as text, with a value for each node and for the element.
 std::string vtu_of_tetrahedron(const std::string& header, const std::string& point_array,
                                const std::string& type = "10") {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" " + header +
@@ -58,7 +58,7 @@ TEST(Results, VtuAsText) {
   EXPECT_EQ(find_field(results, "none"), nullptr);
 }
 
-// A pull of 10 MPa along x has a von Mises stress of 10 MPa.
+// Tension of 10 MPa along x has a von Mises stress of 10 MPa.
 TEST(Results, VonMisesIsAddedToStresses) {
   const Results results = read_good(vtu_of_tetrahedron("", text_points));
   ASSERT_TRUE(find_field(results, "von_mises"));
@@ -67,7 +67,7 @@ TEST(Results, VonMisesIsAddedToStresses) {
   EXPECT_DOUBLE_EQ(von_mises(shear.data()), 2 * std::sqrt(3));
 }
 
-// Arrays as Python's struct, zlib and base64 write them.
+// The arrays were written by Python's struct, zlib and base64.
 TEST(Results, VtuInBase64) {
   const std::string floats = "MAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAAAAAAAAABAQA==";
   EXPECT_EQ(read_good(vtu_of_tetrahedron("", binary_points("Float32", floats))).points, cube_corners);
@@ -125,7 +125,7 @@ TEST(Results, WhatIsWrongIsSaid) {
 namespace ombre::formats {
 namespace {
 
-// A bar of one quadratic brick, as CalculiX writes it, but for columns of components that are not asked for.
+// A bar of one quadratic brick in CalculiX's format, without the columns that are not read.
 const std::string bar = [] {
   std::string text = "    1C\n    2C                            20                                     1\n";
   const char* const nodes[20] = {"0 0 0",  "1 0 0",  "1 1 0",  "0 1 0",  "0 0 2",  "1 0 2",  "1 1 2",
@@ -150,7 +150,7 @@ const std::string bar = [] {
       "  100CL  101 1.000000000          20                     0    1           1\n -4  DISP        4    1\n"
       " -5  D1          1    2    1    0\n -5  D2          1    2    2    0\n -5  D3          1    2    3    0\n"
       " -5  ALL         1    2    0    0    1ALL\n";
-  // Two steps, of which the second has other numbers.
+  // The file has two steps with different values.
   std::string first = moves;
   for (size_t at = first.find("1.00000-101"); at != std::string::npos; at = first.find("1.00000-101"))
     first.replace(at, 11, "7.00000E+00");
@@ -178,15 +178,15 @@ TEST(Results, FrdOfCalculix) {
   const auto results = read_results("a.frd", bar, {}, diagnostics);
   ASSERT_TRUE(results) << to_text(diagnostics);
   ASSERT_EQ(results->kinds, std::vector<ElementKind>{ElementKind::brick20});
-  // Nodes stand in the order of C3D20: upper edges, then upright ones.
+  // Nodes are in the order of C3D20: upper edges, then vertical ones.
   EXPECT_EQ(results->points[results->nodes[12]], (Vec3{0.5, 0, 2}));
   EXPECT_EQ(results->points[results->nodes[16]], (Vec3{0, 0, 1}));
   const ResultField* moves = find_field(*results, "displacement");
   ASSERT_TRUE(moves && moves->components == 3);
-  EXPECT_EQ(moves->values[0], 1e-101);  // of the last step
+  EXPECT_EQ(moves->values[0], 1e-101);  // value of the last step
   EXPECT_EQ(moves->values[3 * 4 + 1], 2);
   EXPECT_EQ(moves->values[59], -2);
-  // A field of which no values come is none.
+  // A field without values is ignored.
   const std::string empty = bar.substr(0, bar.find("  100CL")) +
                             "  100CL  101 1.000000000          20                     0    1           1\n"
                             " -4  DISP        4    1\n -5  D1          1    2    1    0\n -3\n 9999\n";

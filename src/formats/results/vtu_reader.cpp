@@ -1,4 +1,4 @@
-// Unstructured grids of VTK's XML files (.vtu).
+// Reads unstructured grids in VTK's XML files (.vtu).
 #ifdef OMBRE_3MF
 
 #include <algorithm>
@@ -18,10 +18,10 @@ using pugi::xml_node;
 
 constexpr size_t most_fields = 1000;
 
-// Elements that are read, by VTK's numbers.
+// The supported elements, by VTK's numbers.
 struct CellKind {
   ElementKind kind;
-  bool has_crossed_rows;  // nodes by x, then y, then z
+  bool has_crossed_rows;  // nodes are ordered by x, then y, then z
 };
 std::optional<CellKind> cell_kind(double type) {
   static const std::map<double, CellKind> kinds{{10, {ElementKind::tetrahedron4, false}},
@@ -32,7 +32,7 @@ std::optional<CellKind> cell_kind(double type) {
   const auto found = kinds.find(type);
   return found == kinds.end() ? std::nullopt : std::optional(found->second);
 }
-// Points, lines and faces, which enclose no space.
+// Returns true for points, lines and faces, which have no volume.
 bool is_flat_cell(double type) { return (type >= 0 && type <= 9) || (type >= 21 && type <= 23) || type == 28; }
 
 class VtuReader {
@@ -84,7 +84,7 @@ class VtuReader {
     file_.fail_at(parent, "expected an array " + formats::quoted(name) + " among the cells");
   }
 
-  // Returns which cells became elements.
+  // Adds the cells of a piece; returns which of them became elements.
   std::vector<bool> add_cells(xml_node piece, size_t first_point, uint64_t point_count, uint64_t count) {
     std::vector<bool> is_kept(count, false);
     const xml_node cells = piece.child("Cells");
@@ -127,7 +127,7 @@ class VtuReader {
     return is_kept;
   }
 
-  // `before` numbers of other pieces stand before these.
+  // Adds the fields of a piece; `before` is the number of nodes or elements of earlier pieces.
   void add_fields(xml_node parent, bool is_of_elements, size_t before, const std::vector<bool>& is_kept) {
     for (const xml_node array : parent.children("DataArray")) {
       if (file_.attribute(array, "type") == "String") continue;
@@ -149,7 +149,7 @@ class VtuReader {
     fill_up(is_of_elements);
   }
 
-  // The field of that name of earlier pieces, or a new one that has no numbers there.
+  // Returns the field of the same name in earlier pieces, or a new one without values for them.
   ResultField& field_of(const ResultField& wanted, size_t before) {
     for (ResultField& field : results_.fields)
       if (field.name == wanted.name && field.is_of_elements == wanted.is_of_elements &&

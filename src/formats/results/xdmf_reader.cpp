@@ -1,4 +1,4 @@
-// Uniform grids of XDMF 3, whose numbers stand in the text or in a file of HDF5.
+// Reads uniform grids of XDMF 3, whose numbers are in the text or in an HDF5 file.
 #ifdef OMBRE_3MF
 
 #include <cmath>
@@ -70,7 +70,7 @@ class XdmfReader {
     return numbers;
   }
 
-  // "part.h5:/Mesh/geometry"
+  // Reads the numbers of an item such as "part.h5:/Mesh/geometry".
   std::vector<double> numbers_in_hdf5(xml_node item) const {
     const std::string_view place = trim(std::string_view(item.text().get()));
     const size_t colon = place.rfind(":/");
@@ -143,7 +143,7 @@ class XdmfReader {
     results_.fields.push_back(std::move(field));
   }
 
-  // From xx, xy, xz, yy, yz, zz to xx, yy, zz, xy, yz, zx.
+  // Reorders xx, xy, xz, yy, yz, zz to xx, yy, zz, xy, yz, zx.
   static void reorder(ResultField& field) {
     if (field.components != 6) return;
     for (size_t n = 0; n < field.values.size(); n += 6) {

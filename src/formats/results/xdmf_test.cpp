@@ -1,4 +1,4 @@
-// Grids of XDMF, with their numbers as text and in files of HDF5.
+// Tests of XDMF grids, with their numbers as text and in HDF5 files.
 #include <gtest/gtest.h>
 
 #include "formats/containers/hdf5.h"
@@ -45,7 +45,7 @@ TEST(Xdmf, NumbersAsText) {
   EXPECT_EQ(results->nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
   ASSERT_TRUE(find_field(*results, "displacement"));
   EXPECT_EQ(find_field(*results, "displacement")->values[11], 12);
-  // XDMF has xx, xy, xz, yy, yz, zz.
+  // XDMF's order is xx, xy, xz, yy, yz, zz.
   EXPECT_EQ(find_field(*results, "stress")->values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(find_field(*results, "stress")->unit, "MPa");
 }

@@ -1,4 +1,4 @@
-// Grids in MetaImage files (itk.org/Wiki/ITK/MetaIO/Documentation): .mha, and .mhd with its numbers beside it.
+// Reads grids in MetaImage files (itk.org/Wiki/ITK/MetaIO/Documentation): .mha, and .mhd with a separate data file.
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -32,7 +32,7 @@ class MetaImage {
     rest_ = bytes.substr(at);
   }
 
-  // Empty where the header's own file holds the numbers.
+  // Returns the name of the data file; empty if the header's own file contains the numbers.
   std::string data_file() const {
     const std::string name = field("elementdatafile");
     if (name.starts_with("LIST") || name.find('%') != std::string::npos)
@@ -69,7 +69,7 @@ class MetaImage {
     if (found == fields_.end()) fail("has a header without \"" + name + '"');
     return found->second;
   }
-  // The first of the names that the header has.
+  // Returns the first of the names that the header has.
   std::string first_of(std::initializer_list<const char*> names) const {
     for (const char* name : names)
       if (fields_.contains(name)) return name;
@@ -123,7 +123,7 @@ class MetaImage {
     for (size_t axis = 0; axis < 3; ++axis)
       if (!(lengths[axis] > 0)) fail("has voxels of " + format_number(lengths[axis]) + " mm");
     if (!turn.empty()) {
-      // Each three numbers are the direction of an axis.
+      // Each group of three numbers is the direction of an axis.
       const std::vector<double> directions = numbers(turn, 9);
       for (size_t axis = 0; axis < 3; ++axis)
         for (size_t n = 0; n < 3; ++n) map.rows[n][static_cast<int>(axis)] = directions[3 * axis + n];

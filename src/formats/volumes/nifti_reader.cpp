@@ -1,4 +1,4 @@
-// Grids in NIfTI files, versions 1 and 2 (nifti.nimh.nih.gov/nifti-1, nifti-2): .nii, .nii.gz, .hdr with .img.
+// Reads grids in NIfTI files, versions 1 and 2 (nifti.nimh.nih.gov/nifti-1, nifti-2): .nii, .nii.gz, .hdr with .img.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t size_of_1 = 348, size_of_2 = 540;
 
-// Where the fields of a version lie.
+// Offsets of the header's fields in a version.
 struct Layout {
   size_t dimensions, dimension_bytes, data_type, spacings, spacing_bytes, offset, slope, intercept, units, qform, sform,
       quaternion, place, rows;
@@ -33,7 +33,7 @@ class NiftiHeader {
 
   bool is_big_endian() const { return is_big_endian_; }
   const Layout& layout() const { return is_second_ ? layout_2 : layout_1; }
-  // Do the numbers lie in another file?
+  // Returns true if the numbers are in another file.
   bool is_pair() const { return bytes_.substr(is_second_ ? 4 : 344, 2) == "ni"; }
 
   template <class T>
@@ -46,9 +46,9 @@ class NiftiHeader {
     std::memcpy(&value, raw.data(), sizeof value);
     return value;
   }
-  // A real number of the version's size.
+  // Reads a real number with the version's size.
   double real(size_t at) const { return is_second_ ? read<double>(at) : static_cast<double>(read<float>(at)); }
-  // The n-th of a list of real numbers.
+  // Reads the n-th of a list of real numbers.
   double real(size_t list, size_t n) const { return real(list + n * layout().spacing_bytes); }
   int64_t whole(size_t at) const { return is_second_ ? read<int64_t>(at) : int64_t{read<int16_t>(at)}; }
   int code(size_t at) const { return is_second_ ? read<int32_t>(at) : int{read<int16_t>(at)}; }
@@ -87,7 +87,7 @@ std::string type_of(const std::string& path, int code) {
 
 struct NiftiSize {
   std::array<int64_t, 3> count{1, 1, 1};
-  int64_t channels = 1;  // along the axes beyond the third, time among them
+  int64_t channels = 1;  // number of values along the axes after the third, including time
 };
 
 NiftiSize size_of(const std::string& path, const NiftiHeader& header) {
@@ -113,7 +113,7 @@ double mm_of(const NiftiHeader& header) {
   return header.units() == metre ? 1000 : header.units() == micron ? 1e-3 : 1;
 }
 
-// The rotation of a quaternion whose real part follows from the other three (method 2 of the standard).
+// Returns the rotation of a quaternion whose real part follows from the other three (method 2 of the standard).
 Affine turned(const NiftiHeader& header) {
   const Layout& at = header.layout();
   const double b = header.real(at.quaternion, 0), c = header.real(at.quaternion, 1), d = header.real(at.quaternion, 2);
@@ -154,7 +154,7 @@ Affine by_rows(const NiftiHeader& header) {
   return map;
 }
 
-// Places of the file: those of the affine map, else of the quaternion, else none but the voxels' lengths.
+// Sets the placement: the affine map if there is one, else that of the quaternion, else only the size of the voxels.
 void place(const std::string& path, const NiftiHeader& header, VoxelVolume& volume) {
   const bool has_rows = header.code(header.layout().sform) > 0, has_turn = header.code(header.layout().qform) > 0;
   const Affine map = has_rows   ? by_rows(header)
@@ -169,7 +169,7 @@ void place(const std::string& path, const NiftiHeader& header, VoxelVolume& volu
   if (has_rows || has_turn) volume.space = VolumeSpace::ras;
 }
 
-// Numbers as they are meant: slope * number + intercept.
+// Converts the numbers to slope * number + intercept.
 void rescale(const std::string& path, const NiftiHeader& header, VoxelVolume& volume) {
   const double slope = header.real(header.layout().slope), intercept = header.real(header.layout().intercept);
   if (slope == 0 || (slope == 1 && intercept == 0)) return;
@@ -210,7 +210,7 @@ VoxelVolume read_nifti(const VolumeFile& file) {
   volume.type = type_of(path, header.data_type());
   volume.values = values_of_type(path, volume.type);
   const uint64_t size = voxel_bytes(path, volume.count, bytes_per_value(volume.values)) *
-                        static_cast<uint64_t>(channel.count);  // before anything is unpacked
+                        static_cast<uint64_t>(channel.count);  // before anything is decompressed
   place(path, header, volume);
   if (header.is_pair() && !file.companion) fail_volume(path, "has its numbers in an .img file, which is not there");
   const std::string_view numbers = header.is_pair() ? *file.companion : file.bytes;

@@ -8,7 +8,7 @@ std::string npy_header(std::string_view type, const std::vector<int64_t>& shape)
   std::string text = "{'descr': '" + std::string(type) + "', 'fortran_order': False, 'shape': (";
   for (const int64_t length : shape) text += std::to_string(length) + ", ";
   text += "), }";
-  // The numbers begin at a multiple of 64 bytes, behind a line end.
+  // The header is padded so that the numbers begin at a multiple of 64 bytes, after a line end.
   constexpr size_t before = 10, unit = 64;
   text.append((unit - (before + text.size() + 1) % unit) % unit, ' ');
   text += '\n';

@@ -1,4 +1,4 @@
-// Grids in NumPy's array files, versions 1 to 3.
+// Reads grids in NumPy's array files, versions 1 to 3.
 #include <charconv>
 
 #include "base/text/text.h"
@@ -8,10 +8,10 @@ namespace ombre::formats {
 namespace {
 
 struct NpyHeader {
-  std::string type;  // "<f4"
+  std::string type;  // such as "<f4"
   bool is_fortran = false;
   std::vector<int64_t> shape;
-  size_t bytes = 0;  // up to the numbers
+  size_t bytes = 0;  // size of the header
 };
 
 std::string_view header_text(const std::string& path, std::string_view bytes, size_t& end) {
@@ -29,7 +29,7 @@ std::string_view header_text(const std::string& path, std::string_view bytes, si
   return bytes.substr(begin, length);
 }
 
-// The text behind 'key':, without the blanks before it.
+// Returns the text that follows 'key':, without leading blanks.
 std::string_view member(const std::string& path, std::string_view text, const std::string& key) {
   const size_t at = text.find("'" + key + "'");
   const size_t colon = at == std::string_view::npos ? at : text.find(':', at);

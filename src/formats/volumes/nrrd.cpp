@@ -9,7 +9,7 @@ std::string vector_text(Vec3 v) {
   return '(' + format_number(v.x) + ',' + format_number(v.y) + ',' + format_number(v.z) + ')';
 }
 
-// Values are one line.
+// Escapes a value, which must be one line.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\n' ? "\\n" : c == '\\' ? "\\\\" : std::string(1, c);

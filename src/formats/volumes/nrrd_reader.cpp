@@ -1,4 +1,4 @@
-// Grids in NRRD files (teem.sourceforge.net/nrrd/format.html), attached and detached, raw, gzip and text.
+// Reads grids in NRRD files (teem.sourceforge.net/nrrd/format.html), attached and detached, raw, gzip and text.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -43,8 +43,8 @@ class NrrdReader {
     return name;
   }
 
-  // 3D Slicer's keys (extensions of NRRD, Segmentation file): before version 4.11 each segment had a layer of its own,
-  // in which its voxels are 1.
+  // Returns the segments in 3D Slicer's keys (extensions of NRRD, Segmentation file). Before version 4.11 each segment
+  // had its own layer, in which its voxels are 1.
   std::vector<VolumeSegment> segments() const {
     std::vector<VolumeSegment> segments;
     for (int n = 0;; ++n) {
@@ -67,7 +67,7 @@ class NrrdReader {
     volume.type = type();
     volume.values = values_of_type(path_, volume.type);
     const Channel channel = read_axes(file, volume);
-    voxel_bytes(path_, volume.count, bytes_per_value(volume.values));  // before anything is unpacked
+    voxel_bytes(path_, volume.count, bytes_per_value(volume.values));  // before anything is decompressed
     if (!data_file().empty() && !file.companion) fail("has its numbers in " + data_file() + ", which is not there");
     read_numbers(file, data_file().empty() ? rest_ : *file.companion, channel, volume);
     return volume;
@@ -76,7 +76,7 @@ class NrrdReader {
  private:
   using Words = std::vector<std::string>;
   static constexpr int most_layers = 100000;
-  static constexpr int64_t most_label = (1 << 24) - 1;  // that floats tell from its neighbours
+  static constexpr int64_t most_label = (1 << 24) - 1;  // largest integer that floats represent exactly without gaps
 
   [[noreturn]] void fail(const std::string& message) const { fail_volume(path_, message); }
 
@@ -97,7 +97,8 @@ class NrrdReader {
     fields_[to_lower(line.substr(0, colon))] = std::string(trim(line.substr(colon + 2)));
   }
 
-  // Of a value, where "\\n" stands for the end of a line and "\\\\" for a backslash.
+  // Returns a value in which "\
+  // " means a line end and "\\\\" a backslash.
   static std::string unescaped(std::string_view text) {
     std::string result;
     for (size_t n = 0; n < text.size(); ++n) {
@@ -190,7 +191,7 @@ class NrrdReader {
     return known == names.end() ? name : known->second;
   }
 
-  // "(1,0,0) none (0, 1, 0)", each as three numbers or as nothing.
+  // Parses vectors such as "(1,0,0) none (0, 1, 0)", each of three numbers or none.
   std::vector<std::optional<Vec3>> vectors(const std::string& name) const {
     std::vector<std::optional<Vec3>> result;
     std::string_view text = fields_.at(name);
@@ -212,8 +213,8 @@ class NrrdReader {
     return result;
   }
 
-  // Axes along which there is one value only, and which are none of space, do not count. One that is the first or the
-  // last, and none of space, has the values of a voxel.
+  // Reads the axes. Axes of one value that are not axes of space are ignored. The first or last axis, if it is not one
+  // of space, contains the values of a voxel.
   Channel read_axes(const VolumeFile& file, VoxelVolume& volume) const {
     const Words sizes = words_of(field("sizes"));
     const bool has_directions = fields_.contains("space directions");
@@ -254,7 +255,7 @@ class NrrdReader {
     return channel;
   }
 
-  // Without directions "kinds" tells axes of space from others.
+  // Returns true for an axis of space if there are no directions; "kinds" then distinguishes the axes.
   bool is_space_by_kind(size_t axis, size_t axes, int64_t count) const {
     const Words kinds = words_of(to_lower(field_or("kinds", "")));
     if (kinds.size() == axes) return kinds[axis] == "space" || kinds[axis] == "domain" || kinds[axis] == "???";

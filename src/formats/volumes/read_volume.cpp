@@ -9,7 +9,7 @@ namespace {
 constexpr uint64_t most_unpacked_bytes = uint64_t{64} << 30;
 
 VoxelVolume read_packed(const VolumeFile& file) {
-  // What the file's end states is right up to 4 GiB.
+  // The size stated at the end of the file is correct up to 4 GiB.
   check_room(file.path, std::max(file.bytes.size(), stated_gzip_size(file.bytes)));
   const auto all = std::make_shared<const std::string>(unpacked_file(file.path, file.bytes, most_unpacked_bytes));
   if (is_gzip(*all)) fail_volume(file.path, "is packed twice by gzip; unpack it");

@@ -1,5 +1,5 @@
-// Grids of numbers that files hold: NRRD, NIfTI, MetaImage, VTK's image data, NumPy's NPY, and raw numbers that a JSON
-// file beside them describes.
+// Reads grids of numbers in files: NRRD, NIfTI, MetaImage, VTK's image data, NumPy's NPY, and raw numbers described by
+// a JSON file beside them.
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@
 
 namespace ombre::formats {
 
-// Types that are read.
+// The supported types.
 using VoxelValues = std::variant<std::vector<uint8_t>, std::vector<int8_t>, std::vector<uint16_t>, std::vector<int16_t>,
                                  std::vector<uint32_t>, std::vector<int32_t>, std::vector<float>, std::vector<double>>;
 
-// The frame in which a file gives places. The first three are of a patient: R is right, A anterior, S superior.
+// The frame of a file's positions. The first three are those of a patient: R is right, A anterior, S superior.
 enum class VolumeSpace : uint8_t { unknown, ras, lps, las, right_handed, left_handed };
 
-// Numbers side by side, which need not lie where their type could be read directly.
+// Contiguous numbers that need not be aligned for their type.
 template <class T>
 class Numbers {
  public:
@@ -47,19 +47,19 @@ class Numbers {
 
 struct VoxelVolume {
   std::array<int64_t, 3> count{};          // along its own axes, the first fastest
-  VoxelValues values;                      // finite, as many as voxels; or an empty list that says their type
-  std::string_view in_file;                // where not empty: the numbers, low byte first, in bytes of the file
-  std::shared_ptr<const void> file;        // keeps these bytes
-  bool stays_in_file = false;              // do they take no memory?
-  std::string type;                        // "uint8"
-  std::optional<Affine> space_from_index;  // of voxels' centres, in mm; with an inverse
+  VoxelValues values;                      // finite, one per voxel; or an empty list that only defines the type
+  std::string_view in_file;                // if not empty: the little-endian numbers in the bytes of the file
+  std::shared_ptr<const void> file;        // keeps these bytes alive
+  bool stays_in_file = false;              // true if they do not use memory
+  std::string type;                        // such as "uint8"
+  std::optional<Affine> space_from_index;  // maps indices of voxels to their centres in mm; invertible
   VolumeSpace space = VolumeSpace::unknown;
-  // What the file's numbers went through, where its format has that.
+  // Slope and intercept that were applied to the file's numbers, in formats that have them.
   double slope = 1, intercept = 0;
-  int64_t channels = 1;  // values that the file has in each voxel; these are one of them
+  int64_t channels = 1;  // values per voxel in the file; this volume contains one of them
 };
 
-// Calls with the numbers of the volume as Numbers<T>.
+// Calls visit with the numbers of the volume as Numbers<T>.
 template <class Visit>
 decltype(auto) visit_numbers(const VoxelVolume& volume, const Visit& visit) {
   return std::visit(
@@ -70,43 +70,43 @@ decltype(auto) visit_numbers(const VoxelVolume& volume, const Visit& visit) {
       volume.values);
 }
 
-// A part of a segmentation, as 3D Slicer writes them (.seg.nrrd): the voxels with a number in a layer.
+// A part of a segmentation in 3D Slicer's format (.seg.nrrd): the voxels with a label in a layer.
 struct VolumeSegment {
-  std::string name, id;  // names need not differ
+  std::string name, id;  // names need not be unique
   int64_t label = 1;
-  int layer = 0;                                     // the channel of the file
+  int layer = 0;                                     // channel of the file
   std::optional<std::array<double, 3>> colour = {};  // red, green and blue from 0 to 1
 };
 
-// What is taken of a file that holds several grids, or several values in each voxel.
+// The choice from a file with several grids or several values per voxel.
 struct VolumeChoice {
-  std::string name;  // of one of several arrays; empty: there is one
-  int channel = -1;  // counted from 0; -1: there is one
+  std::string name;  // name of one of several arrays; empty if there is only one
+  int channel = -1;  // counted from 0; -1 if there is only one
 };
 
-// The bytes of a file. With `may_refer` numbers that lie in them as they are used are not copied.
+// The bytes of a file. With `may_refer`, numbers are not copied if they can be used in place.
 struct VolumeFile {
   const std::string& path;
   std::string_view bytes;
-  const std::string_view* companion = nullptr;  // what companion_of() names; null where it is missing
+  const std::string_view* companion = nullptr;  // contents of the file named by companion_of(); null if it is missing
   VolumeChoice choice = {};
   bool may_refer = false;
 };
 
-// "RAS", "3D-right-handed", ...
+// Returns the name of a space: "RAS", "3D-right-handed", ...
 std::string_view name(VolumeSpace space);
 
-// The file in which the rest of this one is: a header's numbers, or the description of numbers (path + ".json", which
-// need not be there). Empty where this one holds all. Throws Error.
+// Returns the path of the file with the rest of this one: a header's numbers, or the description of raw numbers (path +
+// ".json", which may be missing). Empty if this file is complete. Throws Error.
 std::string companion_of(const std::string& path, std::string_view bytes);
 
-// The segments that a file names, in its order; none where it is no segmentation. Throws Error.
+// Returns the segments that a file names, in its order; empty if it is not a segmentation. Throws Error.
 std::vector<VolumeSegment> segments_of(const std::string& path, std::string_view bytes);
 
-// Throws Error, naming the path and what is wrong.
+// Reads a volume. Throws Error, naming the path and what is wrong.
 VoxelVolume read_volume(const VolumeFile& file);
 
-// Throws Error, naming the path, where a value is not finite, or the volume lies where none can.
+// Throws Error, naming the path, if a value is not finite or the volume's placement is impossible.
 void check_volume(const std::string& path, const VoxelVolume& volume);
 
 }  // namespace ombre::formats

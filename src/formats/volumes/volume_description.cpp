@@ -1,4 +1,4 @@
-// Grids of raw numbers, and the descriptions that lie beside them.
+// Reads grids of raw numbers, and the descriptions beside them.
 #include <cmath>
 
 #include "base/text/json.h"

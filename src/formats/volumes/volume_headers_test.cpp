@@ -35,7 +35,7 @@ std::string zip(const std::string& bytes, size_t number, size_t row, size_t piec
   return stream + writer.take();
 }
 
-// Floats that repeat along rows, from row to row, or not at all.
+// Returns floats that repeat along rows, from row to row, or not at all.
 std::string numbers(size_t width, size_t rows) {
   std::string bytes;
   uint32_t state = 1;

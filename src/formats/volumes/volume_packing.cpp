@@ -11,7 +11,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr uint64_t most_growth = 1032;  // of deflate
+constexpr uint64_t most_growth = 1032;  // greatest ratio of deflate
 
 using Unpacker = std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>;
 

@@ -1,4 +1,4 @@
-// Packed numbers of grids: gzip and zlib streams.
+// Decompresses numbers of grids: gzip and zlib streams.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@ namespace ombre::formats {
 
 enum class Packing : uint8_t { gzip, zlib };
 
-// Exactly so many bytes; members of a gzip stream follow each other. Throws Error, naming the path.
+// Returns exactly `size` decompressed bytes; a gzip stream may have several members. Throws Error, naming the path.
 std::string unpacked(const std::string& path, std::string_view bytes, Packing packing, uint64_t size);
 
-// Everything in a gzip file, however much that is. Throws Error where it is damaged or more than `most` bytes.
+// Returns the whole contents of a gzip file. Throws Error if it is damaged or has more than `most` bytes.
 std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most);
 bool is_gzip(std::string_view bytes);
-// The length of what is packed, modulo 2^32, as the end of a gzip file states it.
+// Returns the decompressed size modulo 2^32, as stated at the end of a gzip file.
 uint64_t stated_gzip_size(std::string_view bytes);
 
 }  // namespace ombre::formats

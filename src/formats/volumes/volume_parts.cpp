@@ -100,7 +100,7 @@ Channel chosen_channel(const VolumeFile& file, int64_t count, bool is_apart) {
 
 namespace {
 
-// Does nothing of them need a change?
+// Returns true if the numbers can be used in place.
 bool lie_as_used(const Channel& channel, bool is_big_endian, size_t value_bytes) {
   return (channel.is_apart || channel.count == 1) && (!is_big_endian || value_bytes == 1);
 }
@@ -200,7 +200,7 @@ void check_placement(const std::string& path, const Affine& map) {
                             "; from 0.000001 to 10000 mm are possible");
   }
   const double volume = std::abs(determinant(map));
-  constexpr double flat = 1e-3;  // of the volume that right angles would give
+  constexpr double flat = 1e-3;  // as a share of the volume that right angles would give
   if (!(volume > flat * length(steps[0]) * length(steps[1]) * length(steps[2])))
     fail_volume(path, "has axes that lie in one plane, or nearly so");
   for (int axis = 0; axis < 3; ++axis)

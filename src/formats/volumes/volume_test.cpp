@@ -84,7 +84,7 @@ TEST(Volume, SpacesAndUnitsAreThoseOfTheFile) {
   EXPECT_EQ((*volume.space_from_index)({0, 1, 2}), (Vec3{20, 20, 40}));
 }
 
-// Keys as 3D Slicer 5 writes them, and before version 4.11, when each segment had a layer of its own.
+// The keys are those of 3D Slicer 5, and those before version 4.11, when each segment had its own layer.
 TEST(Volume, SegmentsHaveNamesNumbersAndColours) {
   const std::string both = "encoding: ascii\nSegment0_ID:=S_1\nSegment0_Name:=left\\\\right\\n lung\n";
   const auto segments = segments_of(
@@ -116,7 +116,7 @@ TEST(Volume, NumbersMayLieBesideTheHeader) {
   EXPECT_TRUE(is_about(volume_problem(header), "numbers.raw, which is not there"));
 }
 
-// a[k, j, i] is voxel (i, j, k) in both orders.
+// In both orders a[k, j, i] is voxel (i, j, k).
 TEST(Volume, NpyArraysHaveTheShapeZyx) {
   const std::string header = npy_header("<i2", {1, 3, 2});
   const VoxelVolume c = read_whole(header + bytes_of_numbers(six));
@@ -166,7 +166,7 @@ TEST(Volume, WrongFilesSayWhatIsWrong) {
   EXPECT_TRUE(is_about(volume_problem(npy_header("<i2", {3, 2})), "2 axes"));
 }
 
-// Before memory is taken for them.
+// The errors occur before memory is allocated.
 TEST(Volume, SizesThatCannotBeAreErrors) {
   EXPECT_TRUE(is_about(volume_problem(npy_header("<f8", {1 << 20, 1 << 20, 1 << 20})), "more than 1 TiB"));
   EXPECT_TRUE(is_about(volume_problem(npy_header("<f8", {1 << 10, 1 << 10, 1 << 10})), "cut off"));

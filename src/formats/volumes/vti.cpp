@@ -24,7 +24,7 @@ std::string array_text(const VtiGrid& grid, size_t n) {
   return text + " format=\"appended\" offset=\"" + std::to_string(vti_offset(grid, n) - length_bytes) + "\"/>\n";
 }
 
-// A comment holds no two hyphens in a row.
+// Returns a valid XML comment, which cannot contain two consecutive hyphens.
 std::string comment(std::string text) {
   for (size_t at = text.find("--"); at != std::string::npos; at = text.find("--")) text.replace(at, 2, "- -");
   if (!text.empty() && text.back() == '-') text += ' ';

@@ -1,7 +1,7 @@
-// VTK image data (.vti): XML, with the numbers behind it as they lie in memory.
+// Writes VTK image data (.vti): XML, followed by the numbers as stored in memory.
 //
-// "VTK XML file formats", The VTK User's Guide, Kitware. Voxels are cells, so that their borders and the grid's corners
-// are where they are in the design.
+// Source: "VTK XML file formats", The VTK User's Guide, Kitware. Voxels are cells, so that their borders and the grid's
+// corners have the same positions as in the design.
 #pragma once
 
 #include <array>
@@ -13,27 +13,27 @@
 
 namespace ombre::formats {
 
-// Numbers of all voxels, x fastest, then y, then z; those of one voxel together.
+// The values of all voxels, x fastest, then y, then z; the components of a voxel are interleaved.
 struct VtiArray {
   std::string name;
-  bool is_float = true;                 // of 32 bits; else bytes
-  std::vector<std::string> components;  // their names; one that is empty for single numbers
+  bool is_float = true;                 // 32-bit floats, else bytes
+  std::vector<std::string> components;  // names of components; one empty name for scalars
   uint64_t bytes_per_voxel() const { return components.size() * (is_float ? 4 : 1); }
 };
 
 struct VtiGrid {
   std::array<int64_t, 3> count{};  // voxels along x, y, z
-  Vec3 spacing_mm, corner_mm;      // the corner of the first voxel
+  Vec3 spacing_mm, corner_mm;      // corner_mm is the outer corner of the first voxel
   std::vector<VtiArray> arrays;
-  std::string note;  // for people; it becomes a comment
+  std::string note;  // becomes a comment
   uint64_t voxels() const;
 };
 
-// All before the first number. Behind it follow, for each array, its length in bytes in eight bytes, low byte first,
-// and its numbers; and then the end.
+// Returns everything before the first number. It is followed, for each array, by its size as eight little-endian bytes
+// and its numbers, and by vti_end().
 std::string vti_header(const VtiGrid& grid);
 std::string vti_end();
-// Where an array's numbers begin, from the end of the header.
+// Returns the offset of an array's numbers from the end of the header.
 uint64_t vti_offset(const VtiGrid& grid, size_t array);
 
 }  // namespace ombre::formats

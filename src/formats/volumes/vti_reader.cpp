@@ -1,4 +1,4 @@
-// Image data in VTK's XML files (.vti): one of their arrays, of points or of cells.
+// Reads image data in VTK's XML files (.vti): one of their arrays, of points or cells.
 #ifdef OMBRE_3MF
 
 #include <cmath>

@@ -21,7 +21,7 @@ using pugi::xml_node;
 
 static_assert(std::endian::native == std::endian::little, "numbers are turned round for others alone");
 
-constexpr uint64_t most_array_bytes = uint64_t{16} << 30;  // unpacked
+constexpr uint64_t most_array_bytes = uint64_t{16} << 30;  // after decompression
 
 std::optional<VtkArrays::Kind> number_kind(std::string_view type) {
   static const std::map<std::string_view, VtkArrays::Kind> kinds{
@@ -53,7 +53,7 @@ double decoded(const char* bytes, VtkArrays::Kind kind) {
   }
 }
 
-// The XML ends where raw bytes begin.
+// Splits a file: the XML ends where raw bytes begin.
 VtkArrays::Parts parts_of_vtk(std::string_view bytes) {
   VtkArrays::Parts parts;
   const size_t tag = bytes.find("<AppendedData");
@@ -164,7 +164,7 @@ uint64_t VtkArrays::header(std::string_view bytes, size_t n) const {
                            : static_cast<uint64_t>(number_of<uint32_t>(word.data()));
 }
 
-// The next so many bytes of `text`, which is base64 by itself up to there.
+// Removes the next `size` bytes from the text and returns them; if it is base64, they are encoded separately.
 std::string VtkArrays::take(xml_node array, std::string_view& text, bool is_base64, uint64_t size) const {
   if (!is_base64) {
     if (size > text.size()) file_.fail_at(array, "the array is cut off");
@@ -189,7 +189,7 @@ void VtkArrays::check_header(xml_node array, std::string_view text, bool is_base
                   "the array has " + std::to_string(header(head, 0)) + " bytes; expected are " + std::to_string(size));
 }
 
-// Behind a header that states how much there is.
+// Returns the bytes that follow a header with their size.
 std::string VtkArrays::array_bytes(xml_node array, std::string_view text, bool is_base64, uint64_t size) const {
   if (is_packed_) return unpacked_blocks(array, text, is_base64, size);
   check_header(array, text, is_base64, size);
@@ -198,8 +198,8 @@ std::string VtkArrays::array_bytes(xml_node array, std::string_view text, bool i
   return bytes;
 }
 
-// Packed blocks of equal size, but for the last; the header has their number, their size, the last one's, and what
-// each takes packed.
+// Decompresses blocks of equal size, except the last. The header contains their number, their size, the size of the
+// last one, and the compressed size of each.
 std::string VtkArrays::unpacked_blocks(xml_node array, std::string_view text, bool is_base64, uint64_t size) const {
   std::string_view ahead = text;
   const uint64_t blocks = header(take(array, ahead, is_base64, header_bytes()), 0);

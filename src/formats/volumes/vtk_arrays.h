@@ -1,4 +1,5 @@
-// Arrays of numbers in VTK's XML files: as text, as base64, or as raw bytes behind the XML, packed by zlib or not.
+// Reads arrays of numbers in VTK's XML files: as text, as base64, or as raw bytes after the XML, optionally compressed
+// by zlib.
 #pragma once
 
 #include <cstdint>
@@ -11,33 +12,33 @@
 
 namespace ombre::formats {
 
-// A file of the kind VTKFile. Failures are reported and end the reading by DesignError.
+// A file with the root element VTKFile. Errors are reported, and DesignError is thrown.
 class VtkArrays {
  public:
   struct Kind {
     size_t bytes = 0;
-    char family = ' ';  // f, i or u
+    char family = ' ';  // f, i or u for float, signed and unsigned
   };
   struct Parts {
     std::string xml;
-    std::string_view appended;  // behind its underscore
+    std::string_view appended;  // the appended data after the underscore
     bool is_base64 = false;
   };
 
-  // The bytes must live as long.
+  // Parses a file; the bytes must outlive this object.
   VtkArrays(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
   const XmlFile& file() const { return file_; }
-  // Byte order, headers and packing, which the outermost element states.
+  // Reads the byte order, the size of headers and the compression from the root element.
   void read_settings(pugi::xml_node root);
 
-  // The type of an array's numbers.
+  // Returns the type of an array's numbers.
   Kind kind_of(pugi::xml_node array) const;
-  // So many numbers, of any type and in any form.
+  // Returns `count` numbers of any type and in any form.
   std::vector<double> numbers(pugi::xml_node array, uint64_t count) const;
-  // The bytes of so many numbers that are no text, low byte first.
+  // Returns the little-endian bytes of `count` numbers that are not text.
   std::string bytes_of(pugi::xml_node array, uint64_t count) const;
-  // The same where they lie so in the file.
+  // Returns these bytes as a part of the file if they can be used in place, else null.
   std::optional<std::string_view> bytes_in_file(pugi::xml_node array, uint64_t count) const;
 
  private:

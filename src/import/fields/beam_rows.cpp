@@ -10,17 +10,17 @@ namespace {
 
 using program::Span;
 
-// What is nearer to the eye is not seen, as a share of the way to the picture plane.
+// Distance from the eye below which nothing is visible, as a share of the distance from the eye to the picture plane.
 constexpr double nearest_seen = 1.0 / 200;
-// Coordinates beyond this are no voxels of ours; within, doubles hold every integer.
+// Largest coordinate of a voxel; up to it, doubles represent every integer.
 constexpr double farthest_voxel = 4e15;
-// Ends of chords are rounded; nearer to a voxel's centre they do not say on which side of it they lie.
+// Rounding error of a chord's end; a voxel centre nearer to the end is tested by itself.
 constexpr double doubt = 1e-6;
 
 int64_t whole(double index) { return static_cast<int64_t>(std::clamp(index, -farthest_voxel, farthest_voxel)); }
 
-// The first voxel from the beginning of a chord on. One whose centre is the beginning, but for rounding, is looked at
-// by itself.
+// Returns the first voxel at or after the beginning of a chord. A voxel whose centre is the beginning, up to rounding,
+// is tested with `holds`.
 template <class Holds>
 int64_t first_voxel(double begin, const Holds& holds) {
   const double centre = std::nearbyint(begin);
@@ -28,7 +28,7 @@ int64_t first_voxel(double begin, const Holds& holds) {
   return whole(centre) + (holds(centre) ? 0 : 1);
 }
 
-// Around the beam in another space.
+// Returns a box around the beam in another space.
 Box box_of(const BeamShape& shape, const Affine& to_from_source) {
   Vec3 reach;
   for (int axis = 0; axis < 3; ++axis) reach[axis] = shape.greatest_radius() * length(to_from_source.rows[axis]);
@@ -54,7 +54,7 @@ BeamRows::BeamRows(BeamShapes shapes, const program::RayLattice& rays, const Aff
 void BeamRows::build() {
   const Affine grid_from_source = inverse(grid_.source_from_grid);
   for (uint32_t n = 0; n < shapes_->size(); ++n) {
-    // Half a voxel more, since rounding may move what lies at the border.
+    // Boxes are half a voxel larger, because rounding may move what lies on their sides.
     const Box box = grid_.index_box(box_of((*shapes_)[n], grid_from_source)).expanded(0.5);
     if (box.is_empty()) continue;
     numbers_.push_back(n);
@@ -66,7 +66,7 @@ void BeamRows::build() {
 BeamRows::Line BeamRows::Grid::line(int64_t j, int64_t k) const {
   const auto row = static_cast<double>(j), layer = static_cast<double>(k);
   if (!is_perspective) return {source_from_grid({0, row, layer}), source_from_grid.linear({1, 0, 0}), 0};
-  // Behind the picture plane, lengths grow with the way from the eye.
+  // Behind the picture plane, lengths grow with the distance from the eye.
   const Vec3 place{0, row * rays.step.y + rays.first.y, layer * rays.step.z + rays.first.z};
   const double grown = 1 + rays.first.x / rays.eye_mm, growth = rays.step.x / rays.eye_mm;
   const Vec3 origin = Vec3{rays.first.x, 0, 0} + grown * place, step = Vec3{rays.step.x, 0, 0} + growth * place;

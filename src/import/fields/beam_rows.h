@@ -1,4 +1,4 @@
-// Which voxels of a row lie in a beam.
+// Finds the voxels of a row that lie in beams.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@ namespace ombre::importing {
 
 using BeamShapes = std::shared_ptr<const std::vector<BeamShape>>;
 
-// One placement of beams on a voxel lattice, or on the rays of a picture. Rows are straight lines; a row holds those of
-// its voxels' centres that lie in a piece of a beam.
+// One placement of beams on a voxel lattice, or on the rays of a picture. Rows are straight lines; a row contains the
+// voxels whose centres lie in a piece of a beam.
 class BeamRows final : public program::RowSampler {
  public:
-  // The map must be invertible.
+  // Constructs the rows of a placement; the map must be invertible.
   BeamRows(BeamShapes shapes, const Affine& source_from_index);
   BeamRows(BeamShapes shapes, const program::RayLattice& rays, const Affine& source_from_view);
 
@@ -24,12 +24,12 @@ class BeamRows final : public program::RowSampler {
              std::vector<std::vector<program::Span>>& rows) const override;
 
  private:
-  // A row's voxel i is the point origin + i * step of the source's space, from `first` on.
+  // A line of voxels: voxel i is the point origin + i * step of the source's space, for i from `first` on.
   struct Line {
     Vec3 origin, step;
     int64_t first = 0;
   };
-  // Voxels are a grid in some space, but for the perspective of rays.
+  // The lattice of voxels: a regular grid in some space, or the rays of a perspective.
   struct Grid {
     Affine source_from_grid;
     bool is_perspective = false;
@@ -44,8 +44,8 @@ class BeamRows final : public program::RowSampler {
 
   BeamShapes shapes_;
   Grid grid_;
-  std::vector<uint32_t> numbers_;  // of the beams that may be seen
-  std::vector<Box> boxes_;         // around them, in voxels
+  std::vector<uint32_t> numbers_;  // numbers of the beams that may be visible
+  std::vector<Box> boxes_;         // boxes around these beams, in voxels
   BoxTree tree_;
 };
 

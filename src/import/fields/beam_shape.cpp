@@ -7,7 +7,8 @@ namespace ombre::importing {
 namespace {
 
 const Interval nothing{1, 0};
-// A line that touches a surface may miss it by as much of the squares that its discriminant is computed from.
+// Rounding error of a discriminant, as a share of the squares in it; a line that touches a surface may seem to miss it
+// by this much.
 constexpr double touching = 1e-12;
 
 double distance_to_segment(double x, double y, double x1, double y1) {
@@ -15,7 +16,7 @@ double distance_to_segment(double x, double y, double x1, double y1) {
   return std::hypot(x - t * x1, y - t * y1);
 }
 
-// The zeros of a*t^2 + 2*b*t + c, in order.
+// Returns the zeros of a*t^2 + 2*b*t + c in ascending order.
 Interval roots(double a, double b, double c) {
   const double squares = std::max(b * b, std::abs(a * c)), discriminant = b * b - a * c;
   if (a == 0) return b == 0 ? nothing : Interval{-0.5 * c / b, -0.5 * c / b};
@@ -27,7 +28,7 @@ Interval roots(double a, double b, double c) {
 
 Interval meet(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 
-// Where value + t * change lies between 0 and `most`.
+// Returns the interval of t in which value + t * change lies between 0 and `most`.
 Interval slab(double value, double change, double most) {
   if (change == 0) return value >= 0 && value <= most ? Interval{-Box::inf, Box::inf} : nothing;
   const double at_zero = -value / change, at_most = (most - value) / change;
@@ -41,7 +42,7 @@ BeamShape::BeamShape(Vec3 start, Vec3 end, std::array<double, 2> radii, std::arr
   axis_ = (1 / length_) * (end - start);
   slope_ = (radii[1] - radii[0]) / length_;
   slant_cosine_ = 1 / std::hypot(1.0, slope_);
-  // Of a cylinder, half a ball at an end gives the same as a whole one.
+  // At the end of a cylinder, half a ball is equivalent to a whole one.
   for (Cap& cap : caps_)
     if (cap == Cap::hemisphere && slope_ == 0) cap = Cap::sphere;
 }
@@ -95,7 +96,7 @@ double BeamShape::distance(Vec3 p) const {
   return std::min(depth, std::max(away, 0.0));
 }
 
-// From outside, in the half plane of `along` and `across`.
+// Returns the distance from an outside point to the frustum, in the half plane of `along` and `across`.
 double BeamShape::frustum_distance(Place at) const {
   const double first = std::hypot(at.along, std::max(0.0, at.across - radii_[0]));
   const double second = std::hypot(at.along - length_, std::max(0.0, at.across - radii_[1]));
@@ -103,7 +104,7 @@ double BeamShape::frustum_distance(Place at) const {
   return std::min({first, second, slant});
 }
 
-// Beyond an end with a cap, a ball around p may go on within the cap.
+// Beyond an end with a cap, a ball around p may extend into the cap.
 double BeamShape::depth_in_frustum(Vec3 p, Place at) const {
   double depth = slant_distance(at);
   for (const int i : {0, 1}) {
@@ -114,7 +115,7 @@ double BeamShape::depth_in_frustum(Vec3 p, Place at) const {
   return std::min(depth, 0.0);
 }
 
-// Half a ball goes on within the frustum, which is narrower than the ball behind its thicker end.
+// Half a ball continues into the frustum, which is narrower than the ball behind its thicker end.
 double BeamShape::depth_in_cap(int i, Vec3 p, Place at) const {
   const double depth = ombre::length(p - ends_[i]) - radii_[i];
   if (caps_[i] == Cap::sphere) return depth;
@@ -124,7 +125,7 @@ double BeamShape::depth_in_cap(int i, Vec3 p, Place at) const {
 }
 
 Interval BeamShape::chord(Piece piece, Vec3 origin, Vec3 step) const {
-  // Near the beam, so that squares keep their digits.
+  // The origin moves near to the beam, so that squares keep their digits.
   const double middle = dot(0.5 * (ends_[0] + ends_[1]) - origin, step) / dot(step, step);
   const Vec3 near = origin + middle * step;
   const Interval found = piece == frustum ? frustum_chord(near, step) : ball_chord(piece - 1, near, step);
@@ -149,7 +150,7 @@ Interval BeamShape::frustum_chord(Vec3 origin, Vec3 step) const {
   const double a = dot(turn, turn) - growth * growth, b = dot(across, turn) - radius * growth,
                c = dot(across, across) - radius * radius;
   const Interval zeros = roots(a, b, c);
-  // Between two zeros the line is inside everywhere or nowhere.
+  // The line does not change between inside and outside between two zeros.
   std::array<double, 4> ends{within.lo, within.lo, within.hi, within.hi};
   if (zeros.lo <= zeros.hi) {
     ends[1] = std::clamp(zeros.lo, within.lo, within.hi);

@@ -14,29 +14,31 @@ class BeamShape {
  public:
   using Cap = formats::BeamCap;
 
-  // The ends are not the same point, the radii are positive.
+  // Constructs a beam; the ends must differ, and the radii must be positive.
   BeamShape(Vec3 start, Vec3 end, std::array<double, 2> radii, std::array<Cap, 2> caps);
   static BeamShape ball(Vec3 centre, double radius);
 
-  // Its axis, and how far it reaches from there.
+  // An end of the axis.
   Vec3 end(int i) const { return ends_[i]; }
   double greatest_radius() const { return std::max(radii_[0], radii_[1]); }
 
-  // The distance to the surface, negative inside: exact outside, and inside not more than the depth.
+  // Returns the signed distance to the surface, negative inside. It is exact outside; inside, its magnitude is at most
+  // the depth.
   double distance(Vec3 p) const;
 
-  // The convex pieces of which it is the union, of which each meets a line in one piece.
+  // The convex pieces whose union is the beam; a line meets each in one interval.
   enum Piece : uint8_t { frustum, first_cap, second_cap };
   static constexpr std::array<Piece, 3> pieces{frustum, first_cap, second_cap};
   bool has(Piece piece) const;
-  // Is the line of the points origin + t * step farther from the axis than the beam reaches? True only if it is.
+  // Returns true only if the line of points origin + t * step is farther from the axis than the greatest radius.
   bool is_missed_by(Vec3 origin, Vec3 step) const;
   bool holds(Piece piece, Vec3 p) const;
-  // The t of the points origin + t * step within the piece, but for rounding; lo > hi: none.
+  // Returns the interval of t in which the points origin + t * step lie within the piece, up to rounding; lo > hi if
+  // there is none.
   Interval chord(Piece piece, Vec3 origin, Vec3 step) const;
 
  private:
-  // Coordinates of a point about the axis.
+  // Cylindrical coordinates of a point relative to the axis.
   struct Place {
     double along = 0, across = 0;
   };
@@ -54,7 +56,7 @@ class BeamShape {
   Interval frustum_chord(Vec3 origin, Vec3 step) const;
 
   std::array<Vec3, 2> ends_;
-  Vec3 axis_;  // of length 1
+  Vec3 axis_;  // unit vector
   double length_ = 0, slope_ = 0, slant_cosine_ = 1;
   std::array<double, 2> radii_{};
   std::array<Cap, 2> caps_{};

@@ -9,7 +9,7 @@
 namespace ombre::importing {
 namespace {
 
-// Of a distance, relative to the numbers that it was computed from.
+// Rounding error of a distance, relative to the numbers that it is computed from.
 constexpr double beam_rounding = 1e-12;
 
 BeamShapes shapes_of(const formats::BeamLattice& lattice) {
@@ -67,14 +67,14 @@ class BeamSource final : public program::FieldSource {
     return shrinks_ * nearest(at, Box::inf, -Box::inf);
   }
 
-  // A distance changes by no more than the way to the box's corners.
+  // Distances in the box differ from that at its centre by at most half its diagonal.
   Interval range(int channel, const Box& box) const override {
     if (channel == inside_channel && intersect(box, bounds_).is_empty()) return {0};
     if (!box.is_bounded()) return channel == inside_channel ? Interval(0, 1) : Interval::everything();
     const double value = sample(distance_channel, box.center()), reach = 0.5 * length(box.size());
     const double room = reach + beam_rounding * (reach + std::abs(value) + length(box.center()));
     if (channel == inside_channel) return value > room ? Interval(0) : value < -room ? Interval(1) : Interval(0, 1);
-    // Inside, a point may be given less than its depth.
+    // Inside, the reported magnitude may be less than the depth.
     const double least = value > room ? value - room : -shrinks_ * greatest_radius_;
     return outward(least, value < -room ? 0 : value + room);
   }
@@ -103,7 +103,7 @@ class BeamSource final : public program::FieldSource {
   std::string name_;
   Hash content_;
   Affine lattice_from_mm_;
-  double shrinks_;  // the least that the placement makes of a length of 1
+  double shrinks_;  // least factor by which the placement scales a length
   BeamShapes shapes_;
   BoxTree tree_;
   double greatest_radius_ = 0;

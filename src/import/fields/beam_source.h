@@ -8,10 +8,10 @@
 
 namespace ombre::importing {
 
-// Beams and balls in mm, without their clipping. Channels:
+// Returns the union of the beams and balls, in mm, without the lattice's clipping. Channels:
 //   "inside"    1 inside, 0 outside. Its rows are exact.
-//   "distance"  mm to the surface, negative inside; it may be less than that inside, and where the placement stretches
-//               lengths unevenly.
+//   "distance"  signed distance to the surface in mm, negative inside. Its magnitude may be too small inside, and
+//               where the placement scales lengths unevenly.
 program::SourceField make_beam_source(std::string name, const formats::PlacedLattice& placed, Hash content);
 
 }  // namespace ombre::importing

@@ -31,7 +31,7 @@ Vec3 point_in(std::mt19937& random, double half) {
   return {between(random, -half, half), between(random, -half, half), between(random, -half, half)};
 }
 
-// Beams of all kinds and balls, in a cube from -10 to 10.
+// Returns beams of all kinds and balls in a cube from -10 to 10.
 BeamLattice scattered(uint32_t seed) {
   std::mt19937 random(seed);
   BeamLattice lattice;
@@ -57,7 +57,7 @@ PlacedLattice one_beam(double length, double r1, double r2, BeamCap cap1, BeamCa
   return placed(lattice);
 }
 
-// By voxels of 0.05 mm.
+// Returns the volume from voxels of 0.05 mm.
 double volume_of(const program::FieldSource& source) {
   const double voxel = 0.05;
   const Box box = source.bounds();
@@ -82,7 +82,7 @@ TEST(BeamSource, CapsMakeTheVolumesOfMathematics) {
   const auto volume = [](BeamCap cap) { return volume_of(*source_of(one_beam(6, 2, 1, cap, cap))); };
   EXPECT_NEAR(volume(BeamCap::butt), frustum_volume(6, 2, 1), 0.1);
   EXPECT_NEAR(volume(BeamCap::hemisphere), frustum_volume(6, 2, 1) + half_balls, 0.1);
-  // Behind the thicker end the ball is wider than the frustum from there on: where sqrt(4 - a^2) = 2 - a/6.
+  // The ball at the thicker end is wider than the frustum as far as sqrt(4 - a^2) = 2 - a/6.
   const double meets = 24.0 / 37;
   const double beyond = pi * (4 * meets - meets * meets * meets / 3) - frustum_volume(meets, 2, 2 - meets / 6);
   EXPECT_NEAR(volume(BeamCap::sphere), frustum_volume(6, 2, 1) + half_balls + beyond, 0.1);
@@ -97,7 +97,7 @@ TEST(BeamSource, EachEndHasItsOwnCap) {
   EXPECT_FALSE(holds(7.01));
 }
 
-// The rows of a lattice hold the same as its points, whatever the placement.
+// Checks that the rows of a lattice contain the same points as sample(), for a placement.
 void expect_rows_of_points(const program::FieldSource& source, const program::RowSampler& rows,
                            const std::function<Vec3(Vec3)>& point) {
   std::vector<Spans> layer;
@@ -146,7 +146,7 @@ TEST(BeamSource, RaysAreThePoints) {
   }
 }
 
-// A row that touches a beam's side, and one along its axis.
+// One row touches a beam's side, another runs along its axis.
 TEST(BeamSource, RowsThatTouchHoldTheirPoints) {
   BeamLattice lattice;
   lattice.vertices = {{0, 0, 0}, {8, 0, 0}, {4, 0, 0}, {4, 0, 8}};
@@ -160,7 +160,7 @@ TEST(BeamSource, RowsThatTouchHoldTheirPoints) {
   EXPECT_EQ(layer[2], (Spans{{4, 5}}));
 }
 
-// The farthest that the way to a point can differ from a distance that claims to be exact.
+// Distances outside agree with a search over points of the beam on a grid, up to the grid's spacing.
 TEST(BeamSource, DistancesOutsideAreExact) {
   std::mt19937 random(5);
   for (const BeamCap cap : {BeamCap::sphere, BeamCap::hemisphere, BeamCap::butt})
@@ -170,7 +170,7 @@ TEST(BeamSource, DistancesOutsideAreExact) {
         const Vec3 p = point_in(random, 5);
         const double distance = shape.distance(p);
         if (distance <= 0) continue;
-        // In the half plane of the point, which by symmetry holds the nearest point too.
+        // Searches in the half plane of the point, which by symmetry contains the nearest point.
         double least = 100;
         const double across = std::hypot(p.y, p.z);
         for (double x = -3.2; x < 5.2; x += 0.04)
@@ -220,7 +220,7 @@ TEST(BeamSource, EvenScalingKeepsDistancesExact) {
   }
 }
 
-// A ball of 3 mm, of which half lies in a cuboid.
+// A ball with a radius of 3 mm lies half in a cuboid.
 TEST(CombinedSource, ClipsAndUnites) {
   BeamLattice lattice;
   lattice.vertices = {{0, 0, 0}};

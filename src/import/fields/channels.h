@@ -1,4 +1,4 @@
-// What solids are asked for.
+// Channels of solids.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@ namespace ombre::importing {
 
 enum Channel : int { inside_channel = 0, distance_channel = 1 };
 
-// -1: none of that name.
+// Returns the channel of a name, or -1 if there is none.
 inline int channel_of(std::string_view name) {
   return name == "inside" ? inside_channel : name == "distance" ? distance_channel : -1;
 }

@@ -18,7 +18,7 @@ using Samplers = std::vector<std::unique_ptr<RowSampler>>;
 
 enum class Operation : uint8_t { unite, intersect, subtract };
 
-// Of channels of the same name, for one or several sources.
+// Combines the rows of one channel of several sources.
 class CombinedRows final : public RowSampler {
  public:
   CombinedRows(Samplers samplers, Operation operation) : samplers_(std::move(samplers)), operation_(operation) {}
@@ -133,7 +133,7 @@ class CombinedSource final : public FieldSource {
     return operation_ != Operation::unite;
   }
 
-  // Null if one of them has no rows.
+  // Returns combined rows, or null if one of the sources has none.
   template <class Sampler>
   std::unique_ptr<RowSampler> combined(int channel, const Sampler& sampler_of) const {
     if (channel != inside_channel) return nullptr;

@@ -7,10 +7,10 @@
 
 namespace ombre::importing {
 
-// Any of them, at least one.
+// Returns the union of at least one source.
 program::SourceField make_union_source(std::vector<program::SourceField> sources);
 
-// What of a source lies inside of another, or outside.
+// Returns the part of a source inside of another source, or outside of it.
 program::SourceField make_clipped_source(program::SourceField source, program::SourceField by, bool keeps_inside);
 
 }  // namespace ombre::importing

@@ -17,7 +17,7 @@ DyadicBins::DyadicBins(std::span<const Rectangle> rectangles, std::array<uint32_
   }
   add_levels(finest);
 
-  // Count, then fill: counts become beginnings, shifted by two so that filling moves them in place.
+  // Counting sort: counts become begins, shifted by two entries so that filling moves them into place.
   for (Level& level : levels_) level.begins.assign(size_t{level.cells[0]} * level.cells[1] + 2, 0);
   for (const Rectangle& r : rectangles) {
     Level& level = levels_[level_of(r)];
@@ -42,7 +42,7 @@ void DyadicBins::add_levels(std::array<uint32_t, 2> finest) {
   }
 }
 
-// With cells of one height, from the finest width to the coarsest.
+// Adds levels whose cells have one height, from the finest width to the coarsest.
 void DyadicBins::add_row_of_levels(uint32_t finest, uint32_t cells_v) {
   size_t count = 0;
   for (uint32_t u = finest;; u = (u + 1) / 2, ++count) {

@@ -8,18 +8,18 @@
 
 namespace ombre::importing {
 
-// Levels of grids, for each width of cells and each height, in steps of two. A rectangle lies in the finest level
-// whose cells are not smaller than it along either axis, so in four cells or so; a point asks for one cell of each
-// level that is used.
+// Grids of bins for every combination of cell width and height, in powers of two. A rectangle is stored in the finest
+// level whose cells are not smaller than it along either axis, so in about four cells. A query looks up one cell in
+// each used level.
 class DyadicBins {
  public:
-  // Closed and finite.
+  // A closed rectangle with finite coordinates.
   struct Rectangle {
     std::array<double, 2> lo, hi;
     uint32_t id = 0;
   };
 
-  // `finest`: how many cells the finest level has on each axis, at least 1.
+  // Constructs the bins; `finest` is the number of cells of the finest level along each axis, at least 1.
   DyadicBins(std::span<const Rectangle> rectangles, std::array<uint32_t, 2> finest);
 
   // Calls visit(id) for all rectangles that contain (u, v), and for some others.
@@ -34,9 +34,9 @@ class DyadicBins {
 
  private:
   struct Level {
-    std::array<double, 2> width;  // of a cell
+    std::array<double, 2> width;  // width of a cell along each axis
     std::array<uint32_t, 2> cells;
-    std::vector<uint64_t> begins;  // cell -> its first id; one more than cells
+    std::vector<uint64_t> begins;  // index of the first id of each cell; one entry more than there are cells
     std::vector<uint32_t> ids;
   };
 
@@ -51,8 +51,8 @@ class DyadicBins {
   void add_row_of_levels(uint32_t finest, uint32_t cells_v);
   size_t level_of(const Rectangle& rectangle) const;
 
-  std::array<double, 2> lo_{1, 1}, hi_{0, 0};  // empty: no point is within
-  std::vector<Level> levels_;                  // width by width, then height by height; later only those that are used
+  std::array<double, 2> lo_{1, 1}, hi_{0, 0};  // bounds of all rectangles; initially empty
+  std::vector<Level> levels_;                  // ordered by width, then height; unused levels are removed
   size_t levels_a_row_ = 1;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Pair = std::pair<uint8_t, uint8_t>;
 
-// The corners between which a quadratic element has its nodes.
+// Pairs of corners between which quadratic elements have a node.
 constexpr std::array<Pair, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 constexpr std::array<Pair, 12> brick_edges{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
@@ -30,14 +30,14 @@ constexpr std::array<Vec3, 20> brick_places{{{-1, -1, -1}, {1, -1, -1}, {1, 1, -
                                              {0, 1, -1},   {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},   {0, 1, 1},
                                              {-1, 0, 1},   {-1, -1, 0}, {1, -1, 0}, {1, 1, 0},   {-1, 1, 0}}};
 
-// The shares of a tetrahedron's corners, and their slopes.
+// Returns the barycentric coordinates of a point in a tetrahedron.
 std::array<double, 4> shares(Vec3 at) { return {1 - at.x - at.y - at.z, at.x, at.y, at.z}; }
 constexpr std::array<Vec3, 4> share_slopes{{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-// 1 + a*b along each axis, for a node at b.
+// Returns 1 + a*b for each axis, for a node at b.
 Vec3 factors(Vec3 at, Vec3 node) { return {1 + at.x * node.x, 1 + at.y * node.y, 1 + at.z * node.z}; }
 double product(Vec3 f) { return f.x * f.y * f.z; }
-// The gradient of the product of three factors, one for each axis.
+// Returns the gradient of the product of three factors, one for each axis.
 Vec3 product_slope(Vec3 f, Vec3 node) { return {node.x * f.y * f.z, node.y * f.x * f.z, node.z * f.x * f.y}; }
 // Returns the axis along which a node lies between corners: its factor there is 1 - a*a.
 int free_axis(Vec3 node) { return node.x == 0 ? 0 : node.y == 0 ? 1 : 2; }
@@ -67,7 +67,7 @@ Interval range_of(std::span<const double> values) {
   return {least, greatest};
 }
 
-// Halfway between corners a quadratic's control value is what makes it pass through its middle value.
+// Returns the control value of a quadratic Bezier curve that takes the value `middle` halfway between its ends.
 double control(double a, double middle, double b) { return 2 * middle - 0.5 * (a + b); }
 
 Interval tetrahedron10_bounds(std::span<const double> values) {
@@ -78,7 +78,7 @@ Interval tetrahedron10_bounds(std::span<const double> values) {
   return range_of(controls);
 }
 
-// The element's polynomial is one of second degree along each axis, so 27 values say it.
+// The element's polynomial is quadratic along each axis, so 27 values determine it.
 Interval brick20_bounds(std::span<const double> values) {
   std::array<double, 27> grid{};
   std::array<double, 20> weights{};
@@ -96,7 +96,7 @@ Interval brick20_bounds(std::span<const double> values) {
 
 using Sides = std::vector<ElementSide>;
 
-// The node between two corners.
+// Returns the node between two corners.
 template <size_t N>
 uint8_t between(const std::array<Pair, N>& edges, size_t corners, uint8_t a, uint8_t b) {
   for (size_t n = 0; n < N; ++n)
@@ -136,7 +136,7 @@ Sides make_brick_sides(bool is_quadratic) {
   return sides;
 }
 
-// Solves a system of three equations, whose columns these are. False where they lie in a plane.
+// Solves a linear system of three equations with these columns. Returns false if the columns are linearly dependent.
 bool solve(const std::array<Vec3, 3>& columns, Vec3 right, Vec3& solution) {
   const Vec3 normal = cross(columns[1], columns[2]);
   const double volume = dot(columns[0], normal);
@@ -227,7 +227,7 @@ bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target
     if (size < enough) return true;
     if (!(length(at) < far)) return false;
   }
-  // Rounding may not let it come nearer.
+  // Rounding prevents a closer result.
   shape_weights(kind, at, weights);
   Vec3 here;
   double extent = 0;
@@ -240,7 +240,7 @@ bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target
 
 namespace {
 
-// The nodes beside the first one along each reference axis.
+// Returns the neighbours of the first node along each reference axis.
 std::array<size_t, 3> nodes_along_axes(ElementKind kind) {
   if (is_tetrahedron(kind)) return {1, 2, 3};
   return {1, 3, 4};
@@ -252,7 +252,7 @@ bool is_affine(ElementKind kind, std::span<const Vec3> nodes) {
   constexpr double rounding = 1e-13;
   const auto along = nodes_along_axes(kind);
   const std::span<const Vec3> places = node_places(kind);
-  // Of the coordinates, too, which were rounded where they are far from the origin.
+  // The tolerance includes rounding of the coordinates, which grows with their distance from the origin.
   double extent = length(nodes[0]);
   for (const Vec3& node : nodes) extent = std::max(extent, length(node - nodes[0]));
   for (size_t n = 0; n < nodes.size(); ++n) {

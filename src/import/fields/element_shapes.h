@@ -1,7 +1,7 @@
-// Shape functions of finite elements: values at the nodes become a field within the element.
+// Shape functions of finite elements, which interpolate values at the nodes within the element.
 //
-// Places in an element are reference coordinates: from -1 to 1 along each axis of a brick; of a tetrahedron the shares
-// of nodes 2, 3 and 4. After T. J. R. Hughes, The Finite Element Method, 2000, chapter 3.
+// Places in an element are reference coordinates: from -1 to 1 along each axis of a brick; in a tetrahedron, the
+// barycentric coordinates of nodes 2, 3 and 4. Source: T. J. R. Hughes, The Finite Element Method, 2000, chapter 3.
 #pragma once
 
 #include <span>
@@ -21,32 +21,33 @@ inline bool is_tetrahedron(ElementKind kind) {
   return kind == ElementKind::tetrahedron4 || kind == ElementKind::tetrahedron10;
 }
 
-// The weight of each node, and how fast it changes along the reference coordinates. Their sum is 1.
+// shape_weights() computes the weight of each node, shape_slopes() the gradient of the weights in reference
+// coordinates. Weights sum to 1.
 void shape_weights(ElementKind kind, Vec3 at, std::span<double> weights);
 void shape_slopes(ElementKind kind, Vec3 at, std::span<Vec3> slopes);
 
 Vec3 middle_of(ElementKind kind);
-// Does it lie in the element, or out of it by no more than `room`?
+// Returns true if the place lies in the element, or outside of it by at most `room`.
 bool is_in_element(ElementKind kind, Vec3 at, double room);
 Vec3 clamped_to(ElementKind kind, Vec3 at);
-// The places of the nodes, in coordinates of the reference element.
+// Returns the places of the nodes in reference coordinates.
 std::span<const Vec3> node_places(ElementKind kind);
 
-// Encloses the field that takes these values at the nodes: its control values in Bernstein's basis, but for rounding.
+// Encloses the field that takes these values at the nodes, up to rounding; the bounds are its Bernstein control values.
 Interval field_bounds(ElementKind kind, std::span<const double> values);
 
-// Finds the place in the element that is at `target`, by steps of Newton's method from its middle. False where these do
-// not arrive.
+// Finds the place in the element whose point is `target`, by Newton's method from the middle. Returns false if it does
+// not converge.
 bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target, Vec3& at);
 
-// Is the element the image of the reference element under one affine map, as tetrahedra and bricks with straight edges
-// and even sides are? Up to rounding.
+// Returns true if the element is an affine image of the reference element, up to rounding, such as tetrahedra with
+// straight edges and parallelepipeds.
 bool is_affine(ElementKind kind, std::span<const Vec3> nodes);
-// The same as place_in_element() for such an element, at once.
+// Finds the place of `target` in an affine element directly.
 bool place_in_affine_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target, Vec3& at);
 
-// The triangles of an element's sides, corner by corner, counter-clockwise from outside; those of a quadratic element
-// go through the nodes between corners.
+// A side of an element with its triangles, counter-clockwise from outside; triangles of a quadratic element include the
+// nodes between corners.
 struct ElementSide {
   std::vector<uint8_t> corners;                   // three or four
   std::vector<std::array<uint8_t, 3>> triangles;  // numbers of the element's nodes

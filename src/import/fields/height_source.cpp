@@ -1,4 +1,4 @@
-// Images as heights.
+// Images as height fields.
 #include "import/fields/height_source.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace ombre::importing {
 namespace {
 
-// The least and the greatest value of cells, level by level; a cell of the next level covers two by two.
+// The least and the greatest value of blocks of pixels, in a pyramid: a block of the next level covers two by two.
 class Extremes {
  public:
   explicit Extremes(const GrayImage& image) {
@@ -18,7 +18,7 @@ class Extremes {
     while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(coarser(levels_.back()));
   }
 
-  // Over columns and rows [lo, hi], which must lie in the image.
+  // Returns the range over columns and rows lo to hi, both included, which must lie in the image.
   Interval over(std::array<uint32_t, 2> lo, std::array<uint32_t, 2> hi) const {
     constexpr uint32_t few = 4;
     size_t level = 0;
@@ -62,7 +62,7 @@ class Extremes {
   std::vector<Level> levels_;
 };
 
-// A place between pixels: one of them, the next, and how far it is from the first to that.
+// A place between two pixels; `share` is its distance from the first of them.
 struct Between {
   uint32_t first, next;
   double share;

@@ -19,7 +19,7 @@ GrayImage noise(uint32_t width, uint32_t height, unsigned seed) {
 }  // namespace
 
 TEST(HeightSource, InterpolatesBetweenTheMiddlesOfPixels) {
-  // Rows from the top: 0.25 0.5 / 0.75 1
+  // The image's rows from the top are 0.25 0.5 and 0.75 1.
   const auto source = make_height_source("i", {2, 2, {0.25, 0.5, 0.75, 1}}, {});
   EXPECT_EQ(source->sample(0, {0.5, 1.5, 9}), 0.25);
   EXPECT_EQ(source->sample(0, {1.5, 0.5, 0}), 1);
@@ -44,7 +44,7 @@ TEST(HeightSource, RangesHoldWhatPointsSay) {
       EXPECT_TRUE(range.contains(
           source->sample(0, {lo.x + part(random) * (hi.x - lo.x), lo.y + part(random) * (hi.y - lo.y), 0})));
   }
-  // Within a pixel, no more than its neighbours say.
+  // Within a pixel, the range is that of the neighbouring values.
   const auto flat = make_height_source("i", {4, 1, {0.5, 0.5, 0, 1}}, {});
   EXPECT_NEAR(flat->range(0, {{0, 0, 0}, {1.2, 1, 0}}).hi, 0.5, 1e-9);
 }

@@ -11,7 +11,7 @@
 namespace ombre::importing {
 namespace {
 
-// Of a distance, relative to the numbers that it was computed from.
+// Rounding error of a distance, relative to the numbers that it is computed from.
 constexpr double path_rounding = 1e-12;
 
 std::vector<LineSegment> segments_of(const std::vector<Vec3>& points) {
@@ -33,7 +33,7 @@ Hash content_of(std::string_view kind, const std::vector<Vec3>& points) {
   return hash_bytes(bytes);
 }
 
-// A distance changes by no more than the way to the box's corners.
+// Distances in the box differ from that at its centre by at most half its diagonal.
 Interval distance_range(const SegmentTree& lines, const Box& box) {
   if (!box.is_bounded()) return {0, Box::inf};
   const Vec3 center = box.center();
@@ -42,8 +42,8 @@ Interval distance_range(const SegmentTree& lines, const Box& box) {
   return {std::max(0.0, round_down(value - room)), round_up(value + room)};
 }
 
-// Calls answer(segments, n) for point n where the nearest segment is known to be among a few, and else alone(n). Points
-// that are neighbours in the list should be so in space.
+// Calls answer(segments, n) for point n if the nearest segment is among a few known ones, else alone(n). Points that
+// follow each other in the list should be close in space.
 template <class Answer, class Alone>
 void answer_all(const SegmentTree& tree, std::span<const Vec3> points, const Answer& answer, const Alone& alone) {
   constexpr size_t at_once = 4096, group = 32, most_segments = 48;
@@ -73,7 +73,7 @@ double least_distance(const std::vector<LineSegment>& segments, Vec3 p) {
   return std::sqrt(best);
 }
 
-// The first of equally near ones.
+// Returns the nearest segment; the first if several are equally near.
 const LineSegment& nearest_of(const std::vector<LineSegment>& segments, Vec3 p) {
   double best = std::numeric_limits<double>::infinity();
   const LineSegment* found = segments.data();

@@ -8,11 +8,11 @@
 
 namespace ombre::importing {
 
-// The straight lines from each of two points or more to the next. Channels "distance": mm to their nearest place; and
-// "along": the length of the path up to there as a share of all of it, 0 to 1.
+// Returns the polyline through at least two points. Channel "distance" is the distance in mm to its nearest point;
+// "along" is the length of the path up to that point as a share of its total length, 0 to 1.
 program::SourceField make_path_source(const std::vector<Vec3>& points);
-// One point or more. Channels "distance": mm to the nearest; and "index": its number in the list, the first of equally
-// near ones.
+// Returns a set of at least one point. Channel "distance" is the distance in mm to the nearest; "index" is its number
+// in the list, the lowest of equally near ones.
 program::SourceField make_points_source(const std::vector<Vec3>& points);
 
 }  // namespace ombre::importing

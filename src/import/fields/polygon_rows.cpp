@@ -6,7 +6,7 @@
 namespace ombre::importing {
 namespace {
 
-// A step that is less than this, relative to the farthest point, only comes from rounding.
+// Length of a step, relative to the farthest point, below which it is a rounding error.
 constexpr double least_step = 1e-15;
 
 Vec2 step_of(const Affine& source_from_index) { return {source_from_index.rows[0].x, source_from_index.rows[1].x}; }
@@ -23,7 +23,7 @@ bool is_no_step(const Polygons& polygons, Vec2 step) {
   return std::max(std::abs(step.x), std::abs(step.y)) <= least_step * farthest(polygons);
 }
 
-// The least voxel that is not before a place, within [0, width].
+// Returns the first voxel that is not before a place, clamped to [0, width].
 int64_t first_voxel(double place, int64_t width) {
   const double at = std::ceil(place);
   if (!(at > 0)) return 0;

@@ -1,4 +1,4 @@
-// Which voxels of a row are inside of polygons, whatever their z.
+// Finds the voxels of a row that lie inside of polygons, whatever their z.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace ombre::importing {
 
-// One placement on a voxel lattice; the polygons lie in the xy plane of the source's space.
+// One placement of polygons on a voxel lattice; the polygons lie in the xy plane of the source's space.
 class PolygonRows final : public program::RowSampler {
  public:
   PolygonRows(std::shared_ptr<const Polygons> polygons, const Affine& source_from_index);
@@ -20,7 +20,7 @@ class PolygonRows final : public program::RowSampler {
 
   std::shared_ptr<const Polygons> polygons_;
   Affine source_from_index_;
-  bool stays_in_place_;  // all voxels of a row lie at one place of the plane
+  bool stays_in_place_;  // true if all voxels of a row project to one point of the plane
   PolygonCrossings crossings_;
 };
 

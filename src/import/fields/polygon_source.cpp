@@ -11,7 +11,7 @@
 namespace ombre::importing {
 namespace {
 
-// Of a distance, relative to the numbers that it was computed from.
+// Rounding error of a distance, relative to the numbers that it is computed from.
 constexpr double polygon_rounding = 1e-9;
 
 Hash hash_of(const Polygons& polygons, PolygonOptions options) {
@@ -70,7 +70,7 @@ class PolygonSource final : public program::FieldSource {
     return is_inside ? -(inner_walls_ ? *inner_walls_ : walls_).distance(flat) : walls_.distance(flat);
   }
 
-  // A distance changes by no more than the way.
+  // Distances in the box differ from that at its centre by at most half its diagonal.
   Interval range(int channel, const Box& box) const override {
     const Interval anything = channel == inside_channel ? Interval(0, 1) : Interval::everything();
     if (box.is_empty() || !box.axis(0).is_bounded() || !box.axis(1).is_bounded()) return anything;
@@ -105,7 +105,7 @@ class PolygonSource final : public program::FieldSource {
   Box bounds_;
   PolygonCrossings crossings_;
   SegmentTree walls_;
-  std::optional<SegmentTree> inner_walls_;  // where it turns
+  std::optional<SegmentTree> inner_walls_;  // for solids of revolution
 };
 
 }  // namespace

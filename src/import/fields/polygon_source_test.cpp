@@ -21,7 +21,7 @@ Ring square(double half, Vec2 middle = {}) {
           {middle.x - half, middle.y + half}};
 }
 
-// A star drawn in one go around points on a circle, each joined to the next but one.
+// Returns a star polygon: points on a circle, each joined to the one `stride` further.
 Ring star(double radius, size_t points, size_t stride) {
   Ring ring;
   for (size_t n = 0; n < points; ++n) {
@@ -50,7 +50,7 @@ Affine random_map(std::mt19937& random) {
   return map;
 }
 
-// Which voxels of a row differ from what is said of their centres, but for those on a wall.
+// Returns the number of voxels at which rows differ from sample(), not counting centres on a wall.
 size_t count_differences(const program::FieldSource& source, const Affine& map, int64_t width, int64_t rows,
                          int64_t k) {
   const auto sampler = source.rows(inside, map);
@@ -101,8 +101,8 @@ TEST(PolygonSource, TakesRingsOfEitherTurn) {
 TEST(PolygonSource, HasNoWallsInsideOfAStar) {
   const double golden = (1 + std::sqrt(5)) / 2;
   const auto source = make_polygon_source("s", {{star(10, 5, 2)}, {}});
-  // The notches of a pentagram lie on a circle smaller by the square of the golden ratio; its crossing edges pass the
-  // middle nearer, at cos 72 degrees of the radius.
+  // The notches of a pentagram lie on a circle smaller by the square of the golden ratio. Its crossing edges pass
+  // closer to the centre, at cos 72 degrees of the radius.
   EXPECT_NEAR(source->sample(distance, {0, 0, 0}), -10 / (golden * golden), 1e-9);
   EXPECT_EQ(source->sample(inside, {0, 0, 0}), 1);
   EXPECT_EQ(source->sample(inside, {-9, 0, 0}), 0);
@@ -112,7 +112,7 @@ TEST(PolygonSource, HasNoWallsWhereRingsOverlap) {
   const auto source = make_polygon_source("s", {{square(3, {-2, 0}), square(3, {2, 0})}, {}});
   EXPECT_EQ(source->sample(distance, {0, 0, 0}), -3);
   EXPECT_NEAR(source->sample(distance, {1, 0.5, 0}), -2.5, 1e-12);
-  // Side by side, with an edge in common.
+  // Two squares side by side share an edge.
   const auto pair = make_polygon_source("s", {{square(3, {-3, 0}), square(3, {3, 0})}, {}});
   EXPECT_EQ(pair->sample(distance, {0, 0.5, 0}), -2.5);
   EXPECT_EQ(pair->sample(distance, {0.5, 0, 0}), -3);
@@ -123,7 +123,7 @@ TEST(PolygonSource, CutsHolesThatOverlapAndReachOut) {
   EXPECT_EQ(source->sample(inside, {4.5, 0, 0}), 0);
   EXPECT_EQ(source->sample(inside, {6.5, 0, 0}), 0);
   EXPECT_EQ(source->sample(distance, {0, 0, 0}), -2);
-  EXPECT_EQ(source->sample(distance, {6.5, 0, 0}), 2.5);  // to (5, 2)
+  EXPECT_EQ(source->sample(distance, {6.5, 0, 0}), 2.5);  // the nearest point is (5, 2)
 }
 
 TEST(PolygonSource, IsTheSameFarAway) {
@@ -153,7 +153,7 @@ TEST(PolygonSource, RowsAgreeWithPointsInAnyPlacement) {
   const auto source = make_polygon_source("s", {{star(7, 7, 3)}, {}});
   EXPECT_EQ(count_differences(*source, Affine::translation({-8, -8, 0}) * Affine::scaling({0.37, 0.41, 1}), 45, 40, 0),
             0u);
-  // Rows along z stay in one place, also when a turn is rounded.
+  // Rows along z project to one point, even if the rotation is rounded.
   EXPECT_EQ(count_differences(*source, Affine::rotation({0, 1, 0}, 90), 20, 9, 2), 0u);
   Affine turned = Affine::rotation({0, 1, 0}, 90);
   turned.rows[0].x = 6e-17;
@@ -190,7 +190,7 @@ TEST(PolygonSource, RangesHoldWhatPointsSay) {
       EXPECT_TRUE(far.contains(source->sample(distance, p)));
     }
   }
-  EXPECT_GT(settled, 600u);  // most boxes lie clear of the walls
+  EXPECT_GT(settled, 600u);  // most boxes are far from the walls
 }
 
 TEST(PolygonSource, DistancesAreTheLeastOfAllEdges) {
@@ -214,11 +214,11 @@ TEST(PolygonWalls, FindRingsThatCrossThemselves) {
   const Ring bow{{0, 0}, {4, 4}, {4, 0}, {0, 4}};
   ASSERT_TRUE(find_self_crossing(bow));
   EXPECT_EQ(*find_self_crossing(bow), (std::array<size_t, 2>{0, 2}));
-  const Ring touching{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}};  // a corner on an edge
+  const Ring touching{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}};  // its fourth corner lies on an edge
   EXPECT_FALSE(find_self_crossing(touching));
 }
 
-// Near and far, on joints, where two segments are equally near, and where they are no numbers.
+// Points are near and far, on joints, where two segments are equally near, and not finite.
 TEST(PathSource, ManyPointsAtOnceGetTheSameBits) {
   std::vector<Vec3> corners;
   for (int n = 0; n <= 60; ++n) corners.push_back({10 * std::cos(0.4 * n), 10 * std::sin(0.4 * n), 0.3 * n});

@@ -7,10 +7,10 @@
 namespace ombre::importing {
 namespace {
 
-// Relative to the size of all. Nearer than the first, lines are one; so far beside an edge it is looked what is inside
-// there.
+// Lengths relative to the size of all polygons: lines nearer than the first coincide; the second is the distance beside
+// an edge at which inside is tested.
 constexpr double nearest_lines = 1e-12, beside = 1e-9;
-// Of coordinates, relative to how far they lie from the origin.
+// Rounding error of coordinates, relative to their distance from the origin.
 constexpr double rounding = 1e-15;
 
 struct Edge {
@@ -29,7 +29,7 @@ std::vector<Edge> edges_of(const Ring& ring) {
 }
 
 struct Extent {
-  double size = 0, farthest = 0;  // of the box around all; from the origin
+  double size = 0, farthest = 0;  // size of the box around all edges; greatest distance from the origin
 
   explicit Extent(const std::vector<Edge>& edges) {
     Box box;
@@ -39,7 +39,7 @@ struct Extent {
   }
 };
 
-// With x and y exchanged where that makes edges shorter along x: then fewer lie beside each other.
+// Exchanges x and y if that makes edges shorter along x, so that fewer overlap during the sweep.
 std::vector<Edge> turned_for_sweep(std::vector<Edge> edges) {
   double along_x = 0, along_y = 0;
   for (const Edge& e : edges) {
@@ -51,7 +51,7 @@ std::vector<Edge> turned_for_sweep(std::vector<Edge> edges) {
   return edges;
 }
 
-// Calls visit(a, b) for the edges whose boxes meet, each two once; it ends when visit says true.
+// Calls visit(a, b) once for each pair of edges whose boxes meet, and stops when it returns true.
 template <class Visit>
 void find_neighbours(const std::vector<Edge>& all, double room, const Visit& visit) {
   const std::vector<Edge> edges = turned_for_sweep(all);
@@ -67,7 +67,7 @@ void find_neighbours(const std::vector<Edge>& all, double room, const Visit& vis
   }
 }
 
-// Where an edge is to be cut, from 0 at its beginning to 1.
+// Adds a place at which an edge is to be cut, as a share of its length.
 void add_cut(std::vector<double>& cuts, double t) {
   if (t > 0 && t < 1) cuts.push_back(t);
 }
@@ -91,12 +91,12 @@ void cut_each_other(const Edge& a, std::vector<double>& cuts_a, const Edge& b, s
     add_cut(cuts_b, u);
     return;
   }
-  if (std::abs(cross(way_a, b.from - a.from)) > room * length_a) return;  // parallel, and apart
+  if (std::abs(cross(way_a, b.from - a.from)) > room * length_a) return;  // parallel but separate
   for (const Vec2 p : {b.from, b.to}) add_cut(cuts_a, share_along(a, p));
   for (const Vec2 p : {a.from, a.to}) add_cut(cuts_b, share_along(b, p));
 }
 
-// Appends the pieces of an edge that are walls, joined where they follow each other.
+// Appends the pieces of an edge that are walls; consecutive pieces are joined.
 void append_walls(const Edge& edge, std::vector<double>& cuts, double step, const PolygonCrossings& crossings,
                   std::vector<LineSegment>& walls) {
   const Vec2 way = edge.to - edge.from;
@@ -122,7 +122,7 @@ void append_walls(const Edge& edge, std::vector<double>& cuts, double step, cons
   }
 }
 
-// Which side of the line through a and b a point lies on; 0 on it.
+// Returns the sign of the side of the line through a and b on which a point lies; 0 on it.
 int side(Vec2 a, Vec2 b, Vec2 p) {
   const double area = cross(b - a, p - a);
   return (area > 0) - (area < 0);

@@ -1,4 +1,4 @@
-// The borders of what is inside of polygons that may overlap and cross.
+// The boundary of the union of polygons, which may overlap and cross.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace ombre::importing {
 
-// Pieces of edges with the inside on one side alone, at z = 0. They need not join to the last bit.
+// Returns the pieces of edges at z = 0 that have the inside on one side only. Their ends may differ by rounding.
 std::vector<LineSegment> polygon_walls(const Polygons& polygons, const PolygonCrossings& crossings);
 
-// Two edges of a ring that cross, by the numbers of their first points; touching is not crossing.
+// Returns the first points' numbers of two edges of a ring that cross, or null. Touching edges do not count.
 std::optional<std::array<size_t, 2>> find_self_crossing(const Ring& ring);
 
 }  // namespace ombre::importing

@@ -7,7 +7,8 @@
 namespace ombre::importing {
 namespace {
 
-// How far, in reference coordinates, rounding may put a place outside of the element that holds it.
+// Greatest distance, in reference coordinates, by which rounding may put a place outside of the element that contains
+// it.
 constexpr double element_room = 1e-8;
 
 Box box_of_element(const formats::Results& results, size_t element) {
@@ -24,7 +25,7 @@ Box box_of_element(const formats::Results& results, size_t element) {
   return box.expanded(4 * element_room * length(box.size()));
 }
 
-// The shares of a triangle's corners at its point that is nearest to p. After C. Ericson, Real-Time Collision
+// Returns the barycentric coordinates of the point of a triangle nearest to p. Source: C. Ericson, Real-Time Collision
 // Detection, 2005, 5.1.5.
 std::array<double, 3> nearest_shares(const std::array<Vec3, 3>& t, Vec3 p) {
   const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
@@ -51,7 +52,7 @@ std::array<Vec3, 3> corners_of(const formats::Results& results, const BorderTria
   return {results.points[triangle.points[0]], results.points[triangle.points[1]], results.points[triangle.points[2]]};
 }
 
-// A side of an element by its corners' points.
+// A side of an element, identified by the points of its corners.
 struct NamedSide {
   std::array<uint32_t, 4> points{};
   uint32_t element = 0;
@@ -89,7 +90,7 @@ std::span<const Vec3> ResultMesh::points_of(size_t element, std::span<Vec3> room
 std::optional<ElementPlace> ResultMesh::place(Vec3 p, const ElementPlace* guess) const {
   if (!is_finite(p)) return std::nullopt;
   Vec3 at;
-  // Well within an element, a point is in no other.
+  // A point well inside of an element lies in no other.
   if (guess && boxes_[guess->element].contains(p) && find_in(guess->element, p, at) &&
       is_in_element(results_.kinds[guess->element], at, -element_room))
     return ElementPlace{guess->element, at, 0};
@@ -107,7 +108,7 @@ ElementPlace ResultMesh::nearest(Vec3 p, uint32_t* triangle_beside) const {
   if (triangles.empty()) return {0, middle_of(results_.kinds[0]), Box::inf};
   double best = Box::inf;
   uint32_t which = 0;
-  // A little more, so that rounding hides no triangle that is as near.
+  // The bound is slightly larger, so that rounding hides no triangle that is equally near.
   const auto distance = [&](uint32_t n) {
     constexpr double rounding = 1e-14;
     const auto corners = corners_of(results_, triangles[n]);
@@ -197,7 +198,8 @@ Interval ResultMesh::value_bounds(const formats::ResultField& field, size_t comp
 }
 
 size_t ResultMesh::bytes() const {
-  constexpr size_t per_element = 150, per_point = 24;  // boxes, tree, nodes; and what the border takes
+  // estimates: per element for boxes, tree and nodes; per point for the border
+  constexpr size_t per_element = 150, per_point = 24;
   size_t bytes = per_element * element_count() + per_point * results_.points.size();
   for (const auto& field : results_.fields) bytes += field.values.size() * sizeof(double);
   return bytes;

@@ -16,11 +16,12 @@ using formats::Results;
 constexpr std::array<ElementKind, 4> all_kinds{ElementKind::tetrahedron4, ElementKind::tetrahedron10,
                                                ElementKind::brick8, ElementKind::brick20};
 
-// Six tetrahedra that fill a cube, by its corners.
+// Six tetrahedra that fill a cube, by the numbers of its corners.
 constexpr std::array<std::array<size_t, 4>, 6> tetrahedra_of_cube{
     {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}}};
 
-// A grid of 3 x 3 x 3 cubes of 2 mm, each one brick or six tetrahedra, with corners moved by up to `shift` mm inside.
+// Makes a grid of 3 x 3 x 3 cubes of 2 mm, each one brick or six tetrahedra. Inner corners are moved by up to `shift`
+// mm.
 class GridMaker {
  public:
   GridMaker(ElementKind kind, double shift) : kind_(kind), random_(5), shift_(shift) {}
@@ -63,7 +64,7 @@ class GridMaker {
     if (!is_tetrahedron(kind_)) return add_element({cube.begin(), cube.end()});
     for (const auto& own : tetrahedra_of_cube) add_element({cube[own[0]], cube[own[1]], cube[own[2]], cube[own[3]]});
   }
-  // Nodes between corners lie in their middle.
+  // Nodes between corners lie in the middle of their edges.
   void add_element(std::vector<uint32_t> nodes) {
     const size_t corners = nodes.size();
     const auto places = node_places(kind_);
@@ -145,7 +146,7 @@ TEST(ResultMesh, NodesHaveTheirValues) {
   }
 }
 
-// A sum of shape functions is 1, each is 1 at its own node and 0 at others, and slopes are what differences say.
+// Shape functions sum to 1, each is 1 at its own node and 0 at the others, and slopes agree with finite differences.
 TEST(ElementShapes, AreShapeFunctions) {
   std::mt19937 random(3);
   for (const ElementKind kind : all_kinds) {
@@ -214,7 +215,7 @@ TEST(ElementShapes, BoundsHoldAllValues) {
     }
 }
 
-// Beyond a cube's side the nearest place is right behind the point.
+// Opposite to a cube's side, the nearest point is straight behind it.
 TEST(ResultMesh, OutsideCountsAsTheRuleSays) {
   for (const ElementKind kind : all_kinds) {
     const auto mesh = mesh_with(kind, 0, linear);
@@ -242,7 +243,7 @@ TEST(ResultMesh, TheNearestPlaceDoesNotDependOnWhereTheLastOneWas) {
     uint32_t triangle = UINT32_MAX;
     for (int n = 0; n < 2000; ++n) {
       Vec3 p{any(random), any(random), any(random)};
-      // Many are as near to several triangles: at edges and corners, and in the middle of the cube.
+      // Many points are equally near to several triangles: at edges and corners, and in the middle of the cube.
       if (n % 2 == 0) p = {std::round(p.x), std::round(p.y), std::round(p.z)};
       const ElementPlace with = mesh.nearest(p, &triangle), without = mesh.nearest(p);
       ASSERT_EQ(with.element, without.element) << n;
@@ -273,7 +274,8 @@ TEST(ResultMesh, RangesHoldAllValues) {
   }
 }
 
-// Values of elements are constant within, and on common sides those of the first; what was queried before is no matter.
+// Values of elements are constant inside. On common sides the first element's value counts, whatever was queried
+// before.
 TEST(ResultMesh, ElementsKeepTheirValues) {
   const auto mesh = mesh_with(ElementKind::brick8, 0, linear);
   const auto source = source_of(mesh, nowhere);
@@ -293,7 +295,7 @@ TEST(ResultMesh, ElementsKeepTheirValues) {
   EXPECT_TRUE(std::isnan(values.back()));
 }
 
-// The border of a cube of 6 mm, whatever fills it, and its triangles face outwards.
+// The border is that of a cube of 6 mm, whatever fills it, and its triangles face outwards.
 TEST(ResultMesh, TheBorderEnclosesTheMesh) {
   for (const ElementKind kind : all_kinds) {
     const auto mesh = mesh_with(kind, 0, linear);
@@ -309,7 +311,7 @@ TEST(ResultMesh, TheBorderEnclosesTheMesh) {
   }
 }
 
-// An element with a curved side: its node between corners is moved outwards, and what is there is found.
+// An element has a curved side, because a node between corners is moved outwards; points behind that side are found.
 TEST(ResultMesh, CurvedElementsHoldTheirPoints) {
   Results results;
   for (const Vec3& p : node_places(ElementKind::tetrahedron10)) results.points.push_back(p);

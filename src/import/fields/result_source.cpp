@@ -29,7 +29,7 @@ class ChannelBounds {
     }
   }
 
-  // Empty where the box is away from the mesh.
+  // Returns the bounds in a box, or an empty interval if the box does not meet the mesh.
   Interval over(const Box& box) const {
     Interval found = no_values;
     if (!meet(box, bounds_)) return found;
@@ -124,7 +124,7 @@ class ResultSource final : public program::FieldSource {
     Box queried = box;
     if (outside_.kind == OutsideRule::Kind::none) return Interval::everything();
     if (outside_.kind == OutsideRule::Kind::nearest) {
-      // All of the box is that near to the mesh.
+      // All points of the box are within that distance of the mesh.
       const double reach = farthest(box);
       if (!(reach <= outside_.within_mm) || std::isinf(reach)) return Interval::everything();
       queried = box.expanded(reach * (1 + rounding));
@@ -158,7 +158,7 @@ class ResultSource final : public program::FieldSource {
     return is_known ? outside_.value : std::numeric_limits<double>::quiet_NaN();
   }
 
-  // No point of the box is farther from the mesh.
+  // Returns an upper bound on the distance of the box's points from the mesh.
   double farthest(const Box& box) const {
     const double half = 0.5 * length(box.size());
     const double middle = mesh_->place(box.center()) ? 0 : mesh_->nearest(box.center()).distance_mm;

@@ -18,7 +18,7 @@ struct Neighbour {
   auto operator<=>(const Neighbour&) const = default;  // NOLINT(modernize-use-nullptr): clang 14 finds one in it
 };
 
-// The nearest points, by distance and then by number.
+// The nearest points, ordered by distance, then by number.
 struct Neighbours {
   std::array<Neighbour, most_neighbours> list{};
   size_t count = 0;
@@ -68,7 +68,7 @@ class ScatteredSource final : public program::FieldSource {
     }
   }
 
-  // Means lie between the least and the greatest value.
+  // A mean lies between the least and the greatest value.
   Interval range(int channel, const Box&) const override {
     if (channel == 0) return {0, 1};
     const ScatteredChannel& which = channels_[static_cast<size_t>(channel - 1)];
@@ -122,7 +122,7 @@ class ScatteredSource final : public program::FieldSource {
     const ScatteredChannel& which = channels_[static_cast<size_t>(channel - 1)];
     const formats::ResultField& field = results_->fields[which.field];
     const auto at = [&](size_t n) { return field.values[near.list[n].point * field.components + which.component]; };
-    // Weights are relative to that of the nearest point, so that they neither overflow nor vanish.
+    // Weights are relative to that of the nearest point, so that they neither overflow nor underflow.
     const double least = near.list[0].distance_mm;
     if (least == 0 || near.count == 1) return at(0);
     double sum = 0, weights = 0;

@@ -23,7 +23,7 @@ std::shared_ptr<const formats::Results> scattered_points(size_t count) {
   return results;
 }
 
-// The same by looking at all points.
+// Computes the expected value from all points.
 double by_weights(const formats::Results& results, Vec3 p, size_t count) {
   std::vector<std::pair<double, double>> list;
   for (size_t n = 0; n < results.points.size(); ++n)

@@ -9,7 +9,7 @@ namespace ombre::importing {
 namespace {
 
 constexpr uint32_t most_in_leaf = 4;
-constexpr size_t deepest = 64;  // halves of 2^32 segments
+constexpr size_t deepest = 64;  // enough for halvings of 2^32 segments
 
 Box around(const LineSegment& s) { return hull(Box{s.from, s.from}, Box{s.to, s.to}); }
 
@@ -22,8 +22,9 @@ double squared_distance(const Box& box, Vec3 p) {
   return sum;
 }
 
-// The nearest segment of a point is at most its way to the middle farther from it than from there, and the middle's
-// nearest is as near; with room for rounding. Squared.
+// Returns the squared distance from a box's middle beyond which no segment is the nearest to a point of the box. A
+// point is half a diagonal from the middle at most, and so is its nearest segment from the middle's nearest; some room
+// is added for rounding.
 double squared_reach(double nearest_of_middle, const Box& box) {
   constexpr double room = 1 + 1e-9;
   const double reach = (nearest_of_middle + length(box.size())) * room;
@@ -104,7 +105,7 @@ void SegmentTree::visit_near(Vec3 p, const Visit& visit) const {
     Waiting second{node.other, squared_distance(nodes_[node.other].box, p)};
     if (second.squared < first.squared) std::swap(first, second);
     waiting[count++] = second;
-    waiting[count++] = first;  // the nearer one, which comes next
+    waiting[count++] = first;  // the nearer one, which is visited next
   }
 }
 

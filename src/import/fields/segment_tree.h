@@ -1,4 +1,4 @@
-// The distance to the nearest of many segments.
+// Finds the nearest of many segments.
 #pragma once
 
 #include <cstdint>
@@ -10,37 +10,39 @@ namespace ombre::importing {
 
 struct LineSegment {
   Vec3 from, to;
-  uint32_t number = 0;  // in its list
+  uint32_t number = 0;  // number in its list
 };
 
-// The place on a segment that is nearest to a point: its share of the way from one end to the other.
+// Returns the point of a segment nearest to p, as a share of the length from its beginning to its end.
 double nearest_share(const LineSegment& segment, Vec3 p);
 double squared_distance(const LineSegment& segment, Vec3 p);
 
-// Those of the segments that may be the nearest to some point of the box.
+// Returns the segments that may be the nearest to some point of the box.
 std::vector<LineSegment> near(const std::vector<LineSegment>& segments, const Box& box);
 
-// Boxes within boxes around the segments.
+// A tree of boxes around segments.
 class SegmentTree {
  public:
   explicit SegmentTree(std::vector<LineSegment> segments);
-  // Infinite when there are none.
+  // Returns the distance to the nearest segment, or infinity if there are none.
   double distance(Vec3 p) const;
-  // Of equally near ones the first in its list. There is one at least.
+  // Returns the nearest segment; the first in its list if several are equally near. The tree must not be empty.
   const LineSegment& nearest(Vec3 p) const;
-  // All that may be the nearest to some point of the box, in the order of their list.
+  // Returns all segments that may be the nearest to some point of the box, in the order of their list.
   std::vector<LineSegment> near(const Box& box) const;
   Box bounds() const { return nodes_.empty() ? Box::empty() : nodes_[0].box; }
 
  private:
-  // A leaf holds segments [begin, end); a branch has its first child behind it, and the other at `other`.
+  // A leaf contains the segments [begin, end). A branch is followed by its first child; `other` is the index of its
+  // second.
   struct Node {
     Box box;
     uint32_t begin = 0, end = 0;
-    uint32_t other = 0;  // 0: a leaf
+    uint32_t other = 0;  // 0 in a leaf
   };
   void build(uint32_t begin, uint32_t end);
-  // Calls visit(segment), which returns the least squared distance so far, for all segments that may be nearer.
+  // Calls visit(segment) for all segments that may be nearer than the best so far; it returns the least squared
+  // distance so far.
   template <class Visit>
   void visit_near(Vec3 p, const Visit& visit) const;
 

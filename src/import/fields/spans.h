@@ -7,9 +7,9 @@
 
 namespace ombre::importing {
 
-using Spans = std::vector<program::Span>;  // in order, and apart from each other, unless said otherwise
+using Spans = std::vector<program::Span>;  // in ascending order and disjoint, unless stated otherwise
 
-// Puts spans in order, of which some may overlap or touch.
+// Sorts spans and merges those that overlap or touch.
 void unite(Spans& spans);
 Spans intersection(const Spans& a, const Spans& b);
 Spans difference(const Spans& a, const Spans& b);

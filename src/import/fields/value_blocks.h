@@ -1,4 +1,4 @@
-// The least and the greatest value of blocks of voxels, level by level.
+// The least and the greatest value of blocks of voxels, as a pyramid.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using VoxelCorner = std::array<int64_t, 3>;
 
 class ValueBlocks {
  public:
-  // `row_range(j, k, first, end)` of the voxels of a row from `first` on, before `end`.
+  // Constructs the pyramid; row_range(j, k, first, end) returns the range of the voxels [first, end) of a row.
   template <class RowRange>
   ValueBlocks(const VoxelCorner& count, const RowRange& row_range) : edge_(edge_for(count)) {
     Level& finest = levels_.emplace_back(blocks_of(count, edge_));
@@ -25,10 +25,10 @@ class ValueBlocks {
     while (levels_.back().ranges.size() > 1) levels_.push_back(coarser(levels_.back()));
   }
 
-  int64_t edge() const { return edge_; }  // voxels of the smallest blocks
+  int64_t edge() const { return edge_; }  // side of the smallest blocks, in voxels
   const Interval& whole() const { return levels_.back().ranges[0]; }
 
-  // Over voxels lo to hi, both included and in the grid.
+  // Returns the range of voxels lo to hi, both included, which must lie in the grid.
   Interval over(VoxelCorner lo, VoxelCorner hi) const {
     constexpr int64_t few = 4;
     const auto halve = [&](int64_t by) {
@@ -47,7 +47,7 @@ class ValueBlocks {
     return found;
   }
 
-  // Calls with the first voxel of each smallest block that may have a value of the interval.
+  // Calls visit with the first voxel of each smallest block whose range meets the interval.
   template <class Visit>
   void each_with(const Interval& values, const Visit& visit) const {
     const Level& finest = levels_.front();
@@ -82,7 +82,8 @@ class ValueBlocks {
     }
   };
 
-  // Larger grids have larger blocks, so that these take little room beside the voxels.
+  // Returns the side of the smallest blocks; it is larger for large grids, so that blocks need little memory compared
+  // with the voxels.
   static int64_t edge_for(const VoxelCorner& count) {
     constexpr double many = 1e9;
     constexpr int64_t small = 4, large = 16;

@@ -29,7 +29,7 @@ struct Grid {
   double at(int64_t i, int64_t j, int64_t k) const {
     return static_cast<double>(values[row(j, k) + static_cast<size_t>(i)]);
   }
-  // Least and greatest of voxels of a row.
+  // Returns the range of the voxels [first, end) of a row.
   Interval range_of_row(int64_t j, int64_t k, int64_t first, int64_t end) const {
     const size_t begin = row(j, k);
     T least = values[begin + static_cast<size_t>(first)], greatest = least;
@@ -42,7 +42,7 @@ struct Grid {
   }
 };
 
-// A place between voxels along an axis: one of them, the next, and how far it is from the first to that.
+// A place between two voxels along an axis; `share` is its distance from the first of them.
 struct VoxelPair {
   int64_t first, next;
   double share;
@@ -68,8 +68,8 @@ double interpolated(const Grid<T>& grid, Vec3 p) {
   return blend(layer(z.first), layer(z.next), z.share);
 }
 
-// The eight voxels around places that differ along x alone: in four rows, the value before and what is added up to the
-// one behind.
+// The eight voxels around places that differ in x only: for each of four rows, the value at the first voxel and the
+// difference to the next.
 struct CellCorners {
   std::array<double, 4> values{}, differences{};
 
@@ -86,8 +86,9 @@ struct CellCorners {
   }
 };
 
-// As interpolated(), for points from number n on that lie in one row along x; returns how far that goes. Points of fine
-// lattices lie in the same cell many times, whose corners are looked up once.
+// Interpolates like interpolated(), for the points from number n on that lie in one row along x, and returns the number
+// of the first other point. Corners of a cell are looked up once, because many points of a fine lattice lie in the same
+// cell.
 template <class T>
 size_t interpolate_row(const Grid<T>& grid, std::span<const Vec3> points, size_t n, std::span<double> values) {
   const Vec3 p = points[n];
@@ -111,14 +112,14 @@ size_t interpolate_row(const Grid<T>& grid, std::span<const Vec3> points, size_t
   return n;
 }
 
-// The four voxels around a place along an axis, with their weights and how fast these change.
+// Four voxels around a place along an axis, with their weights and the derivatives of the weights.
 struct VoxelFour {
   std::array<int64_t, 4> voxels{};
   std::array<double, 4> weights{}, slopes{};
 };
 
 VoxelFour four_at(double at, int64_t count) {
-  // Two voxels beyond the grid all values are alike.
+  // From two voxels beyond the grid on, all values are equal.
   const double place = std::clamp(at, -2.0, static_cast<double>(count + 1)), floor = std::floor(place),
                t = place - floor;
   VoxelFour four;
@@ -130,7 +131,7 @@ VoxelFour four_at(double at, int64_t count) {
   return four;
 }
 
-// Values of four voxels each way; along the axis of a derivative by the slopes.
+// Interpolates 4 x 4 x 4 voxels; the axis of a derivative uses slopes instead of weights.
 template <class T>
 double cubic_at(const Grid<T>& grid, Vec3 p, int channel) {
   const VoxelFour x = four_at(p.x, grid.count[0]), y = four_at(p.y, grid.count[1]), z = four_at(p.z, grid.count[2]);
@@ -150,7 +151,7 @@ double cubic_at(const Grid<T>& grid, Vec3 p, int channel) {
   return sum;
 }
 
-// Centres of voxels under a map of whole numbers.
+// Rows whose points are centres of voxels: the map's coefficients are integers.
 template <class T>
 class GridRows final : public program::ValueSampler {
  public:
@@ -186,7 +187,7 @@ class GridRows final : public program::ValueSampler {
     for (size_t axis = 0; axis < 3; ++axis) at[axis] += steps_[axis][0] * i + steps_[axis][1] * j + steps_[axis][2] * k;
     return at;
   }
-  // A piece of a row of the grid, between what goes on beyond its ends.
+  // Copies a piece of a row of the grid, and repeats the outermost voxels beyond its ends.
   void copy_row(const VoxelCorner& at, std::span<float> values) const {
     const auto count = static_cast<int64_t>(values.size()), length = grid_->count[0];
     const formats::Numbers<T>& all = grid_->values;
@@ -203,11 +204,11 @@ class GridRows final : public program::ValueSampler {
 
   std::shared_ptr<const Grid<T>> grid_;
   std::shared_ptr<const ValueBlocks> blocks_;
-  std::array<VoxelCorner, 3> steps_;  // of each axis of the grid, for one along x, y and z
+  std::array<VoxelCorner, 3> steps_;  // for each axis of the grid, the step per step along x, y and z
   VoxelCorner offset_;
 };
 
-// The whole number that a coefficient is meant to be.
+// Returns the integer nearest to a coefficient, or null if it is farther than the tolerance.
 std::optional<int64_t> whole_number(double value, double tolerance) {
   constexpr double most = 1e9;
   const double whole = std::round(value);
@@ -238,7 +239,7 @@ class GridSource final : public program::FieldSource {
     return found == channel_names.end() ? -1 : static_cast<int>(found - channel_names.begin());
   }
   const ValueBlocks& blocks() const { return *blocks_; }
-  // Of memory; numbers that stay in a file take none.
+  // Returns the size in memory; numbers that stay in a file need none.
   size_t bytes() const {
     return (grid_->volume.stays_in_file ? 0 : grid_->values.size() * sizeof(T)) + blocks_->bytes();
   }
@@ -300,8 +301,8 @@ class GridSource final : public program::FieldSource {
   }
 
  private:
-  // The weights of an axis sum up to 1, and their sizes to at most 5/4, half way between voxels; those of a derivative
-  // to 0, and to at most 3.
+  // The weights of an axis sum to 1 and their magnitudes to at most 5/4, half way between voxels; those of a derivative
+  // sum to 0, and their magnitudes to at most 3.
   Interval cubic_range(int channel, const Box& box) const {
     VoxelCorner lo, hi;
     for (int axis = 0; axis < 3; ++axis) {
@@ -333,8 +334,8 @@ class GridSource final : public program::FieldSource {
   std::shared_ptr<const ValueBlocks> blocks_;
 };
 
-// A value reaches as far as the next voxel's centre, of the nearest voxel half as far. Cubic ones overshoot, by the
-// eighth of what the voxels differ by along each axis.
+// A voxel's value has influence up to the centre of the next voxel, with "nearest" half as far. Cubic values overshoot
+// by an eighth of the difference between voxels along each axis.
 Box places_with(const ValueBlocks& blocks, const Box& grid, int channel, Interval values) {
   if (channel == cubic_channel) {
     constexpr double overshoot = 0.5 * (1.25 * 1.25 * 1.25 - 1);

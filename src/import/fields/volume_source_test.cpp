@@ -22,7 +22,7 @@ VolumeSource grid_of(const F& value) {
   return make_volume_source("grid", std::move(volume), {});
 }
 
-// No two voxels are alike, nor do neighbours lie in order.
+// Returns the value of a voxel: no two are equal, and neighbours are not in order.
 int64_t scattered_number(int64_t i, int64_t j, int64_t k) { return (i * 61 + j * 17 + k * 131) % 251; }
 
 Vec3 somewhere(std::mt19937& random) {
@@ -32,7 +32,7 @@ Vec3 somewhere(std::mt19937& random) {
 
 }  // namespace
 
-// What is linear along each axis is met exactly between centres.
+// A function that is linear along each axis is reproduced exactly between centres.
 TEST(VolumeSource, InterpolatesTrilinearly) {
   const auto f = [](double x, double y, double z) { return 3 + 2 * x - y + 4 * z + x * y - 0.5 * x * y * z; };
   const auto volume = grid_of<double>([&](auto i, auto j, auto k) {
@@ -47,8 +47,7 @@ TEST(VolumeSource, InterpolatesTrilinearly) {
   EXPECT_TRUE(std::isnan(volume.source->sample(0, {std::nan(""), 0, 0})));
 }
 
-// Keys's cubic convolution reproduces polynomials of the second degree, with their slopes, where four voxels are
-// around.
+// Keys's cubic convolution reproduces quadratic polynomials and their slopes at places with four voxels around them.
 TEST(VolumeSource, CubicValuesAndSlopesOfQuadraticsAreExact) {
   const auto f = [](double x, double y, double z) { return 3 + x * x - 2 * x * y + 0.5 * z * z + y - 4 * z * x; };
   const auto volume = grid_of<double>([&](auto i, auto j, auto k) {
@@ -77,7 +76,7 @@ TEST(VolumeSource, CubicValuesPassThroughVoxelsWithoutEdges) {
   std::mt19937 random(5);
   for (int n = 0; n < 300; ++n) {
     Vec3 p = somewhere(random);
-    p.x = std::round(p.x);  // where pieces meet
+    p.x = std::round(p.x);  // where pieces of the spline meet
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 before = p, after = p;
       before[axis] -= step;

@@ -14,18 +14,19 @@
 namespace ombre::importing {
 namespace {
 
-// Triangles may be farther from the surface than the library was asked for, but not by so much.
+// Greatest distance of triangles from the surface in deflections; the library may exceed the requested deflection, but
+// not by this factor.
 constexpr double deflections_of_doubt = 4;
 
-// Points whose time is measured.
+// Number of points whose time is measured.
 constexpr int sampled_points = 500;
-// Faces are taken for flat, as their edges and corners need it, where they are curved by radii of so many reaches.
+// Least radius of curvature, in reaches, at which a face counts as flat near its edges and corners.
 constexpr double radii_of_reach = 4;
-// Normals of faces that meet, as a cosine: sharper edges are left to the library.
+// Least cosine between the normals of faces that meet; at sharper edges the library decides.
 constexpr double sharpest = -0.9;
-// So close to a face, mm, the library decides.
+// Distance from a face in mm below which the library decides.
 constexpr double least_certain = 1e-7;
-// A solid is in its box, but for rounding; mm.
+// Margin in mm around a solid's box for rounding.
 constexpr double box_rounding = 1e-6;
 
 formats::Mesh mesh_of(cad::Triangles part) {
@@ -41,7 +42,7 @@ void append_mesh(formats::Mesh& mesh, const formats::Mesh& part) {
   for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
-// Queries that wait for a thread.
+// Queries that are not in use by any thread.
 class QueryPool {
  public:
   explicit QueryPool(cad::SolidPtr solid) : solid_(std::move(solid)) {}
@@ -73,13 +74,13 @@ class QueryPool {
   mutable std::vector<std::unique_ptr<cad::Query>> waiting_;
 };
 
-// Which faces of a solid are near.
+// Finds the faces of a solid near a point.
 class FaceTree {
  public:
   FaceTree(const formats::Mesh& mesh, std::vector<uint32_t> face_of)
       : face_of_(std::move(face_of)), triangles_(std::make_unique<ClosestPoint>(surface_of(mesh))) {}
 
-  // Those with triangles that are no farther away; each once, ascending.
+  // Returns the faces with a triangle within the distance, each once, in ascending order.
   std::vector<uint32_t> within(Vec3 p, double distance_mm) const {
     std::vector<uint32_t> faces;
     triangles_->visit_within(p, distance_mm, [&](uint32_t triangle) { faces.push_back(face_of_[triangle]); });
@@ -97,14 +98,14 @@ class FaceTree {
   std::unique_ptr<ClosestPoint> triangles_;
 };
 
-// 0 within it.
+// Returns the distance to a box, 0 inside it.
 double distance_to(const Box& box, Vec3 p) {
   Vec3 beyond;
   for (int axis = 0; axis < 3; ++axis) beyond[axis] = std::max({box.lo[axis] - p[axis], p[axis] - box.hi[axis], 0.0});
   return length(beyond);
 }
 
-// A solid whose triangles decide what is inside where they leave no doubt.
+// A solid that decides what is inside by its triangles, except near its surface.
 class ExactSolid {
  public:
   ExactSolid(cad::SolidPtr solid, program::SourceField triangles, std::optional<FaceTree> faces, double doubt_mm)
@@ -117,7 +118,7 @@ class ExactSolid {
 
   const Box& box() const { return box_; }
 
-  // No farther from the distance than the doubt.
+  // Returns a distance that differs from the exact one by at most the doubt.
   double near_distance(Vec3 p) const { return triangles_->sample(distance_channel_, p); }
 
   bool is_surely_inside(Vec3 p) const { return box_.contains(p) && near_distance(p) < -doubt_; }
@@ -138,9 +139,10 @@ class ExactSolid {
     });
   }
 
-  // The surface is nearest to p at one of the faces whose triangles are in reach. At an edge or a corner of several, p
-  // is inside one of them at least if it is inside the solid, and outside of one at least if it is outside. So where
-  // all agree they are right; nothing where they do not, or where faces turn back so sharply that curvature counts.
+  // Decides by the faces whose triangles are within reach; the nearest point of the surface is on one of them. At an
+  // edge or a corner of several faces, p is on the inner side of at least one of them if it is inside the solid, and on
+  // the outer side of at least one if it is outside. So if all faces agree, they are right. Returns null if they
+  // disagree, or if they meet at so sharp an edge that curvature matters.
   std::optional<bool> inside_faces(Vec3 p, double near, cad::Query& query) const {
     const double reach = std::abs(near) + 2 * doubt_;
     std::vector<cad::FaceSide> sides;
@@ -160,7 +162,7 @@ class ExactSolid {
   QueryPool pool_;
   program::SourceField triangles_;
   int distance_channel_;
-  std::optional<FaceTree> faces_;  // where triangles close
+  std::optional<FaceTree> faces_;  // null if the triangles are not closed
   double doubt_;
 };
 
@@ -190,7 +192,7 @@ class ExactSource final : public program::FieldSource {
   }
 
  private:
-  // What is clear of one solid spares questions about others.
+  // Points surely inside one solid need no exact query of others.
   double inside(Vec3 p) const {
     if (!bounds_.contains(p)) return 0;
     if (std::ranges::any_of(solids_, [&](const auto& solid) { return solid->is_surely_inside(p); })) return 1;
@@ -204,7 +206,7 @@ class ExactSource final : public program::FieldSource {
     return least;
   }
 
-  // Of the solids that may be the nearest.
+  // Returns the least distance among the solids that may be the nearest.
   double distance(Vec3 p) const {
     const double farthest = near_distance(p) + 2 * doubt_;
     double least = std::numeric_limits<double>::infinity();
@@ -231,7 +233,7 @@ void check_distances(const program::FieldSource& source) {
 
 double area_of(const std::array<Vec3, 3>& t) { return length(cross(t[1] - t[0], t[2] - t[0])) / 2; }
 
-// The nth point of an even sequence in the triangle (Roberts 2018), moved along the normal.
+// Returns the nth point of an even sequence in the triangle (Roberts 2018), moved along the normal.
 Vec3 point_beside(const std::array<Vec3, 3>& t, int n, double doubt) {
   constexpr double first_step = 0.7548776662466927, second_step = 0.5698402909980532;
   double u = n * first_step - std::floor(n * first_step), v = n * second_step - std::floor(n * second_step);
@@ -244,7 +246,7 @@ Vec3 point_beside(const std::array<Vec3, 3>& t, int n, double doubt) {
   return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) + (aside / length(across)) * across;
 }
 
-// Points at equal steps of the area, on both sides of the triangles.
+// Adds points spread evenly by area, on both sides of the triangles.
 void add_doubtful(const formats::Mesh& mesh, double doubt, CadSource& made) {
   const auto corners = [&](const auto& t) {
     return std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -261,7 +263,8 @@ void add_doubtful(const formats::Mesh& mesh, double doubt, CadSource& made) {
   }
 }
 
-// Closed triangles have the nonzero winding number. A seam that the library left open gets the generalized one.
+// Returns the source of the triangles: by nonzero winding numbers if they are closed, by generalized ones if the
+// library left a seam open.
 program::SourceField source_of(const std::string& name, formats::Mesh mesh, Hash content, bool is_closed) {
   const InsideRule rule = is_closed ? InsideRule::nonzero : InsideRule::generalized;
   program::SourceField source = make_mesh_source(name, std::move(mesh), content, {rule});
@@ -291,7 +294,7 @@ double measure_doubtful_seconds(const CadSource& exact) {
     for (const Vec3& p : exact.doubtful_points) exact.source->sample(inside_channel, p);
     return watch.seconds();
   };
-  query_all();  // builds the solids' queries, which later ones find
+  query_all();  // builds the solids' queries, which later calls reuse
   return query_all() / static_cast<double>(exact.doubtful_points.size());
 }
 

@@ -11,7 +11,7 @@
 
 namespace ombre::importing {
 
-// A solid whose triangles do not close. The generalized winding number decides what is inside.
+// A solid whose triangles are not closed; the generalized winding number decides what is inside.
 struct OpenSolid {
   std::string name;  // may be empty
   OpenEdges edges;
@@ -19,22 +19,23 @@ struct OpenSolid {
 
 struct CadSource {
   program::SourceField source;
-  std::vector<OpenSolid> open;  // those that matter to the source
-  // Of an exact source: the space where triangles leave a doubt, and points spread over it.
+  std::vector<OpenSolid> open;  // open solids that affect the source
+  // Volume of the space where an exact source's triangles leave a doubt, and points spread over it.
   double doubtful_mm3 = 0;
   std::vector<Vec3> doubtful_points = {};
 };
 
-// Their triangles at this deflection, with exact rows.
+// Returns the source of the solids' triangles at this deflection, with exact rows.
 CadSource make_triangle_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
                                double deflection_mm);
 
-// The surfaces themselves. Triangles at this deflection show where the library's test for inside is not needed.
-// Gaps between these matter if they are wider than the band in which the library decides.
+// Returns the source of the exact surfaces. Away from them, triangles at this deflection decide what is inside without
+// the library. Gaps between the triangles matter only if they are wider than the band in which the library decides.
 CadSource make_exact_source(const std::string& name, const std::vector<cad::SolidPtr>& solids, Hash content,
                             double deflection_mm);
 
-// About how long an exact source takes to say whether one of its doubtful points is inside, by a sample of these.
+// Returns an estimate of the time in seconds that an exact source takes to decide whether one of its doubtful points is
+// inside, measured on a sample of them.
 double measure_doubtful_seconds(const CadSource& exact);
 
 }  // namespace ombre::importing

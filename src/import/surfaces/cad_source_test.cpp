@@ -22,7 +22,7 @@ class CadSources : public testing::Test {
 
   Vec3 point(double half) { return {1 + number(-half, half), 2 + number(-half, half), 3 + number(-half, half)}; }
   double number(double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random_); }
-  // Of the file's ball.
+  // Returns the distance to the file's ball.
   static double exact(Vec3 p) { return length(p - Vec3{1, 2, 3}) - 4; }
 
   std::vector<cad::SolidPtr> ball_;
@@ -70,8 +70,8 @@ TEST_F(CadSources, RangesHoldPoints) {
   }
 }
 
-// Points near the surface, where triangles leave a doubt, of solids with planes, cylinders, cones, spheres, tori and
-// splines: as the library's classifier has it.
+// Compares points near the surface, where triangles leave a doubt, with the library's classifier, for planes,
+// cylinders, cones, spheres, tori and splines.
 TEST_F(CadSources, ExactOnesAreInsideWhereTheLibrarySaysSo) {
   for (const char* name : {"tests/cad/block_in_inches.step", "tests/cad/assembly.step", "tests/cad/all_surfaces.step",
                            "examples/models/bracket.step"}) {
@@ -99,7 +99,7 @@ TEST_F(CadSources, ExactOnesAreInsideWhereTheLibrarySaysSo) {
   }
 }
 
-// A cube of side 2 around `center`, without some of its triangles, as a library might cut it.
+// A cube of side 2 around `center` that leaves out some of its triangles, as a library might.
 class Cube : public cad::Solid {
  public:
   Cube(Vec3 center, size_t left_out) : center_(center), left_out_(left_out) {
@@ -156,18 +156,18 @@ TEST(CadGaps, AreReportedWithTheirSolid) {
   ASSERT_EQ(open.size(), 1u);
   EXPECT_EQ(open[0].name, "cube");
   EXPECT_EQ(open[0].edges.count, 4u);
-  // The face at z = 4, whose sides lie 2 mm apart, is missing.
+  // The face at z = 4, whose sides are 2 mm apart, is missing.
   EXPECT_EQ(open[0].edges.example[0].z, 4);
   EXPECT_NEAR(open[0].edges.gap_mm, 2, 1e-12);
 }
 
 TEST(CadGaps, OfExactSolidsMatterWhereTheSurfaceIsNotQueried) {
   EXPECT_EQ(make_exact_source("cube", {cube({}, 2)}, {}, 0.1).open.size(), 1u);
-  // Within four deflections, the surface is queried.
+  // The surface is queried within four deflections.
   EXPECT_TRUE(make_exact_source("cube", {cube({}, 2)}, {}, 1).open.empty());
 }
 
-// The space where a cube's triangles leave a doubt: its area times twice four deflections.
+// The doubtful volume of a cube is its area times twice four deflections.
 TEST(CadDoubt, IsAsWideAsTrianglesMayBeOff) {
   const CadSource made = make_exact_source("cube", {cube({})}, {}, 0.01);
   EXPECT_NEAR(made.doubtful_mm3, 24 * 2 * 0.04, 1e-12);
@@ -177,7 +177,7 @@ TEST(CadDoubt, IsAsWideAsTrianglesMayBeOff) {
   EXPECT_GT(measure_doubtful_seconds(made), 0);
 }
 
-// Of cubes that touch, that lie apart and that overlap: as each of them says by itself.
+// The cubes touch, lie apart and overlap; a point is inside if it is inside of one of them.
 TEST(CadSolids, TogetherAreWhatEachOfThemIs) {
   const std::vector<cad::SolidPtr> cubes{cube({}), cube({2, 0, 0}), cube({0, 5, 0}), cube({0.5, 0.5, 1.5})};
   const auto source = make_exact_source("cubes", cubes, {}, 0.05).source;

@@ -1,4 +1,4 @@
-// How much of the view from a point the caps of a surface fill, and how fast that changes.
+// Winding numbers of the caps of a surface, and their bounds in boxes.
 #include "import/surfaces/cap_winding.h"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace ombre::importing {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Longer sums are approximated by dipoles.
+// Sums over more edges are approximated by dipoles.
 constexpr size_t most_edges = 2048;
-// All caps that are left out of a box's sums together make up less.
+// Upper bound on the winding number of all caps left out of a box's sum together.
 constexpr double most_left_out = 0.01;
 
-// Sums angles as a product of complex numbers, for a few points at once: no arctangent for each of them.
+// Sums angles as a product of complex numbers, for several points at once, to avoid an arctangent for each angle.
 class AngleSums {
  public:
   static constexpr size_t width = 8;
@@ -42,7 +42,7 @@ class AngleSums {
     }
   }
 
-  // As a share of all directions.
+  // Returns the sum for point n as a share of the full solid angle.
   double winding(size_t n) const { return math::atan2(im_[n], re_[n]) / (2 * std::numbers::pi) + turns_[n]; }
 
  private:
@@ -58,7 +58,7 @@ class AngleSums {
     }
   }
 
-  // The tangent of half a triangle's angle is im / re: van Oosterom and Strackee 1983.
+  // The tangent of half a triangle's solid angle is im / re (van Oosterom and Strackee 1983).
   void add(const Corner& a, const Corner& b, const Corner& c) {
     for (size_t n = 0; n < width; ++n) {
       const double im = a.x[n] * (b.y[n] * c.z[n] - b.z[n] * c.y[n]) + a.y[n] * (b.z[n] * c.x[n] - b.x[n] * c.z[n]) +
@@ -94,7 +94,7 @@ Surface surface_of(const std::vector<Cap>& caps) {
   return surface;
 }
 
-// Whether the box may meet the triangle: by their boxes and the triangle's plane.
+// Returns false only if the box surely misses the triangle, judged by boxes and the triangle's plane.
 bool may_meet(const Box& box, const std::array<Vec3, 3>& t) {
   for (int axis = 0; axis < 3; ++axis) {
     if (std::max({t[0][axis], t[1][axis], t[2][axis]}) < box.lo[axis]) return false;
@@ -125,7 +125,7 @@ CapWinding::CapWinding(std::vector<Cap> caps) : caps_(std::move(caps)) {
   if (edges > most_edges) many_ = std::make_unique<SolidAngle>(std::make_shared<Surface>(surface_of(caps_)));
 }
 
-// A triangle fills no more of the view than its area over the squared distance.
+// The solid angle of a triangle is at most its area over the squared distance.
 double CapWinding::most_in(const Box& box, uint32_t cap) const {
   const Reach& reach = reaches_[cap];
   const Vec3 nearest{std::clamp(reach.center.x, box.lo.x, box.hi.x), std::clamp(reach.center.y, box.lo.y, box.hi.y),
@@ -136,7 +136,7 @@ double CapWinding::most_in(const Box& box, uint32_t cap) const {
 
 CapWinding::Relevant CapWinding::relevant(const Box& box, const Relevant& around) const {
   Relevant result{{}, around.others};
-  // Larger boxes may use up a part of what may be left out, so that smaller ones have something too.
+  // A box uses up only part of what may be left out, so that its smaller boxes can leave out some too.
   const double share = (most_left_out - around.others) / (4 * static_cast<double>(around.caps.size()));
   for (const uint32_t cap : around.caps) {
     if (const double most = most_in(box, cap); most < share)
@@ -147,8 +147,8 @@ CapWinding::Relevant CapWinding::relevant(const Box& box, const Relevant& around
   return result;
 }
 
-// By how much the sum changes within `reach` of a point, at most: the gradient is a line integral along the edges
-// (Biot and Savart), at most their length over the squared distance, over 4 pi.
+// Returns an upper bound on the change of the sum within `reach` of a point. The gradient is a line integral along the
+// edges (Biot and Savart), at most their length over the squared distance, over 4 pi.
 double CapWinding::variation(Vec3 center, double reach, uint32_t cap) const {
   double sum = 0;
   for (const Edge& edge : reaches_[cap].edges) {

@@ -1,4 +1,4 @@
-// How much of the view from a point the caps of a surface fill, and how fast that changes.
+// Winding numbers of the caps of a surface, and their bounds in boxes.
 #pragma once
 
 #include <memory>
@@ -10,38 +10,39 @@
 
 namespace ombre::importing {
 
-// The sum of the caps' winding numbers. One alone is 0.5 on its flat middle and falls off with the square of the
-// distance; on the cap it jumps by 1, elsewhere it is smooth.
+// The sum of the caps' winding numbers. A single flat cap has 0.5 at its middle, falling off with the square of the
+// distance. The number jumps by 1 across the cap and is smooth elsewhere.
 class CapWinding {
  public:
   explicit CapWinding(std::vector<Cap> caps);
 
   struct Estimate {
     double middle = 0;     // the sum at the centre of a box
-    double variation = 0;  // no point of the box differs by more, jumps aside; infinity where an edge is too near
-    double most = 0;       // the sum's magnitude is no larger anywhere in the box; infinity likewise
+    double variation = 0;  // upper bound on the difference within the box, jumps aside; infinity if an edge is too near
+    double most = 0;       // upper bound on the sum's magnitude within the box; infinity likewise
   };
 
-  // The caps that a box has to look at, and a bound on the magnitude of all others together.
+  // The caps that matter in a box, and an upper bound on the magnitude of all others together.
   struct Relevant {
     std::vector<uint32_t> caps;
     double others = 0;
   };
 
   const Relevant& all() const { return all_; }
-  // What is left of `around`, the relevant caps of a larger box.
+  // Returns the caps relevant in a box inside of a larger box whose relevant caps are `around`.
   Relevant relevant(const Box& box, const Relevant& around) const;
-  // `middle` is the sum of the relevant caps of the box, or of a larger one, at its centre.
+  // Returns the bounds of a box; `middle` is the sum at its centre over the relevant caps of the box, or of a larger
+  // one.
   Estimate estimate(const Box& box, double middle, const Relevant& relevant) const;
-  // Large numbers of edges are summed approximately.
+  // Computes the sums of caps at points; approximately if they have many edges.
   void sum(std::span<const Vec3> points, std::span<const uint32_t> caps, std::span<double> sums) const;
-  // Bounds the error of the above.
+  // Upper bounds on the error of sum(), with few and with many edges.
   static constexpr double error = 1e-9, error_of_many = 0.02;
 
  private:
   struct Edge {
     Vec3 middle;
-    double half = 0;  // of its length
+    double half = 0;  // half its length
   };
   struct Reach {
     Vec3 center;
@@ -56,7 +57,7 @@ class CapWinding {
   std::vector<Cap> caps_;
   std::vector<Reach> reaches_;
   Relevant all_;
-  std::unique_ptr<SolidAngle> many_;  // of all caps, where they have many edges
+  std::unique_ptr<SolidAngle> many_;  // approximates all caps if they have many edges
 };
 
 }  // namespace ombre::importing

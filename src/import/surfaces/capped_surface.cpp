@@ -23,7 +23,7 @@ std::vector<Edge> edges_of(const Surface& surface) {
   return edges;
 }
 
-// The edges that are missing: with them, each edge is there equally often in both directions.
+// Returns the edges that would have to be added so that each edge occurs equally often in both directions.
 std::vector<Edge> missing_edges(std::vector<Edge> edges) {
   const auto sorted = [](Edge e) { return Edge{std::min(e[0], e[1]), std::max(e[0], e[1])}; };
   std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return sorted(a) < sorted(b); });
@@ -39,7 +39,7 @@ std::vector<Edge> missing_edges(std::vector<Edge> edges) {
   return missing;
 }
 
-// Takes edges, of which as many begin as end in each vertex, apart into loops that pass no vertex twice.
+// Decomposes edges, of which as many begin as end in each vertex, into loops that pass no vertex twice.
 class LoopTracer {
  public:
   LoopTracer(const std::vector<Edge>& edges, size_t vertices) : edges_(edges), next_(vertices), place_(vertices, none) {
@@ -72,7 +72,7 @@ class LoopTracer {
     }
   }
 
-  // The path has come back to this vertex.
+  // Cuts the loop that closes at this vertex off the path.
   void cut_loop(uint32_t vertex) {
     const auto first = path_.begin() + static_cast<std::ptrdiff_t>(place_[vertex]);
     loops_.emplace_back(first, path_.end());
@@ -81,13 +81,13 @@ class LoopTracer {
   }
 
   const std::vector<Edge>& edges_;
-  std::vector<size_t> next_;   // the edge by which a vertex is left next
-  std::vector<size_t> place_;  // of a vertex on the path
+  std::vector<size_t> next_;   // by vertex: index of its next edge to leave by
+  std::vector<size_t> place_;  // by vertex: its index on the path, or none
   std::vector<uint32_t> path_;
   std::vector<std::vector<uint32_t>> loops_;
 };
 
-// In the middle of the edges, by their lengths.
+// Returns the middle of the rim's edges, weighted by their lengths.
 Vec3 middle(const std::vector<Vec3>& rim) {
   Vec3 weighted, plain;
   double total = 0;
@@ -111,7 +111,7 @@ Surface merged(const Surface& surface) {
   return result;
 }
 
-// Corners of a crack are nearer to each other than this. Short edges stay what they are.
+// Returns the distance below which corners count as the two sides of a crack. It is small enough to keep short edges.
 double crack_width(const Surface& surface, const std::vector<Edge>& open) {
   constexpr double of_size = 1e-4, of_edges = 0.25;
   if (open.empty()) return 0;
@@ -122,13 +122,13 @@ double crack_width(const Surface& surface, const std::vector<Edge>& open) {
   return std::min(of_size * length(bounds(surface).size()), of_edges * *middle);
 }
 
-// For each corner of an open edge the first of those near it; other vertices are their own.
+// Returns for each corner of an open edge the first corner near it, and for other vertices themselves.
 std::vector<uint32_t> joined_corners(const Surface& surface, const std::vector<Edge>& open) {
   std::vector<uint32_t> joined(surface.vertices.size());
   std::iota(joined.begin(), joined.end(), 0u);
   const double near = crack_width(surface, open);
   if (!(near > 0)) return joined;
-  std::map<std::array<int64_t, 3>, std::vector<uint32_t>> firsts;  // by cells as wide as `near`
+  std::map<std::array<int64_t, 3>, std::vector<uint32_t>> firsts;  // by cells of width `near`
   const auto cell = [&](Vec3 p, int axis) { return static_cast<int64_t>(std::floor(p[axis] / near)); };
   const auto first_near = [&](Vec3 p) -> std::optional<uint32_t> {
     for (int64_t x = cell(p, 0) - 1; x <= cell(p, 0) + 1; ++x)
@@ -166,7 +166,7 @@ class Capper {
   }
 
  private:
-  // A sliver from each open edge to the edge between the joined corners; those of a crack cancel each other.
+  // Adds a sliver from each open edge to the edge between the joined corners; the latter cancel out along a crack.
   void bridge_cracks(std::vector<Edge>& open) {
     const std::vector<uint32_t> joined = joined_corners(closed_, open);
     std::vector<Edge> present;

@@ -7,7 +7,7 @@
 
 namespace ombre::importing {
 
-// Triangles between an apex and each edge of a closed rim: (apex, rim[i], rim[i + 1]).
+// A fan of triangles between an apex and the edges of a closed rim: (apex, rim[i], rim[i + 1]).
 struct Cap {
   Vec3 apex;
   std::vector<Vec3> rim;  // at least three corners
@@ -20,9 +20,9 @@ struct CappedSurface {
   std::vector<Cap> caps;  // one for each loop of edges that stays open
 };
 
-// Corners of open edges nearer to each other than a ten-thousandth of the surface's size are the two sides of a crack.
-// Vertices at exactly the same place count as one. The triangles may be any, also none, or loose ones without
-// neighbours.
+// Closes a surface. Corners of open edges that are nearer to each other than 1e-4 of the surface's size count as the
+// two sides of a crack; vertices at exactly the same place count as one. Any triangles are allowed, including none and
+// ones without neighbours.
 CappedSurface close_by_caps(const Surface& surface);
 
 }  // namespace ombre::importing

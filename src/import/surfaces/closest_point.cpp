@@ -25,13 +25,13 @@ constexpr Module embree_module{"ombre_embree",        "Embree",
                                "distances to meshes", "libembree-dev",
                                "OMBRE_MESH_DISTANCE", "ask only for the inside of meshes"};
 
-// Loaded when the first distance is asked for.
+// Embree is loaded when a distance is first needed.
 const EmbreeCalls& embree() {
   static const EmbreeCalls& calls = *load_function<decltype(ombre_embree_calls)>(embree_module, "ombre_embree_calls")();
   return calls;
 }
 
-// Of Embree's single precision, relative to the mesh's size: rounded vertices, points and boxes.
+// Rounding of vertices, points and boxes to Embree's single precision, relative to the mesh's size.
 constexpr double rounding_room = 16 * std::numeric_limits<float>::epsilon();
 
 struct Release {
@@ -48,7 +48,7 @@ struct Query {
   const TriangleCluster* clusters;
   Vec3 point;
   std::array<float, 3> at;  // in the frame
-  double scale, room;       // of the frame; added to radii there
+  double scale, room;       // scale of the frame; margin added to radii in it
 
   Query(const Surface& of, const std::vector<TriangleCluster>& all, const Frame& frame, Vec3 p)
       : surface(&of), clusters(all.data()), point(p), scale(frame.scale) {
@@ -59,7 +59,7 @@ struct Query {
 
   float radius(double distance_mm) const { return static_cast<float>(distance_mm * scale + room); }
 
-  // Calls for those triangles of a cluster that may be within the radius.
+  // Calls take for each triangle of a cluster that may be within the radius.
   template <class Take>
   void each_within(uint32_t cluster, float radius, const Take& take) const {
     const TriangleCluster& all = clusters[cluster];
@@ -73,7 +73,7 @@ struct Search {
   double squared = std::numeric_limits<double>::infinity();
   ClosestPoint::Nearest nearest = {};
 
-  // Whether it is nearer than all before.
+  // Returns true if the triangle is nearer than all before.
   bool take(uint32_t triangle) {
     const double found = squared_distance(query.point, query.surface->corners(triangle));
     if (found >= squared) return false;
@@ -174,15 +174,15 @@ struct ClosestPoint::Tree {
     Search search{query_at(p)};
     if (guess != none) search.take(guess);
     ask(search.query, search.nearest.distance_mm, visit, &search);
-    // So far away that Embree's numbers overflow.
+    // The point is so far away that Embree's single-precision numbers overflow.
     if (search.nearest.triangle == none)
       for (uint32_t n = 0; n < surface->triangles.size(); ++n) search.take(n);
     return search.nearest;
   }
 };
 
-// Embree builds with tasks. A thread of its own keeps them apart from ours: a worker of ours that
-// waits for the tree must not meanwhile begin another piece of work that needs the same tree.
+// Embree builds its tree with tasks. A separate thread isolates them: a worker thread of this project that waits for
+// the tree must not start other work that needs the same tree.
 ClosestPoint::ClosestPoint(SurfacePtr surface)
     : tree_(std::async(std::launch::async, [&] { return std::make_unique<Tree>(std::move(surface)); }).get()) {}
 

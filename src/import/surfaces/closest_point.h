@@ -1,4 +1,4 @@
-// The distance from a point to a mesh.
+// Distances from points to a mesh.
 #pragma once
 
 #include <functional>
@@ -9,14 +9,14 @@
 
 namespace ombre::importing {
 
-// Whether this build has them (OMBRE_MESH_DISTANCE).
+// Returns true if this build supports distances (OMBRE_MESH_DISTANCE).
 bool has_mesh_distance();
 
-// Embree finds the triangles that may be closest, in single precision and with room for its
-// rounding; their distances are double. Thread-safe once built.
+// Finds the triangles that may be nearest with Embree in single precision, with a margin for rounding, and computes
+// their distances in double precision. Thread-safe once built.
 class ClosestPoint {
  public:
-  // Throws Error if Embree cannot start. Only where has_mesh_distance() is true.
+  // Builds the tree. Throws Error if Embree cannot start. Requires has_mesh_distance().
   explicit ClosestPoint(SurfacePtr surface);
   ~ClosestPoint();
   ClosestPoint(const ClosestPoint&) = delete;
@@ -24,14 +24,14 @@ class ClosestPoint {
 
   static constexpr uint32_t none = ~uint32_t{0};
   struct Nearest {
-    double distance_mm = std::numeric_limits<double>::infinity();  // without a sign
-    uint32_t triangle = none;                                      // one of those that are so near, if any
+    double distance_mm = std::numeric_limits<double>::infinity();  // unsigned
+    uint32_t triangle = none;                                      // one of the nearest triangles, or none
   };
-  // Infinite for points that are not finite. With a triangle that may be near as a guess, the distance is the same, and
-  // comes sooner.
+  // Returns the nearest triangle; the distance is infinite for points that are not finite. A triangle that may be near
+  // speeds the search up as a guess; the distance does not depend on it.
   Nearest nearest(Vec3 p, uint32_t guess = none) const;
 
-  // Calls `visit` with all triangles that are no farther away, in any order.
+  // Calls `visit` with all triangles within the distance, in any order.
   void visit_within(Vec3 p, double distance_mm, const std::function<void(uint32_t triangle)>& visit) const;
 
  private:

@@ -12,25 +12,26 @@
 namespace ombre::importing {
 namespace {
 
-// Tolerances, relative to the largest coordinate and to the size: from the rounding of doubles on.
+// Least and greatest tolerances, relative to the largest coordinate and to the size; the least is the rounding of
+// doubles.
 constexpr double least_tolerance = 4 * std::numeric_limits<double>::epsilon(), most_tolerance = 1e-5;
 constexpr double tolerance_step = 8;
-// Relative to the largest coordinate: edges up to this length may be rounding alone.
+// Length relative to the largest coordinate up to which an edge may be caused by rounding to floats.
 constexpr double rounding_of_floats = 2 * static_cast<double>(std::numeric_limits<float>::epsilon());
 
-// An edge along which triangles do not cancel out.
+// An edge that its triangles do not traverse equally often in both directions.
 struct OpenEdge {
   uint32_t from = 0, to = 0;
-  int64_t excess = 0;  // of triangles from `from` to `to`
+  int64_t excess = 0;  // triangles that run from `from` to `to`, less those that run back
 };
 
-// Gives points near each other one number: that of the first of them.
+// Gives points near each other one number, that of the first of them.
 class NearPoints {
  public:
   NearPoints(const std::vector<Vec3>& places, Vec3 origin, double tolerance)
       : places_(places), origin_(origin), tolerance_(tolerance), cell_(cells_per_tolerance * tolerance) {}
 
-  // Of a place and those that were added before.
+  // Adds a place and joins it with those added before that are near.
   void add(uint32_t place) {
     parent_.emplace(place, place);
     const Vec3 p = places_[place] - origin_;
@@ -55,7 +56,7 @@ class NearPoints {
   }
 
  private:
-  // So wide that most points see one cell alone. A cell lists points that are not near to others of it.
+  // Cells are so wide that most points need to look at only one. A cell does not list points near to others in it.
   static constexpr double cells_per_tolerance = 8;
 
   struct Cell {
@@ -150,7 +151,7 @@ class CornerWelder {
     });
   }
 
-  // Whether an edge goes that is longer than rounding.
+  // Returns true if an edge longer than rounding would collapse.
   bool collapses(const NearPoints& near) const {
     return std::any_of(between_.begin(), between_.end(), [&](const OpenEdge& edge) {
       return near.first_of(edge.from) == near.first_of(edge.to) &&
@@ -196,9 +197,9 @@ class CornerWelder {
   formats::Mesh& mesh_;
   bool any_direction_;
   PlacedTriangles placed_;
-  std::vector<OpenEdge> open_, between_;  // between_: all edges between corners of open ones
-  std::vector<uint32_t> corners_;         // places at open edges, in order
-  double largest_ = 0;                    // coordinate
+  std::vector<OpenEdge> open_, between_;  // between_: all edges whose corners both belong to open edges
+  std::vector<uint32_t> corners_;         // places at open edges, in ascending order
+  double largest_ = 0;                    // largest coordinate
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// Each triangle with corners of its own, which are off by up to `noise` along each axis.
+// Returns a mesh in which each triangle has its own corners, displaced by up to `noise` along each axis.
 Mesh apart(const Mesh& mesh, double noise) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> off(-noise, noise);
@@ -54,7 +54,7 @@ void expect_unchanged(Mesh mesh, bool any_direction = false) {
 
 TEST(CornerWelder, WhatIsClosedStaysToTheLastBit) {
   expect_unchanged(torus(7, 2, 40, 20));
-  // Corners that are near each other, but belong to two shells.
+  // The corners are near each other, but belong to two shells.
   expect_unchanged(together(cuboid({0, 0, 0}, {1, 1, 1}), cuboid({1 + 1e-12, 0, 0}, {2, 1, 1})));
 }
 
@@ -66,13 +66,13 @@ TEST(CornerWelder, HolesStayOpen) {
 }
 
 TEST(CornerWelder, FinePartsDoNotCollapse) {
-  // Rounding of floats is no more than 2.4e-6 of 10, so the plate's thickness is meant.
+  // Rounding to floats explains at most 2.4e-6 of 10, so the plate's thickness is intended.
   const Mesh plate = cuboid({0, 0, 0}, {10, 10, 3e-5});
   expect_unchanged(apart(plate, 2e-5));
   Mesh soup = apart(plate, 1e-9);
   ASSERT_TRUE(weld_corners(soup, false));
   EXPECT_NEAR(inspect(soup).volume, 3e-3, 1e-6);
-  // A hole whose rim is shorter than the greatest tolerance.
+  // The hole's rim is shorter than the greatest tolerance.
   Mesh pierced = sphere(1, 4);
   for (Vec3& p : pierced.vertices)
     if (length(p - Vec3{0, 0, 1}) < 0.2) p = Vec3{1e-4 * p.x, 1e-4 * p.y, p.z};
@@ -81,7 +81,7 @@ TEST(CornerWelder, FinePartsDoNotCollapse) {
 }
 
 TEST(CornerWelder, NoiseWithinATriangleVanishes) {
-  // A pyramid whose tip is two corners, and a sliver between them.
+  // The tip of this pyramid is split into two corners with a sliver between them.
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 2}, {1 + 1e-15, 1, 2}, {1, 1 + 1e-15, 2}};
   mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 4}, {1, 5, 4}};
@@ -101,7 +101,7 @@ TEST(CornerWelder, DirectionsCountUnlessTheRuleIgnoresThem) {
 }
 
 TEST(CornerWelder, CrowdsOfCornersTakeNoTime) {
-  // All within one tolerance of a few others, and one far away.
+  // All vertices but one lie within a few tolerances of each other; one is far away.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(0, 1e-4);
   Mesh mesh;

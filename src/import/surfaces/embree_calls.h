@@ -1,4 +1,4 @@
-// Embree's functions as its module hands them over.
+// Embree's functions, as its module passes them.
 #pragma once
 
 #if OMBRE_EMBREE_VERSION == 3

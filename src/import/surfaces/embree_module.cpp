@@ -1,4 +1,4 @@
-// Distances to meshes by Embree: the module.
+// The module that links Embree, for distances to meshes.
 #include "import/surfaces/embree_calls.h"
 
 extern "C" const ombre::importing::EmbreeCalls* ombre_embree_calls() {

@@ -1,4 +1,4 @@
-// What fuzz targets do with a mesh that a reader gave them: ask for everything cheap.
+// Exercises a mesh that a reader returned, for fuzz targets; all calls are cheap.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace ombre::importing::test {
 
-// Aborts where a promise of the readers or of the rows is broken.
+// Aborts if a guarantee of the readers or of the rows is violated.
 inline void exercise(formats::Mesh mesh) {
   const auto require = [](bool condition) {
     if (!condition) std::abort();
@@ -35,7 +35,7 @@ inline void exercise(formats::Mesh mesh) {
   require(!is_closed || inspect(mended).is_closed());
   const auto source = make_mesh_source("fuzz", std::move(mesh), {});
   source->sample(0, source->bounds().center());
-  // Sixteen voxels across, whatever the size.
+  // The lattice is 16 voxels across, whatever the size of the mesh.
   const Box box = source->bounds();
   const double pitch = std::max({box.size().x, box.size().y, box.size().z, 1e-300}) / 16;
   const Affine map = Affine::translation(box.lo) * Affine::scaling({pitch, pitch, pitch});

@@ -1,4 +1,4 @@
-// Which voxels of a row are inside of a surface with gaps.
+// Finds the voxels of a row inside of a surface with gaps.
 #include "import/surfaces/generalized_rows.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ void append(std::vector<Span>& spans, int64_t begin, int64_t end) {
 
 }  // namespace
 
-// Goes along a row from piece to piece, with the winding number of the closed surface.
+// Follows a row from piece to piece, with the winding number of the closed surface.
 class GeneralizedRows::Row {
  public:
   Row(const GeneralizedWinding& winding, Vec3 origin, Vec3 step, std::span<const Crossing> crossings,
@@ -49,7 +49,7 @@ class GeneralizedRows::Row {
     }
   }
 
-  // Voxels around which the closed surface winds equally often.
+  // Computes the voxels [begin, end), which all have the same winding number of the closed surface.
   void compute(const Place& place, int64_t begin, int64_t end) {
     points_.clear();
     for (int64_t i = begin; i < end; ++i) points_.push_back(origin_ + static_cast<double>(i) * step_);

@@ -1,4 +1,4 @@
-// Which voxels of a row are inside of a surface with gaps.
+// Finds the voxels of a row inside of a surface with gaps.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,11 @@
 
 namespace ombre::importing {
 
-// One placement on a voxel lattice. Rows cross the closed surface; where its caps matter, voxels are computed.
+// One placement on a voxel lattice. Rows are crossed with the closed surface; voxels where its caps matter are computed
+// one by one.
 class GeneralizedRows final : public program::RowSampler {
  public:
-  // The map must be invertible.
+  // Constructs the rows of a placement; the map must be invertible.
   GeneralizedRows(std::shared_ptr<const GeneralizedWinding> winding, const Affine& source_from_index);
 
   void layer(int64_t k, int64_t j_begin, int64_t j_end, int64_t width,
@@ -22,7 +23,7 @@ class GeneralizedRows final : public program::RowSampler {
 
   std::shared_ptr<const GeneralizedWinding> winding_;
   Affine source_from_index_;
-  bool is_mirrored_;  // seen from the lattice, triangles face the other way
+  bool is_mirrored_;  // true if the map mirrors, so that triangles face the other way in the lattice
   RowWinding closed_rows_;
 };
 

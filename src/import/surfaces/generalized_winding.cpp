@@ -1,4 +1,4 @@
-// What is inside of a surface with gaps: whatever it winds around by more than half a turn.
+// Decides what is inside of a surface with gaps: points with a winding number of more than one half.
 #include "import/surfaces/generalized_winding.h"
 
 #include <cmath>
@@ -9,12 +9,13 @@ namespace ombre::importing {
 namespace {
 
 constexpr double half_a_turn = 0.5;
-// Points that see exactly half of the view filled, in the plane of a flat gap, lie outside whatever rounding says.
+// Margin by which points in the plane of a flat gap, whose number is exactly one half, are outside in spite of
+// rounding.
 constexpr double tie = 1e-9;
-// The octree stops here; what is left is computed point by point.
+// Limits of the octree; the rest is computed point by point.
 constexpr size_t most_nodes = 1 << 18;
 constexpr int most_levels = 9;
-constexpr size_t most_visits = 3'000'000;  // of caps and triangles
+constexpr size_t most_visits = 3'000'000;  // visits of caps and triangles
 
 bool meets(const Box& box, const std::array<Vec3, 3>& corners) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -26,14 +27,14 @@ bool meets(const Box& box, const std::array<Vec3, 3>& corners) {
 
 }  // namespace
 
-// A node that has not been settled, with what it has to look at.
+// A node whose rule is not yet decided, with the caps and triangles that it has to consider.
 struct GeneralizedWinding::Growth {
   uint32_t node = 0;
   int level = 0;
   Box box;
-  double middle = 0;  // the sum of caps at the centre
+  double middle = 0;  // the sum of caps at its centre
   CapWinding::Relevant caps;
-  std::vector<uint32_t> triangles;  // of the surface, that may meet the box
+  std::vector<uint32_t> triangles;  // triangles of the surface that may meet the box
 };
 
 GeneralizedWinding::GeneralizedWinding(const Surface& surface) : GeneralizedWinding(surface, close_by_caps(surface)) {}
@@ -44,7 +45,7 @@ GeneralizedWinding::GeneralizedWinding(const Surface& surface, CappedSurface cap
   if (box_.is_bounded()) grow(surface);
 }
 
-// Level by level, so that all parts are as fine as each other when there is no room for more.
+// Grows the octree level by level, so that it is equally fine everywhere if a limit is reached.
 void GeneralizedWinding::grow(const Surface& surface) {
   Growth root{0, 0, box_, 0, caps_.all(), std::vector<uint32_t>(surface.triangles.size())};
   const Vec3 center = box_.center();
@@ -78,7 +79,7 @@ std::optional<GeneralizedWinding::Rule> GeneralizedWinding::settled(const Growth
   constexpr double doubt = CapWinding::error_of_many;
   if (caps.most + doubt < half_a_turn) return Rule::closed;
   if (!growth.triangles.empty() || !std::isfinite(caps.variation)) return std::nullopt;
-  // No triangle lies here, so the difference is smooth, across caps too.
+  // No triangle lies here, so the difference is smooth, even across caps.
   const auto whole = static_cast<double>(whole_.at(growth.box.center()));
   const double winding = std::abs(whole - caps.middle);
   if (winding - caps.variation - doubt > half_a_turn) return Rule::inside;

@@ -1,4 +1,4 @@
-// What is inside of a surface with gaps: whatever it winds around by more than half a turn.
+// Decides what is inside of a surface with gaps: points with a winding number of more than one half.
 #pragma once
 
 #include <algorithm>
@@ -15,33 +15,34 @@
 
 namespace ombre::importing {
 
-// The generalised winding number of Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using
-// generalized winding numbers" (2013). It is the whole winding number of the surface closed by caps, less that of the
-// caps. Away from gaps the caps fill less than half of the view, and the whole number decides alone. An octree tells
-// these places from those where the difference has to be computed.
+// The generalized winding number (Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using
+// generalized winding numbers", 2013). It is the integer winding number of the surface closed by caps, minus that of
+// the caps. Away from gaps the caps contribute less than one half, so the integer alone decides. An octree separates
+// those places from the others, where the difference has to be computed.
 class GeneralizedWinding {
  public:
   explicit GeneralizedWinding(const Surface& surface);
 
-  // What decides at a place.
+  // The rule that decides at a place.
   enum class Rule : uint8_t { closed, inside, outside, difference };
 
-  // The surface and its caps.
+  // Returns the surface with its caps.
   const SurfacePtr& closed() const { return closed_; }
 
-  // A part of space.
+  // A part of space with one rule.
   struct Place {
     Rule rule = Rule::closed;
-    uint32_t first_cap = 0, caps = 0;  // what a difference has to look at
+    uint32_t first_cap = 0, caps = 0;  // the caps that a difference has to sum
   };
 
   bool contains(Vec3 p) const;
   const Place& place_at(Vec3 p) const;
-  // For points of a place where the difference decides. `whole` is the winding number of the closed surface there.
+  // Decides for points of a place whose rule is the difference; `whole` is the winding number of the closed surface at
+  // them.
   void decide(const Place& place, std::span<const Vec3> points, int64_t whole, std::span<char> inside) const;
 
   // Calls visit(begin, end, place) for pieces of the row of points origin + i * step, i from `begin` to `end`, in
-  // ascending order; points between them lie beyond the surface.
+  // ascending order. Points that no piece contains lie outside of the surface's bounds.
   template <class Visit>
   void pieces(Vec3 origin, Vec3 step, int64_t begin, int64_t end, const Visit& visit) const {
     const RowPiece row = within_bounds(origin, step, begin, end);
@@ -50,7 +51,7 @@ class GeneralizedWinding {
 
  private:
   struct Node {
-    uint32_t first_child = 0;  // eight in a row, the x of their place varying fastest; 0: a leaf
+    uint32_t first_child = 0;  // index of the first of eight children, x varying fastest; 0 in a leaf
     Place place;
   };
   struct RowPiece {
@@ -58,8 +59,8 @@ class GeneralizedWinding {
     int64_t begin, end;
     Vec3 at(int64_t i) const { return origin + static_cast<double>(i) * step; }
     RowPiece between(int64_t from, int64_t to) const { return {origin, step, from, to}; }
-    // The first point from `begin` on that lies on the other side of a plane than those before, seen along the row:
-    // at `value` or above where the row rises, below it where the row falls. `end` if there is none.
+    // Returns the first point from `begin` on that lies beyond a plane: at `value` or above if the row rises along the
+    // axis, below it if the row falls; `end` if there is none.
     int64_t first_beyond(int axis, double value) const;
   };
   struct Growth;
@@ -72,7 +73,7 @@ class GeneralizedWinding {
   void split(const Surface& surface, const Growth& growth, std::vector<Growth>& next);
   RowPiece within_bounds(Vec3 origin, Vec3 step, int64_t begin, int64_t end) const;
   static Box child_box(const Box& box, unsigned child);
-  // The octant of a box that a point lies in; the middle planes belong to the upper ones.
+  // Returns the octant of a box that contains a point; the middle planes belong to the upper octants.
   static unsigned child_at(const Box& box, Vec3 p);
 
   template <class Visit>

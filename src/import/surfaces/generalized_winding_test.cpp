@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-// Without the triangles that lie wholly above a height.
+// Returns the mesh without the triangles that lie wholly above a height.
 Mesh cut_off(Mesh mesh, double above) {
   std::erase_if(mesh.triangles, [&](const auto& t) {
     return std::all_of(t.begin(), t.end(), [&](uint32_t corner) { return mesh.vertices[corner].z > above; });
@@ -28,7 +28,7 @@ Mesh without_triangles(Mesh mesh, std::mt19937& random, double share) {
   return mesh;
 }
 
-// Each triangle by itself, moved by a trifle: no edge has a partner.
+// Returns the mesh as separate triangles, each slightly displaced, so that no edge has a partner.
 Mesh loose(const Mesh& mesh, std::mt19937& random, double trifle) {
   std::uniform_real_distribution<double> shift(-trifle, trifle);
   Mesh result;
@@ -61,7 +61,8 @@ std::vector<Mesh> open_meshes() {
           Mesh{}};
 }
 
-// The definition: the sum of all triangles' angles (van Oosterom and Strackee 1983).
+// Computes the winding number by its definition, as the sum of all triangles' solid angles (van Oosterom and Strackee
+// 1983).
 double winding_by_definition(const Mesh& mesh, Vec3 p) {
   double sum = 0;
   for (const auto& t : mesh.triangles) {
@@ -98,7 +99,7 @@ TEST(GeneralizedWinding, ContainsWhatFillsMoreThanHalfOfTheView) {
     for (int n = 0; n < 1000; ++n) {
       const Vec3 p{coordinate(random), coordinate(random), coordinate(random)};
       const double turns = std::abs(winding_by_definition(mesh, p));
-      if (std::abs(turns - 0.5) < 0.01) continue;  // in the width of a crack, or nearly on the border
+      if (std::abs(turns - 0.5) < 0.01) continue;  // inside a crack or almost on the border
       ASSERT_EQ(winding.contains(p), box.contains(p) && turns > 0.5) << turns;
       inside += winding.contains(p);
     }
@@ -130,7 +131,7 @@ TEST(GeneralizedWinding, RowsAgreeWithPoints) {
   }
 }
 
-// Half of a ball's surface fills half of the view from all of the plane of its rim: the plane is the border.
+// From the plane of its rim, a hemisphere has half of the solid angle, so that plane is the border.
 TEST(GeneralizedWinding, APlaneClosesABowl) {
   Mesh mesh = sphere(3, 4);
   std::erase_if(mesh.triangles, [&](const auto& t) {

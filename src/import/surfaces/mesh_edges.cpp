@@ -1,4 +1,3 @@
-// The edges of a mesh's triangles between places.
 #include "import/surfaces/mesh_edges.h"
 
 #include <algorithm>

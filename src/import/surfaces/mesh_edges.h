@@ -1,4 +1,4 @@
-// The edges of a mesh's triangles between places.
+// The edges of a mesh, with vertices at the same place as one.
 #pragma once
 
 #include <array>
@@ -10,16 +10,16 @@
 
 namespace ombre::importing {
 
-// Triangles whose vertices at exactly the same place are one.
+// Triangles whose vertices at exactly the same place are merged.
 struct PlacedTriangles {
   std::vector<Vec3> places;
-  std::vector<uint32_t> place_of;  // of each vertex of the mesh
+  std::vector<uint32_t> place_of;  // by vertex of the mesh
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
 PlacedTriangles placed_triangles(const formats::Mesh& mesh);
 
-// A side of a triangle, as the triangle runs along it.
+// A side of a triangle, directed as the triangle runs.
 struct FacetEdge {
   uint32_t from = 0, to = 0, triangle = 0;
 
@@ -28,10 +28,10 @@ struct FacetEdge {
   int direction() const { return from < to ? 1 : -1; }
 };
 
-// All that have a length, those between the same two places behind each other.
+// Returns all sides with a length, sorted so that those between the same two places are adjacent.
 std::vector<FacetEdge> sorted_edges(const std::vector<std::array<uint32_t, 3>>& triangles);
 
-// Calls `visit` with the edges between two places, for each such pair.
+// Calls `visit` once for each pair of places, with the sides between them.
 template <class Visit>
 void for_each_edge(std::span<const FacetEdge> edges, const Visit& visit) {
   for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
@@ -42,7 +42,8 @@ void for_each_edge(std::span<const FacetEdge> edges, const Visit& visit) {
   }
 }
 
-// How many triangles run along an edge one way more often than the other: 0 where the surface is closed.
+// Returns the number of triangles that run along an edge one way less those that run the other way; 0 if the surface is
+// closed there.
 inline int64_t balance(std::span<const FacetEdge> edge) {
   int64_t sum = 0;
   for (const FacetEdge& side : edge) sum += side.direction();

@@ -1,4 +1,4 @@
-// What is wrong with a mesh, and how large it is.
+// Finds defects of a mesh, and measures it.
 #include "import/surfaces/mesh_report.h"
 
 #include <algorithm>
@@ -21,13 +21,13 @@ void check_edges(std::span<const FacetEdge> edges, const std::vector<Vec3>& plac
   });
 }
 
-// About the centre, which keeps digits for meshes far from the origin.
+// Measures relative to the centre, which keeps precision for meshes far from the origin.
 void measure(const PlacedTriangles& placed, const std::vector<uint32_t>& shell_of, MeshReport& report) {
   const auto& [places, place_of, triangles] = placed;
   for (const auto& t : triangles)
     for (const uint32_t i : t) report.bounds = hull(report.bounds, Box{places[i], places[i]});
   const Vec3 center = report.bounds.is_empty() ? Vec3{} : report.bounds.center();
-  std::vector<double> volumes;  // of shells
+  std::vector<double> volumes;  // volume of each shell
   for (size_t n = 0; n < triangles.size(); ++n) {
     const auto& t = triangles[n];
     const Vec3 a = places[t[0]] - center, b = places[t[1]] - center, c = places[t[2]] - center;

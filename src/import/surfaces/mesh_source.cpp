@@ -16,10 +16,10 @@
 namespace ombre::importing {
 namespace {
 
-// Of a distance, relative to the numbers that it was computed from.
+// Rounding error of a distance, relative to the numbers that it is computed from.
 constexpr double mesh_rounding = 1e-12;
 
-// A value that the first to ask for it builds, while others wait.
+// A value that the first caller builds while others wait.
 template <class T>
 class Lazy {
  public:
@@ -62,11 +62,12 @@ class MeshSource final : public program::FieldSource {
     return contains(p) ? -distance : distance;
   }
 
-  // What was nearest to the last point is near, or, where the next row begins, to the first of the last row. A distance
-  // changes by no more than the way from there, and its sign only on a way to the surface.
+  // The triangle nearest to the previous point is used as a guess, or at the beginning of a row the one of the previous
+  // row's first point. The sign is reused if the step is shorter than the distance to the surface.
   void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
     if (channel != distance_channel) return FieldSource::sample_all(channel, points, values);
-    const double sure = has_reliable_sign() ? 1 - mesh_rounding : 0;  // of the way to the surface: no sign changes
+    // share of that distance within which the sign cannot change
+    const double sure = has_reliable_sign() ? 1 - mesh_rounding : 0;
     struct Known {
       Vec3 at;
       ClosestPoint::Nearest nearest;
@@ -86,7 +87,7 @@ class MeshSource final : public program::FieldSource {
     }
   }
 
-  // The sign of a distance says what is inside.
+  // The sign of the distance also answers the channel "inside".
   void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
                        std::span<double* const> values) const override {
     const auto distance = std::ranges::find(channels, distance_channel);
@@ -132,7 +133,7 @@ class MeshSource final : public program::FieldSource {
     return is_inside(windings().at(p), rule_);
   }
 
-  // A distance changes by no more than the way to the box's corners.
+  // Distances in the box differ from that at its centre by at most half its diagonal.
   Interval distance_range(const Box& box) const {
     if (!box.is_bounded() || bounds_.is_empty()) return Interval::everything();
     const Vec3 center = box.center();
@@ -144,7 +145,7 @@ class MeshSource final : public program::FieldSource {
     return outward(-farthest, farthest);
   }
 
-  // Through the gaps of an open mesh, the sign changes without the distance passing zero.
+  // Returns false if the sign may change where the distance is not zero, as in the gaps of an open mesh.
   bool has_reliable_sign() const {
     if (rule_ == InsideRule::generalized) return false;
     return is_closed_.get([&](std::optional<bool>& value) {
@@ -158,7 +159,7 @@ class MeshSource final : public program::FieldSource {
   const PointWinding& windings() const {
     return windings_.get([&](std::optional<PointWinding>& value) { value.emplace(surface_); });
   }
-  // Of a closed mesh.
+  // Returns the cells of a closed mesh.
   const WindingCells& cells() const {
     return cells_.get([&](std::optional<WindingCells>& value) { value.emplace(windings()); });
   }

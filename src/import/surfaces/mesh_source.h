@@ -15,12 +15,12 @@ struct MeshOptions {
   InsideRule rule = InsideRule::nonzero;
 };
 
-// Channels:
-//   "inside"    1 inside, 0 outside. Its rows are exact. The rules nonzero and parity need a closed mesh
-//               (see inspect) to mean anything.
-//   "distance"  mm to the nearest triangle, negative inside. Absent without OMBRE_MESH_DISTANCE.
-// A point on a triangle counts as lying a trifle further along +x, +y and +z, so meshes that share a
-// face share out the points on it. `content` is the hash of the file's bytes.
+// Returns the source of a mesh; `content` is the hash of the file's bytes. Channels:
+//   "inside"    1 inside, 0 outside. Its rows are exact. The rules nonzero and parity require a closed mesh
+//               (see inspect).
+//   "distance"  signed distance in mm to the nearest triangle, negative inside. Absent without OMBRE_MESH_DISTANCE.
+// A point on a triangle counts as infinitesimally further along +x, +y and +z, so meshes that share a face divide the
+// points on it between them.
 program::SourceField make_mesh_source(std::string name, formats::Mesh mesh, Hash content, MeshOptions options = {});
 
 }  // namespace ombre::importing

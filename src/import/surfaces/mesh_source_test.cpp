@@ -83,7 +83,7 @@ TEST(MeshSource, DistanceIsThatOfTheNearestTriangle) {
   }
 }
 
-// Near and far, jumps and repetitions, and points that are none.
+// Returns paths near and far, with jumps, repetitions and points that are not finite.
 std::vector<Vec3> random_paths(std::mt19937& random) {
   std::vector<Vec3> points;
   for (int i = 0; i < 2000; ++i) {
@@ -91,12 +91,12 @@ std::vector<Vec3> random_paths(std::mt19937& random) {
     const Vec3 from = jumps ? random_point(random, i % 100 == 0 ? 1e6 : 12) : points.back();
     points.push_back(from + random_point(random, i % 7 == 0 ? 0 : 0.1));
   }
-  points[300] = {std::nan(""), 0, 0};  // after the path, which would not survive it
+  points[300] = {std::nan(""), 0, 0};  // follows the path, which would stay NaN after it
   points[700] = {0, Box::inf, 0};
   return points;
 }
 
-// Also where the sign changes in the gap of an open mesh.
+// The sign may also change in the gap of an open mesh.
 TEST(MeshSource, ManyPointsAtOnceGetTheSameBits) {
   std::mt19937 random(8);
   Mesh open = torus(7, 2, 60, 30);
@@ -135,7 +135,7 @@ TEST(MeshSource, DistanceToASphereIsAnalyticWithinItsFacets) {
   std::mt19937 random(6);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 p = random_point(random, 15);
-    // The facets' edges of about 0.5 mm lie up to (edge / 2)^2 / 2 R below the sphere.
+    // The edges of facets, about 0.5 mm long, lie up to (edge / 2)^2 / 2 R inside of the sphere.
     ASSERT_NEAR(source->sample(1, p), length(p) - 10, 0.02);
   }
   EXPECT_NEAR(source->sample(1, {0, 0, 1e9}), 1e9 - 10, 1e-5);
@@ -252,7 +252,7 @@ TEST(Inspect, MergesVerticesAtTheSamePlace) {
   EXPECT_EQ(report.degenerate, 1u);
 }
 
-// The models that come with the project.
+// The models in examples/models.
 const std::filesystem::path models = std::filesystem::path(OMBRE_SOURCE_DIR) / "examples" / "models";
 
 TEST(Models, AreClosedAndFaceOutward) {

@@ -1,4 +1,4 @@
-// Where a surface does not close.
+// Finds where a surface is not closed.
 #include "import/surfaces/open_edges.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace ombre::importing {
 namespace {
 
-// The other border of a gap runs back: its edges turn by at least so much, as a cosine.
+// Greatest cosine between an edge of a gap and the opposite edge, which runs back.
 constexpr double runs_back = -0.7;
-// Edges whose distance to the other border is measured.
+// Greatest number of edges whose distance to the opposite border is measured.
 constexpr size_t most_measured = 300;
 
 using LooseEdge = std::array<Vec3, 2>;
@@ -22,7 +22,7 @@ bool is_opposite(const LooseEdge& a, const LooseEdge& b) {
   return dot(along, other) < runs_back * length(along) * length(other);
 }
 
-// From the edge's middle to the nearest edge that runs the other way.
+// Returns the distance from the edge's middle to the nearest edge that runs the other way.
 double gap_at(const LooseEdge& edge, const std::vector<LooseEdge>& edges) {
   const Vec3 middle = 0.5 * (edge[0] + edge[1]);
   double least = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// Where a surface does not close.
+// Finds where a surface is not closed.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 namespace ombre::importing {
 
 struct OpenEdges {
-  size_t count = 0;             // edges that triangles pass in one direction more often than in the other
+  size_t count = 0;             // edges that triangles traverse in one direction more often than in the other
   std::array<Vec3, 2> example;  // one of them
-  // About how far apart the borders of its widest gap are, mm; infinite where nothing lies opposite.
+  // Approximate width of the widest gap in mm; infinite if no edge lies opposite.
   double gap_mm = std::numeric_limits<double>::infinity();
 };
 
-// Nothing for a closed mesh. Vertices at exactly the same place count as one.
+// Returns the open edges, or null for a closed mesh. Vertices at exactly the same place count as one.
 std::optional<OpenEdges> find_open_edges(const formats::Mesh& mesh);
 
 }  // namespace ombre::importing

@@ -1,10 +1,10 @@
-// Surfaces as an eye sees them.
+// Transforms surfaces to the space of a perspective.
 #include "import/surfaces/perspective.h"
 
 namespace ombre::importing {
 namespace {
 
-// What is nearer to the eye is cut off, as a share of the way to the picture plane.
+// Distance from the eye below which surfaces are cut off, as a share of the distance from the eye to the picture plane.
 constexpr double nearest = 1.0 / 200;
 
 class Viewer {
@@ -31,7 +31,7 @@ class Viewer {
     return {view.x / s, (view.y / s - rays_.first.y) / rays_.step.y, (view.z / s - rays_.first.z) / rays_.step.z};
   }
 
-  // The corners of what is left of it, in the same direction.
+  // Adds the visible part of a triangle, with the same orientation.
   void add(const std::array<uint32_t, 3>& triangle) {
     std::array<uint32_t, 4> corners{};
     size_t count = 0;
@@ -43,7 +43,7 @@ class Viewer {
     for (size_t i = 2; i < count; ++i) seen_.triangles.push_back({corners[0], corners[i - 1], corners[i]});
   }
 
-  // Where an edge leaves the view: the same for both of its triangles.
+  // Returns the vertex at which an edge leaves the view; both of its triangles get the same one.
   uint32_t cut(uint32_t a, uint32_t b) {
     const Vec3 from = in_view_[std::min(a, b)], to = in_view_[std::max(a, b)];
     const double depth = (nearest - 1) * rays_.eye_mm, t = (depth - from.x) / (to.x - from.x);

@@ -1,4 +1,4 @@
-// How often a mesh winds around a point.
+// Winding numbers of a mesh around points.
 #include "import/surfaces/point_winding.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ DyadicBins bin_by_yz(const Surface& surface) {
   return {rectangles, {per_axis, per_axis}};
 }
 
-// A float beyond the numbers, by more than crossings are rounded.
+// Returns a float below all numbers, by more than crossings are rounded.
 float below(std::initializer_list<double> values) {
   return std::nextafter(static_cast<float>(std::min(values)), -std::numeric_limits<float>::infinity());
 }

@@ -1,4 +1,4 @@
-// How often a mesh winds around a point.
+// Winding numbers of a mesh around points.
 #pragma once
 
 #include "import/fields/dyadic_bins.h"
@@ -7,15 +7,15 @@
 
 namespace ombre::importing {
 
-// By a ray along -x, with the arithmetic of RowWinding: at integer points the two agree exactly.
+// Casts a ray along -x, with the arithmetic of RowWinding: both agree exactly at points with integer coordinates.
 class PointWinding {
  public:
   explicit PointWinding(SurfacePtr surface);
 
-  // Exact for closed meshes; 0 for points that are not finite.
+  // Returns the winding number, which is exact for closed meshes; 0 for points that are not finite.
   int64_t at(Vec3 p) const;
 
-  // Where the ray crosses a triangle, and which way: 1 or -1, or 0 where it misses it.
+  // The crossing of the ray with a triangle: `way` is 1 or -1 by its direction, or 0 if it misses.
   struct Crossing {
     int way = 0;
     double x = 0;
@@ -32,7 +32,7 @@ class PointWinding {
   const Surface& surface() const { return *surface_; }
 
  private:
-  // What a ray must meet to cross a triangle: this little memory rules out most of those in its bins.
+  // Rounded bounds of a triangle, which quickly exclude most triangles of a bin from being crossed.
   struct Reach {
     float least_x, least_y, most_y, least_z, most_z;
     bool meets(Vec3 p) const {
@@ -42,7 +42,7 @@ class PointWinding {
 
   SurfacePtr surface_;
   DyadicBins by_yz_;
-  std::vector<Reach> reaches_;  // of each triangle
+  std::vector<Reach> reaches_;  // by triangle
 };
 
 }  // namespace ombre::importing

@@ -1,4 +1,4 @@
-// Which voxels of a row are inside a mesh, by winding numbers.
+// Finds the voxels of a row inside of a mesh, by winding numbers.
 #include "import/surfaces/row_winding.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace {
 using Crossing = RowWinding::Crossing;
 using program::Span;
 
-// Coordinates beyond this are no voxels of ours; within, doubles hold every integer.
+// Largest index of a voxel; up to it, doubles represent every integer.
 constexpr double farthest_index = 4e15;
 constexpr uint32_t most_layer_cells = 1u << 20;
-// Layers are asked for a few rows at a time; each thread remembers the outlines of this many.
+// Number of layers whose outlines each thread caches, because layers are requested a few rows at a time.
 constexpr size_t remembered_layers = 32;
 
 uint64_t next_id() {
@@ -30,14 +30,15 @@ std::vector<Vec3> place(const Surface& surface, const Affine& source_from_index)
   return placed;
 }
 
-// The first integer that is not less than `value`, within [lo, hi]; lo for NaN.
+// Returns the first integer not less than `value`, clamped to [lo, hi]; lo for NaN.
 int64_t ceil_within(double value, int64_t lo, int64_t hi) {
   if (!(value > static_cast<double>(lo))) return lo;
   if (value > static_cast<double>(hi)) return hi;
   return static_cast<int64_t>(std::ceil(value));
 }
 
-// The layers that a triangle crosses: zmin <= k < zmax. Triangles between two layers are left out.
+// Returns the bins of triangles by the layers zmin <= k < zmax that they cross; triangles between two layers are left
+// out.
 DyadicBins bin_by_layer(const Surface& surface, const std::vector<Vec3>& vertices) {
   std::vector<DyadicBins::Rectangle> ranges;
   double lowest = farthest_index, highest = -farthest_index;
@@ -56,8 +57,8 @@ DyadicBins bin_by_layer(const Surface& surface, const std::vector<Vec3>& vertice
   return {ranges, {static_cast<uint32_t>(cells), 1}};
 }
 
-// Spans where the crossings' sum is inside; it begins with `winding`. A row that does not close ends at its last
-// crossing.
+// Appends the spans of a row inside of the mesh. The winding number starts with `winding` and changes at the crossings.
+// A row that is not closed ends at its last crossing.
 void append_spans(std::span<Crossing> row, int64_t winding, InsideRule rule, std::vector<Span>& spans) {
   std::sort(row.begin(), row.end(), [](const Crossing& a, const Crossing& b) { return a.voxel < b.voxel; });
   int64_t begin = 0;
@@ -74,20 +75,20 @@ void append_spans(std::span<Crossing> row, int64_t winding, InsideRule rule, std
   if (is_inside(winding, rule) && !row.empty() && row.back().voxel > begin) spans.push_back({begin, row.back().voxel});
 }
 
-// What lies at the eye is cut off, so rays are counted from their far ends.
+// Surfaces are cut off at the eye, so winding numbers are counted from the far ends of rays.
 int64_t winding_at_eye(std::span<const Crossing> row) {
   int64_t winding = 0;
   for (const Crossing& crossing : row) winding -= crossing.winding;
   return winding;
 }
 
-// Buffers that one thread uses from call to call.
+// Buffers that a thread reuses between calls.
 struct Scratch {
   std::vector<Crossing> found, sorted;
   std::vector<size_t> ends;
 };
 
-// Orders crossings by row; afterwards row r has sorted[ends[r], ends[r + 1]).
+// Sorts crossings by row; afterwards row r is sorted[ends[r], ends[r + 1]).
 void sort_by_row(Scratch& scratch, int64_t j_begin, size_t row_count) {
   scratch.ends.assign(row_count + 2, 0);
   for (const Crossing& crossing : scratch.found) ++scratch.ends[crossing.row - j_begin + 2];
@@ -115,12 +116,12 @@ RowWinding::RowWinding(const Surface& surface, const program::RayLattice& rays, 
       by_layer_(bin_by_layer(*surface_, vertices_)) {}
 
 struct RowWinding::Outline {
-  uint64_t of = 0;  // the id of a placement; 0: none
+  uint64_t of = 0;  // id of a placement; 0: none
   int64_t k = 0;
   std::vector<Segment> segments;
 };
 
-// The pieces of the outline in layer k. Valid until this thread asks for another layer.
+// Returns the segments of the outline in layer k. Valid until this thread requests another layer.
 const std::vector<Segment>& RowWinding::outline(int64_t k) const {
   static thread_local std::array<Outline, remembered_layers> recent;
   Outline& kept = recent[(static_cast<uint64_t>(k) + id_) % remembered_layers];
@@ -145,7 +146,7 @@ void RowWinding::cross_rows(const Segment& segment, int64_t j_begin, int64_t j_e
   for (int64_t j = begin; j < end; ++j) {
     const auto row = static_cast<double>(j);
     const int winding_here = winding(segment, row);
-    if (winding_here == 0) continue;  // only where coordinates are not numbers
+    if (winding_here == 0) continue;  // only if coordinates are NaN
     const double x = cross_row(segment, row);
     found.push_back({j, ceil_within(depth_ ? depth_->voxel(x) : x, 0, width), winding_here});
   }

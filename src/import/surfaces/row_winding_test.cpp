@@ -18,7 +18,7 @@ struct Lattice {
   int64_t x, y, z;
 };
 
-// One flag per voxel, x fastest.
+// Returns one flag per voxel, x fastest.
 std::vector<char> voxels(const Mesh& mesh, const Affine& source_from_index, Lattice size,
                          InsideRule rule = InsideRule::nonzero) {
   const RowWinding winding(surface_of(mesh), source_from_index, rule);
@@ -75,7 +75,7 @@ TEST(RowWinding, CubesThatShareAFaceOnVoxelCentresShareTheVoxelsOut) {
 }
 
 TEST(RowWinding, TetrahedraThatFillACubeShareItOut) {
-  // Kuhn's six tetrahedra meet on the cube's diagonals, which pass through voxel centres.
+  // Kuhn's six tetrahedra meet in the cube's diagonals, which pass through voxel centres.
   const Lattice size{12, 12, 12};
   const Affine map = Affine::scaling({0.1, 0.1, 0.1});
   std::vector<char> sum(size.x * size.y * size.z, 0);
@@ -147,7 +147,7 @@ TEST(RowWinding, AnyAffineMapAgreesWithSamples) {
   }
 }
 
-// Rays from an eye, of which some begin within the mesh: what it says at each of their points.
+// Rays from an eye, some of which begin inside of the mesh, agree with its samples at each of their points.
 TEST(RowWinding, RaysAgreeWithSamples) {
   std::mt19937 random(5);
   const Lattice size{60, 20, 20};
@@ -183,7 +183,7 @@ TEST(RowWinding, AgreesWithSamplesExactlyWhereTheMapIsTheIdentity) {
   std::mt19937 random(2);
   const Lattice size{9, 9, 9};
 #ifdef OMBRE_SANITIZED
-  constexpr int turns = 50;  // which take as long as 1000 do elsewhere
+  constexpr int turns = 50;  // each takes as long as 20 elsewhere
 #else
   constexpr int turns = 300;
 #endif
@@ -204,7 +204,7 @@ TEST(RowWinding, RowsOfClosedMeshesNeverLeak) {
   for (int turn = 0; turn < 2000; ++turn) {
     Mesh mesh = random_on_lattice(random, turn % 7 + 2);
     ASSERT_TRUE(inspect(mesh).is_closed());
-    // Half of them exactly on the lattice, half just off it.
+    // Half of the meshes lie exactly on the lattice, the others slightly off it.
     const Affine map = turn % 2 == 0 ? Affine{} : random_affine(random);
     const RowWinding winding(surface_of(mesh), map, InsideRule::nonzero);
     for (int64_t k = -10; k <= 10; ++k) {

@@ -1,4 +1,4 @@
-// The closed shells of a mesh, and which way they face.
+// The closed shells of a mesh and their orientation.
 #include "import/surfaces/shells.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class DisjointSets {
   std::vector<uint32_t> parent_;
 };
 
-// Joins what is not closed at this edge by itself.
+// Joins the sets whose triangles are not closed at this edge by themselves.
 void join_open(std::span<const FacetEdge> edge, DisjointSets& sets) {
   std::map<uint32_t, int64_t> balances;
   for (const FacetEdge& side : edge) balances[sets.root(side.triangle)] += side.direction();
@@ -46,7 +46,7 @@ void join_open(std::span<const FacetEdge> edge, DisjointSets& sets) {
 struct Shell {
   std::vector<uint32_t> triangles;
   Box box;
-  Vec3 middle;  // of its corners
+  Vec3 middle;  // mean of its corners
   double volume = 0;
 };
 
@@ -80,7 +80,7 @@ class ShellTurner {
     windings_.resize(shells_.size());
   }
 
-  // About the first corner, which keeps digits for meshes far from the origin.
+  // Measures relative to the first corner, which keeps precision for meshes far from the origin.
   void measure(Shell& shell) const {
     const Vec3 origin = placed_.places[placed_.triangles[shell.triangles[0]][0]];
     Vec3 sum;
@@ -94,7 +94,7 @@ class ShellTurner {
       }
       shell.volume += dot(corners[0], cross(corners[1], corners[2])) / 6;
     }
-    // Flat shells have no volume but for rounding.
+    // The volume of a flat shell is set to 0, because only rounding differs from that.
     constexpr double rounding = 1e-12;
     const Vec3 size = shell.box.size();
     if (std::abs(shell.volume) <= rounding * size.x * size.y * size.z) shell.volume = 0;
@@ -123,7 +123,8 @@ class ShellTurner {
     return *windings_[n];
   }
 
-  // Corners that touch the outer shell count as inside: they are tried a little nearer to the middle of their own.
+  // Returns true if the inner shell lies in the outer one. Corners are moved slightly towards the middle of their
+  // shell, so that those on the outer shell count as inside.
   bool lies_in(uint32_t inner, uint32_t outer) {
     constexpr double nearer = 1e-6;
     const Shell& shell = shells_[inner];
@@ -149,7 +150,7 @@ class ShellTurner {
     return false;
   }
 
-  // In one or more of the marked shells, and in no other.
+  // Returns true if the shell lies in at least one of the marked shells, and in no other.
   bool lies_only_in(const std::vector<bool>& flags, uint32_t n) {
     bool lies_in_flagged = false;
     for (uint32_t other = 0; other < shells_.size(); ++other)
@@ -170,7 +171,7 @@ class ShellTurner {
   formats::Mesh& mesh_;
   PlacedTriangles placed_;
   std::vector<Shell> shells_;
-  std::vector<std::unique_ptr<PointWinding>> windings_;  // made when they are needed
+  std::vector<std::unique_ptr<PointWinding>> windings_;  // built on demand
 };
 
 }  // namespace
@@ -185,7 +186,7 @@ std::vector<uint32_t> shells_of(size_t triangles, std::span<const FacetEdge> edg
   });
   std::vector<uint32_t> shell_of(triangles);
   uint32_t count = 0;
-  // The least triangle of a shell is its root.
+  // The root of a shell is its triangle with the lowest number.
   for (uint32_t t = 0; t < triangles; ++t) shell_of[t] = sets.root(t) == t ? count++ : shell_of[sets.root(t)];
   return shell_of;
 }

@@ -1,4 +1,4 @@
-// The closed shells of a mesh, and which way they face.
+// The closed shells of a mesh and their orientation.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,17 @@
 
 namespace ombre::importing {
 
-// The number of the shell that each triangle belongs to, counted from 0 in the order of the triangles. Where more than
-// two triangles meet in an edge, only those belong together that are not closed there without each other.
+// Returns the number of each triangle's shell, counted from 0 in the order of the triangles. At an edge of more than
+// two triangles, those are joined that are not closed there without each other.
 std::vector<uint32_t> shells_of(size_t triangles, std::span<const FacetEdge> edges);
 
 struct TurnedShells {
   size_t turned = 0, shells = 0;
 };
 
-// Turns shells of a closed mesh round that face inward, lie in no other, and overlap the box of one that faces outward
-// and does not lie in them: where the two overlap, they would cancel out. What lies in them is turned with them.
+// Turns shells of a closed mesh around that face inward, lie in no other shell, and overlap the box of an
+// outward-facing shell that does not lie in them: otherwise both would cancel out where they overlap. Shells inside of
+// a turned shell are turned too.
 TurnedShells turn_inverted_shells(formats::Mesh& mesh);
 
 }  // namespace ombre::importing

@@ -19,7 +19,7 @@ void expect_unturned(Mesh mesh) {
   EXPECT_EQ(mesh.triangles, before.triangles);
 }
 
-// What is turned, and the sum of the volumes after it.
+// Checks the number of turned shells and the volume afterwards.
 void expect_turned(Mesh mesh, size_t turned, double volume) {
   EXPECT_EQ(turn_inverted_shells(mesh).turned, turned);
   EXPECT_NEAR(inspect(mesh).volume, volume, 1e-9);
@@ -29,7 +29,7 @@ void expect_turned(Mesh mesh, size_t turned, double volume) {
 TEST(Shells, OverlappingShellsFaceOutward) {
   expect_turned(together(plain_box, turned_inward(shifted_box)), 1, 480 + 480);
   expect_turned(together(turned_inward(shifted_box), plain_box), 1, 480 + 480);
-  // Bars that cross, with no corner in each other.
+  // Crossing bars have no corner inside of each other.
   const Mesh bar = cuboid({-10, -1, -1}, {10, 1, 1}), other = cuboid({-2, -10, -2}, {2, 10, 2});
   expect_turned(together(bar, turned_inward(other)), 1, 80 + 320);
   expect_turned(
@@ -39,10 +39,10 @@ TEST(Shells, OverlappingShellsFaceOutward) {
 
 TEST(Shells, CavitiesStay) {
   expect_unturned(together(plain_box, turned_inward(cuboid({1, 1, 1}, {9, 7, 5}))));
-  // Touching the outer shell from within, or reaching from one side to the other.
+  // The cavity touches the outer shell from within, or extends from one side to the other.
   expect_unturned(together(plain_box, turned_inward(cuboid({1, 1, 0}, {9, 7, 5}))));
   expect_unturned(together(plain_box, turned_inward(cuboid({1, 1, 0}, {9, 7, 6}))));
-  // With a solid of its own.
+  // The cavity contains another solid.
   expect_unturned(
       together(together(plain_box, turned_inward(cuboid({1, 1, 1}, {9, 7, 5}))), cuboid({2, 2, 2}, {3, 3, 3})));
 }
@@ -59,7 +59,7 @@ TEST(Shells, CavitiesTurnWithTheirShell) {
 }
 
 TEST(Shells, ShellsThatTouchAreTwo) {
-  // Along an edge, along a face, in a corner.
+  // The boxes touch in an edge, in a face and in a corner.
   for (const Vec3 at : {Vec3{10, 8, 0}, Vec3{10, 0, 0}, Vec3{10, 8, 6}}) {
     const Mesh pair = together(plain_box, cuboid(at, at + Vec3{10, 8, 6}));
     EXPECT_EQ(inspect(pair).shells, 2u);
@@ -70,12 +70,12 @@ TEST(Shells, ShellsThatTouchAreTwo) {
   EXPECT_EQ(inspect(torus(7, 2, 20, 10)).shells, 1u);
 }
 
-// A plain_box of two cells: the wall between them is there twice.
+// A box consists of two cells, with a doubled wall between them.
 TEST(Shells, PartsThatAreClosedTogetherAreOne) {
   Mesh cells = together(cuboid({0, 0, 0}, {1, 1, 1}), cuboid({1, 0, 0}, {2, 1, 1}));
   EXPECT_EQ(inspect(cells).shells, 2u);
   Mesh joined = cells;
-  // Without the wall.
+  // The wall is removed.
   std::erase_if(joined.triangles, [&](const auto& t) {
     return joined.vertices[t[0]].x == 1 && joined.vertices[t[1]].x == 1 && joined.vertices[t[2]].x == 1;
   });

@@ -1,4 +1,4 @@
-// Generalised winding numbers: how much of the view from a point a surface fills, gaps and all.
+// Generalized winding numbers: the share of the solid angle around a point that a surface covers, even with gaps.
 #include "import/surfaces/solid_angle.h"
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace {
 
 constexpr size_t fewest_for_dipoles = 1000;
 constexpr uint32_t leaf_size = 8;
-// A cluster is a dipole from this many of its radii on.
+// Distance from a cluster, in radii, beyond which it counts as a dipole.
 constexpr double far_factor = 2.3;
 
 Vec3 area_vector(const std::array<Vec3, 3>& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); }
 
-// Van Oosterom and Strackee 1983. 0 for triangles without area.
+// Returns the solid angle of a triangle (van Oosterom and Strackee 1983); 0 for triangles without area.
 double triangle_angle(const std::array<Vec3, 3>& t, Vec3 p) {
   const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
   const double la = length(a), lb = length(b), lc = length(c);
@@ -40,7 +40,7 @@ Vec3 SolidAngle::centroid(uint32_t triangle) const {
   return (1.0 / 3) * (a + b + c);
 }
 
-// Halves the triangles along their longest side; the depth is logarithmic.
+// Splits the triangles in half along their longest side, so the depth is logarithmic.
 uint32_t SolidAngle::build(uint32_t begin, uint32_t end) {
   const auto index = static_cast<uint32_t>(nodes_.size());
   nodes_.push_back({});

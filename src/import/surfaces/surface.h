@@ -1,4 +1,4 @@
-// What the queries of this folder see of a mesh.
+// The triangles of a mesh, as the queries of this folder use them.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct Surface {
 
 using SurfacePtr = std::shared_ptr<const Surface>;
 
-// Of the vertices that triangles use.
+// Returns the bounds of the vertices that triangles use.
 inline Box bounds(const Surface& surface) {
   Box box;
   for (const auto& triangle : surface.triangles)

@@ -37,7 +37,7 @@ inline Mesh cuboid(Vec3 lo, Vec3 hi) {
   return mesh;
 }
 
-// A grid of quads that closes on itself in both directions.
+// Returns a grid of quads that is periodic in both directions.
 template <class Point>
 Mesh closed_grid(uint32_t columns, uint32_t rows, const Point& point) {
   Mesh mesh;
@@ -60,7 +60,7 @@ inline Mesh torus(double ring, double tube, uint32_t columns, uint32_t rows) {
   });
 }
 
-// An octahedron, each triangle cut in four `steps` times, on the unit sphere.
+// Returns a sphere: an octahedron whose triangles are divided into four `steps` times, with all vertices on the sphere.
 inline Mesh sphere(double radius, int steps) {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -101,8 +101,8 @@ inline Mesh together(Mesh a, const Mesh& b) {
   return a;
 }
 
-// Closed, but it may cross itself: small whole coordinates, so that vertices, edges and faces lie on
-// lattice planes everywhere.
+// Returns a closed mesh that may intersect itself. Its coordinates are small integers, so vertices, edges and faces
+// often lie on lattice planes.
 inline Mesh random_on_lattice(std::mt19937& random, int reach) {
   std::uniform_int_distribution<int> coordinate(0, reach);
   const int kind = std::uniform_int_distribution<int>(0, 2)(random);

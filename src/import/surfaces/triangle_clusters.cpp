@@ -9,10 +9,10 @@
 namespace ombre::importing {
 namespace {
 
-// Squares of ways are rounded a few times.
+// Rounding error of squared distances.
 constexpr float slack = 16 * std::numeric_limits<float>::epsilon();
 
-// Without a choice, so that compilers take several at a time.
+// Returns max(x, 0) without a branch, so that compilers can vectorize it.
 float positive_part(float x) { return 0.5F * (x + std::abs(x)); }
 
 Box box_of(const std::array<Vec3, 3>& t) { return hull(hull(Box{t[0], t[0]}, Box{t[1], t[1]}), Box{t[2], t[2]}); }
@@ -45,7 +45,7 @@ class ClusterMaker {
   }
 
  private:
-  // In halves along the longest side, of whole clusters.
+  // Halves the triangles along the longest side until they fit into clusters; parts are whole clusters.
   void cut(std::span<uint32_t> triangles) {
     constexpr size_t most = TriangleCluster::most;
     if (triangles.size() <= most) return add(triangles);
@@ -101,8 +101,8 @@ Frame::Frame(const Box& box) : center(box.center()) {
   if (widest > 0) scale = 1 / widest;
 }
 
-// A point over a disc by the height, and beside its middle by the width, is sqrt(height^2 + (width - radius)^2) away
-// from it where it does not lie over it.
+// A point at `height` over a disc's plane and at `width` from its axis is sqrt(height^2 + (width - radius)^2) away from
+// the disc, or `height` if it lies over the disc.
 uint32_t TriangleCluster::within(const std::array<float, 3>& point, float reach) const {
   const float squared_reach = reach * reach * (1 + slack);
   Row squared;  // NOLINT: set below

@@ -1,4 +1,4 @@
-// Triangles in groups of eight neighbours, of which those that are too far from a point are found at once.
+// Clusters of eight neighbouring triangles, of which those too far from a point are excluded at once.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace ombre::importing {
 
-// A mesh moved and scaled into a cube of half-width one, for numbers in single precision.
+// A scaling of a mesh into a cube of half-width one, for single precision.
 struct Frame {
   Vec3 center;
   double scale = 1;
@@ -18,20 +18,21 @@ struct Frame {
   Vec3 operator()(Vec3 p) const { return scale * (p - center); }
 };
 
-// Each triangle has a disc around it, in its plane. A ball would say too little: seen from deep inside, many triangles
-// are about as far as the nearest. Numbers are those of the frame, rounded.
+// A cluster with an enclosing disc in the plane of each triangle. Balls would not be tight enough: seen from deep
+// inside, many triangles are about as far away as the nearest. Numbers are rounded coordinates of the frame.
 struct TriangleCluster {
   static constexpr size_t most = 8;
   using Row = std::array<float, most>;
 
-  Row x{}, y{}, z{};                       // middles of discs
-  Row across_x{}, across_y{}, across_z{};  // their normals; 0 where a triangle has no area, and its disc is a ball
+  Row x{}, y{}, z{};                       // centres of the discs
+  Row across_x{}, across_y{}, across_z{};  // normals of the discs; 0 if a triangle has no area, whose disc is a ball
   Row radius{};
   std::array<uint32_t, most> triangles{};
   uint32_t count = 0;
-  std::array<float, 3> lo{}, hi{};  // encloses the triangles
+  std::array<float, 3> lo{}, hi{};  // box around the triangles
 
-  // Bit n is set where triangle n may be within `reach` of the point; `reach` has room for coordinates' rounding.
+  // Returns bits; bit n is set if triangle n may be within `reach` of the point. `reach` must include a margin for
+  // rounding of coordinates.
   uint32_t within(const std::array<float, 3>& point, float reach) const;
 };
 

@@ -1,4 +1,4 @@
-// The distance from a point to a triangle.
+// Distances from points to triangles.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline double squared_distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   return dot(offset, offset);
 }
 
-// In mm2. Triangles without area are segments or points.
+// Returns the squared distance in mm2. Triangles without area count as segments or points.
 inline double squared_distance(Vec3 p, const std::array<Vec3, 3>& t) {
   const double to_edges =
       std::min({squared_distance_to_segment(p, t[0], t[1]), squared_distance_to_segment(p, t[1], t[2]),
@@ -24,7 +24,7 @@ inline double squared_distance(Vec3 p, const std::array<Vec3, 3>& t) {
   const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
   const double squared = dot(normal, normal);
   if (!(squared > 0)) return to_edges;
-  // Over the triangle, its plane is closest.
+  // The nearest point is in the plane of the triangle if p projects into the triangle.
   for (size_t i = 0; i < 3; ++i)
     if (dot(cross(t[i == 2 ? 0 : i + 1] - t[i], p - t[i]), normal) < 0) return to_edges;
   const double height = dot(normal, p - t[0]);

@@ -9,11 +9,12 @@ namespace ombre::importing {
 namespace {
 
 constexpr double least_boxes = 1 << 20, most_boxes = 1 << 22, boxes_of_triangle = 2, most_along = 1024;
-constexpr double most_flags = 1 << 26;  // of boxes, by triangles that reach far; boxes are larger then
-// Beyond these numbers a ray is slower than PointWinding.
+// limit on flags of boxes set by large triangles; boxes become larger if it is exceeded
+constexpr double most_flags = 1 << 26;
+// Limits beyond which PointWinding is faster than following a ray.
 constexpr int64_t most_boxes_of_ray = 100, most_triangles_of_ray = 500;
 constexpr int8_t unknown = std::numeric_limits<int8_t>::min();
-// What boxes are taken larger by: of themselves, and of coordinates, far more than those are rounded by.
+// Margin of boxes, relative to their size and to coordinates; far larger than rounding errors.
 constexpr double slack_of_size = 1e-6, slack_of_coordinates = 1e-12;
 
 double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -33,7 +34,7 @@ WindingCells::WindingCells(const PointWinding& winding) : winding_(winding), bou
   fill();
 }
 
-// About so many. They are long along the rays, which cross fewer of them then.
+// Chooses about `boxes` boxes. They are long in the direction of the rays, which then cross fewer of them.
 void WindingCells::cut_into(double boxes) {
   const Vec3 whole = bounds_.size();
   const double usual = std::cbrt(whole.x * whole.y * whole.z / boxes);
@@ -78,7 +79,7 @@ std::optional<int64_t> WindingCells::at(Vec3 p) const {
   return last < 0 ? std::optional(sum) : std::nullopt;
 }
 
-// The box that a place within the bounds lies in.
+// Returns the index of the box along an axis that contains a position within the bounds.
 int64_t WindingCells::along(int axis, double at) const {
   return std::min(static_cast<int64_t>((at - bounds_.lo[axis]) / size_mm_[axis]),
                   count_[static_cast<size_t>(axis)] - 1);
@@ -95,7 +96,7 @@ Vec3 WindingCells::middle(const Place& place) const {
   return middle;
 }
 
-// The first and the last of the boxes around a triangle, along each axis.
+// Returns the first and the last box around a triangle along each axis.
 std::pair<WindingCells::Place, WindingCells::Place> WindingCells::around(const std::array<Vec3, 3>& corners) const {
   const auto& [a, b, c] = corners;
   Place lo, hi;
@@ -111,13 +112,13 @@ std::pair<WindingCells::Place, WindingCells::Place> WindingCells::around(const s
   return {lo, hi};
 }
 
-// All boxes that the triangle meets, and some beside its sides.
+// Visits all boxes that the triangle meets, and some beside it.
 template <class Visit>
 void WindingCells::for_boxes(const std::array<Vec3, 3>& corners, const Visit& visit) const {
   const auto& [a, b, c] = corners;
   const auto [lo, hi] = around(corners);
   const Vec3 normal = cross(b - a, c - a);
-  double reach = 0;  // of a box from its middle, along the normal
+  double reach = 0;  // half the extent of a box along the normal
   for (int axis = 0; axis < 3; ++axis) reach += std::abs(normal[axis]) * (0.5 * size_mm_[axis] + slack_mm_);
   Place place;
   for (place[2] = lo[2]; place[2] <= hi[2]; ++place[2])
@@ -153,7 +154,8 @@ void WindingCells::fill() {
       }
 }
 
-// As a neighbour that was filled before, if there is one: no triangle lies between them.
+// Returns the winding number in a box that no triangle meets: that of a filled neighbour if there is one, since no
+// triangle lies between them, else that at its middle.
 int8_t WindingCells::filled(const Place& place) const {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (place[axis] == 0) continue;

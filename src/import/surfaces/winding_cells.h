@@ -1,4 +1,4 @@
-// How often a closed mesh winds around a point, from the few triangles near to it.
+// Winding numbers of a closed mesh around points, from the few triangles near them.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@
 
 namespace ombre::importing {
 
-// Equal boxes over a mesh. Around all points of a box that no triangle meets, the mesh winds equally often; the others
-// know their triangles. A ray along -x counts its crossings box by box, as far as the next box without triangles.
+// A grid of equal boxes over a mesh. In a box that no triangle meets, the winding number is constant; other boxes list
+// their triangles. A ray along -x counts its crossings box by box, up to the next box without triangles.
 class WindingCells {
  public:
-  // `winding` is queried in the middles of a few boxes, and about triangles. It must live as long.
+  // Builds the grid; `winding` is queried at the middles of a few boxes and for triangles, and must outlive this
+  // object.
   explicit WindingCells(const PointWinding& winding);
 
-  // The same number as `winding` gives. None beyond the mesh, and where many triangles or boxes with triangles lie in a
-  // row.
+  // Returns the same number as `winding`, or null beyond the mesh and where too many triangles or boxes with triangles
+  // lie in a row.
   std::optional<int64_t> at(Vec3 p) const;
 
  private:
@@ -40,11 +41,11 @@ class WindingCells {
 
   const PointWinding& winding_;
   Box bounds_;
-  Vec3 size_mm_;  // of a box
+  Vec3 size_mm_;  // size of a box
   double slack_mm_ = 0;
   Place count_{};
   std::vector<int8_t> windings_;
-  std::vector<uint32_t> begins_;  // box -> the first of its triangles; one more than boxes
+  std::vector<uint32_t> begins_;  // by box: index of its first triangle; one entry more than there are boxes
   std::vector<uint32_t> triangles_;
 };
 

@@ -15,7 +15,7 @@ Mesh moved(Mesh mesh, Vec3 by) {
   return mesh;
 }
 
-// Two of it, one partly in the other.
+// Returns two copies of the mesh, one displaced.
 Mesh twice(const Mesh& mesh, Vec3 by) {
   Mesh both = mesh;
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
@@ -29,7 +29,7 @@ struct Share {
   double value() const { return static_cast<double>(known) / static_cast<double>(queried); }
 };
 
-// Points of a lattice, of a random path and of the surface.
+// Compares points of a lattice, of a random path and on the surface.
 Share compare(const Mesh& mesh) {
   const SurfacePtr surface = surface_of(mesh);
   const PointWinding exact(surface);
@@ -83,7 +83,7 @@ TEST(WindingCells, NothingIsKnownOfNothing) {
   EXPECT_FALSE(WindingCells(flat).at({0.5, 0.5, 0}));
 }
 
-// Their boxes would be marked a billion times.
+// Without larger boxes, the long triangles would set a billion flags.
 TEST(WindingCells, LongTrianglesGetLargerBoxes) {
   Mesh fan = closed_grid(2000, 3, [](uint32_t u, uint32_t v) {
     const double angle = 2 * std::numbers::pi * u / 2000;

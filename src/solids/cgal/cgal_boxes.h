@@ -1,8 +1,8 @@
-// Box intersections of CGAL in an order that no memory address decides.
+// Makes CGAL's box intersection independent of memory addresses.
 //
-// Where boxes begin at one coordinate, CGAL's algorithm goes by their ids. Corefinement takes the boxes' addresses for
-// these, so that the order in which it finds crossings, and with it the triangles of a result, depended on where the
-// heap had room. Here ids count the boxes as they are made. To be included before other headers of CGAL.
+// Where boxes begin at the same coordinate, CGAL's algorithm orders them by their ids. Corefinement uses addresses as
+// ids, so the order in which it finds crossings, and with it the triangles of a result, depended on the allocator. Here
+// ids count the boxes in the order of their construction. Include this before other headers of CGAL.
 #pragma once
 
 #include <CGAL/Box_intersection_d/Box_d.h>

@@ -1,4 +1,4 @@
-// Convex hulls, and triangles between the rings of plane regions.
+// Convex hulls, and triangulation of plane regions given by rings.
 #include "solids/cgal/cgal_boxes.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -36,7 +36,7 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Quick, Storage,
 
 constexpr int unseen = -1;
 
-// How many rings go round each face, from the outside inwards.
+// Counts how many rings enclose each face, from the outside inwards.
 void count_rings(Triangulation& triangles) {
   for (auto face = triangles.all_faces_begin(); face != triangles.all_faces_end(); ++face) face->info() = unseen;
   std::deque<Triangulation::Face_handle> near{triangles.infinite_face()}, behind;
@@ -71,7 +71,7 @@ Triangulation triangulation_of(std::span<const Ring> rings) {
   return triangles;
 }
 
-// For each face of a hull of triangles, the number of the facet that it belongs to with those in its plane.
+// Returns the facet of each face of a hull; coplanar neighbours belong to one facet.
 std::vector<uint32_t> facets_of(const QuickMesh& mesh) {
   std::vector<uint32_t> facet(mesh.num_faces());
   std::iota(facet.begin(), facet.end(), 0);
@@ -83,7 +83,7 @@ std::vector<uint32_t> facets_of(const QuickMesh& mesh) {
     const auto h = mesh.halfedge(edge), o = mesh.opposite(h);
     const auto &p = mesh.point(mesh.source(h)), &q = mesh.point(mesh.target(h));
     const auto &r = mesh.point(mesh.target(mesh.next(h))), &s = mesh.point(mesh.target(mesh.next(o)));
-    // A triangle without an area lies in the planes of all its neighbours.
+    // A triangle without area lies in the planes of all its neighbours.
     if (CGAL::collinear(p, q, r) || CGAL::collinear(p, q, s) || !CGAL::coplanar(p, q, r, s)) continue;
     const uint32_t a = root(mesh.face(h)), b = root(mesh.face(o));
     facet[std::max(a, b)] = std::min(a, b);
@@ -92,10 +92,10 @@ std::vector<uint32_t> facets_of(const QuickMesh& mesh) {
   return facet;
 }
 
-// Numbers of points around a facet.
+// Numbers of the points around a facet.
 using Outline = std::vector<uint32_t>;
 
-// Without those on the line between their neighbours, from the least number on.
+// Returns the outline without points on the line between their neighbours, rotated to begin with the lowest number.
 Outline corners_of(const Outline& outline, std::span<const Vec3> points) {
   const auto at = [&](size_t n) {
     const Vec3& p = points[outline[n % outline.size()]];
@@ -108,8 +108,8 @@ Outline corners_of(const Outline& outline, std::span<const Vec3> points) {
   return corners;
 }
 
-// The facets of a hull, by the first of equal points. CGAL's own triangles of a facet, and points on facets and edges
-// that are no corners, follow from addresses in memory.
+// Returns the facets of a hull; equal points have the number of the first of them. CGAL's own triangles of a facet, and
+// its choice of points on facets and edges that are not corners, depend on memory addresses.
 std::vector<Outline> outlines_of(const QuickMesh& mesh, std::span<const Vec3> points) {
   const auto key = [](const auto& x, const auto& y, const auto& z) { return std::array<double, 3>{x, y, z}; };
   std::map<std::array<double, 3>, uint32_t> first;
@@ -119,7 +119,7 @@ std::vector<Outline> outlines_of(const QuickMesh& mesh, std::span<const Vec3> po
     return first.at(key(p.x(), p.y(), p.z()));
   };
   const std::vector<uint32_t> facet = facets_of(mesh);
-  std::map<uint32_t, std::map<uint32_t, uint32_t>> next;  // around each facet
+  std::map<uint32_t, std::map<uint32_t, uint32_t>> next;  // successor of each point around each facet
   for (const auto h : mesh.halfedges())
     if (facet[mesh.face(h)] != facet[mesh.face(mesh.opposite(h))])
       next[facet[mesh.face(h)]][number(mesh.source(h))] = number(mesh.target(h));
@@ -157,7 +157,7 @@ TriangleMesh hull_of(std::span<const Vec3> points) {
   for (const Vec3& p : points) all.emplace_back(p.x, p.y, p.z);
   TriangleMesh result;
   if (all.size() < 4) return result;
-  size_t other = 1;  // than the first point, and then one beside their line, and one beside their plane
+  size_t other = 1;  // finds a point different from the first, then one off their line, then one off their plane
   while (other < all.size() && all[other] == all[0]) ++other;
   size_t third = other + 1;
   while (third < all.size() && CGAL::collinear(all[0], all[other], all[third])) ++third;

@@ -1,4 +1,4 @@
-// Tetrahedra by CGAL's Mesh_3.
+// Tetrahedral meshes by CGAL's Mesh_3.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -22,23 +22,23 @@ namespace {
 using Geometry = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Geometry::Point_3;
 
-// Balls around points of a sharp edge, in all and for each of their sizes along it.
+// Limits on the number of balls around points of a sharp edge: in total, and per wanted size along it.
 constexpr double most_balls = 2000, most_balls_of_size = 50;
-// Where refinement does not end, lines with so many balls for each size along them are left out.
+// If refinement does not end, sharp edges with at least this many balls per wanted size along them are dropped.
 constexpr double crowded_balls_of_size = 8;
 
-// Sharp edges with which refinement does not end.
+// Sharp edges for which refinement does not end.
 struct EndlessEdges {
-  std::vector<size_t> lines;  // in ascending order
+  std::vector<size_t> lines;  // ascending
 };
 
-// Counts the balls that protect sharp edges. Where lines come near to each other, or cross, balls become ever smaller.
+// Counts the balls that protect sharp edges. Where such edges are close together or cross, balls become ever smaller.
 class Domain : public CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>> {
  public:
   using Base = CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_mesh_domain_3<Geometry>>;
   using Base::Base;
 
-  // How many balls each line would have if each were of the wanted size.
+  // Sets the number of balls that each line would have if each ball had the wanted size.
   void expect_balls(std::vector<double> of_line) {
     expected_ = std::move(of_line);
     count_.assign(expected_.size(), 0);
@@ -54,7 +54,7 @@ class Domain : public CGAL::Mesh_domain_with_polyline_features_3<CGAL::Labeled_m
       throw EndlessEdges{{line}};
   }
 
-  // The lines with the smallest balls; at least one.
+  // Returns the lines with the most balls for their length; at least one.
   std::vector<size_t> crowded_lines() const {
     const auto crowd = [&](size_t line) { return static_cast<double>(count_[line]) / (1 + expected_[line]); };
     double most = 0;
@@ -73,11 +73,11 @@ using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Se
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index, Domain::Curve_index>;
 using Usual = CGAL::Mesh_criteria_3<Triangulation>;
 
-// How far edges may lie from sharp edges, as a share of the element size.
+// Greatest distance of edges from sharp edges, as a share of the element size.
 constexpr double edge_distance_share = 0.03;
-// How far facets may lie from the surface beside sharp edges that are left out.
+// Greatest distance of facets from the surface next to dropped sharp edges, as a share of the element size.
 constexpr double rough_distance_share = 0.2;
-constexpr int most_attempts = 8;  // to find the edges that are to be left out
+constexpr int most_attempts = 8;  // attempts to find the edges to drop
 
 Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -87,11 +87,11 @@ double distance_to_segment(Vec3 at, Vec3 from, Vec3 to) {
   return length(at - from - share * along);
 }
 
-// Facets and cells with a shorter edge, in sizes, are left as they are: where surfaces meet in a sharp angle that is no
-// protected edge, refinement would not end.
+// Length in sizes: facets and cells with a shorter edge are not refined. Otherwise refinement would not end where
+// surfaces meet in a sharp angle that is not a protected edge.
 constexpr double least_edge = 0.03;
 
-// A size that depends on the point, as criteria ask for it.
+// A position-dependent size, in the form that CGAL's criteria require.
 struct Sizing {
   using FT = Geometry::FT;
   using Point_3 = Point;
@@ -103,8 +103,8 @@ struct Sizing {
   }
 };
 
-// How far facets may lie from the surface: farther beside sharp edges that are left out, where there is no end of
-// facets otherwise.
+// The greatest distance of facets from the surface. It is larger next to dropped sharp edges, where facets would
+// otherwise be refined without end.
 struct DistanceSizing {
   using FT = Geometry::FT;
   using Point_3 = Point;
@@ -124,13 +124,13 @@ struct DistanceSizing {
   }
 };
 
-// The same along sharp edges, where balls around their points must also follow bends.
+// The size along sharp edges, where the balls must also follow bends.
 struct EdgeSizing {
   using FT = Geometry::FT;
   using Point_3 = Point;
   const Domain* domain;
   const TetrahedraRequest* request;
-  const std::vector<std::vector<double>>* longest_mm;  // of chords, for each point of each line
+  const std::vector<std::vector<double>>* longest_mm;  // longest chords, for each point of each line
   template <class P, class Index>
   FT operator()(const P& p, int dimension, const Index& index) const {
     const Vec3 at = {p.x(), p.y(), p.z()};
@@ -160,8 +160,8 @@ struct EdgeSizing {
   }
 };
 
-// How far a chord from a point of a line may reach in one direction until the line is farther than `most_off_mm` from
-// it.
+// Returns the greatest length of a chord from a point of a line in one direction, such that the line stays within
+// `most_off_mm` of it.
 double longest_chord(const Polyline& line, size_t from, ptrdiff_t step, double most_off_mm) {
   const auto is_on = [&](ptrdiff_t n) { return n >= 0 && n < static_cast<ptrdiff_t>(line.size()); };
   const auto point = [&](ptrdiff_t n) { return line[static_cast<size_t>(n)]; };
@@ -188,7 +188,7 @@ std::vector<double> longest_chords(const Polyline& line, const std::function<dou
   return found;
 }
 
-// Is an edge between these corners of a cell too short to refine what has it?
+// Returns true if an edge between these corners of a cell is too short for its cell or facet to be refined.
 template <size_t count>
 bool is_small(const Triangulation& triangulation, Triangulation::Cell_handle cell,
               const std::array<int, count>& corners, const std::function<double(Vec3)>& size_mm) {
@@ -202,7 +202,7 @@ bool is_small(const Triangulation& triangulation, Triangulation::Cell_handle cel
   return false;
 }
 
-// The usual criteria, but for what has become small.
+// CGAL's usual criteria, but small facets are never bad.
 struct LimitedFacets : Usual::Facet_criteria {
   using Base = Usual::Facet_criteria;
   const std::function<double(Vec3)>* size_mm;
@@ -269,10 +269,10 @@ Tetrahedra in_order(const Complex& complex) {
   return made;
 }
 
-// Moves nodes of slivers, then gives nodes weights. Some slivers between protected balls cannot be mended, and the
-// search for a better place, which tries chance, would go on for many minutes. So each wanted angle has so many
-// questions, and where they are not enough the mesh stays as the angle before left it. (CGAL's own limit is one of
-// time, so that each run would give another mesh; 0 is none.)
+// Removes slivers, first by moving nodes, then by giving nodes weights. Some slivers between protected balls cannot be
+// removed, and the randomized search for better places would take many minutes. So the number of queries for each
+// wanted angle is limited; if that is exceeded, the mesh of the previous angle is kept. (CGAL's own limit is a time, so
+// results would differ between runs; 0 disables it.)
 void mend_slivers(const Domain& domain, Questions& questions, Complex& complex) {
   namespace params = CGAL::parameters;
   for (const double degrees : sliver_degrees) {
@@ -342,7 +342,7 @@ Tetrahedra make_with(const TetrahedraRequest& request, const std::vector<Polylin
   return in_order(complex);
 }
 
-// Again without the sharp edges with which there is no end.
+// Repeats the meshing without the sharp edges for which it does not end.
 Tetrahedra make(TetrahedraRequest request) {
   std::vector<Polyline> left_out;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {

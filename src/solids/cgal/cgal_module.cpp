@@ -1,4 +1,4 @@
-// The kernel by CGAL: exact coordinates, booleans by corefinement, Nef polyhedra where that fails.
+// The geometry kernel by CGAL: exact coordinates, booleans by corefinement, and Nef polyhedra where that fails.
 #include "solids/cgal/cgal_boxes.h"
 
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -46,7 +46,7 @@ void turn_outward(ExactMesh& mesh, std::string& remark) {
 bool meet(const Box& a, const Box& b) { return !intersect(a, b).is_empty(); }
 
 bool try_corefinement(Boolean operation, ExactMesh first, ExactMesh second, ExactMesh& result) {
-  CGAL::get_default_random() = CGAL::Random(0);  // which decides in what order crossings are found
+  CGAL::get_default_random() = CGAL::Random(0);  // determines the order in which crossings are found
   switch (operation) {
     case Boolean::unite:
       return processing::corefine_and_compute_union(first, second, result);
@@ -58,11 +58,11 @@ bool try_corefinement(Boolean operation, ExactMesh first, ExactMesh second, Exac
   return false;
 }
 
-// Whether corefinement could do it; the result may be empty.
+// Computes a boolean by corefinement. Returns false if that fails; the result may be empty.
 bool corefined(Boolean operation, const ExactMesh& a, const ExactMesh& b, ExactMesh& result) {
   try {
     if (!try_corefinement(operation, a, b, result)) return false;
-  } catch (const std::exception&) {  // CGAL's checks
+  } catch (const std::exception&) {  // thrown by CGAL's checks
     return false;
   }
   result.collect_garbage();
@@ -72,8 +72,8 @@ bool corefined(Boolean operation, const ExactMesh& a, const ExactMesh& b, ExactM
 
 using Meshes = std::vector<ExactMesh>;
 
-// Nothing where corefinement could not do it, or left a shell that touches itself: it leaves two where surfaces meet in
-// a corner.
+// Returns null if corefinement fails or leaves a shell that touches itself; surfaces that meet in a corner become two
+// shells.
 std::optional<Parts> corefined_parts(Boolean operation, const Part& a, const Part& b) {
   ExactMesh result;
   if (a.nef || b.nef || !corefined(operation, a.surface, b.surface, result)) return std::nullopt;
@@ -125,7 +125,7 @@ Parts intersected(const Parts& some, const Parts& others) {
   return common;
 }
 
-// Unites two that meet. False where they only touch, and stay two.
+// Unites two parts whose boxes meet. Returns false if they only touch or are apart, so that they stay two.
 bool join(const Part& a, const Part& b, Parts& joined) {
   joined = combined(Boolean::unite, a, b);
   if (joined.size() < 2) return true;
@@ -153,7 +153,7 @@ Parts united(Parts some, Parts waiting) {
   return some;
 }
 
-// Of shells that cross or touch each other: what the outward ones hold, less what the inward ones do.
+// Returns the union of the outward shells less that of the inward ones; shells may cross or touch each other.
 Parts of_shells(const ExactMesh& mesh) {
   Meshes shells;
   Parts solids, cavities;
@@ -169,17 +169,17 @@ Parts of_shells(const ExactMesh& mesh) {
 
 BodyPtr body_of(Parts parts) { return std::make_shared<CgalBody>(std::move(parts)); }
 
-// How far the point lies above the plane of the triangle.
+// Returns the height of a point above the plane of a triangle.
 double height_above(const std::array<Vec3, 3>& triangle, Vec3 point) {
   const Vec3 normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
   const double size = length(normal);
   return size > 0 ? dot(normal, point - triangle[0]) / size : 0;
 }
 
-// A closed connected surface without a reflex edge is convex. Faces with more than three corners, such as those of
-// balls, are flat but for the rounding of their corners, which does not count.
+// Returns true if the mesh has a reflex edge; a closed connected surface without one is convex. Faces with more than
+// three corners, such as those of balls, are flat only up to the rounding of their corners, which is tolerated.
 bool has_reflex_edge(const ExactMesh& mesh) {
-  constexpr double rounding = 1e-12;  // of the size of the solid
+  constexpr double rounding = 1e-12;  // relative to the size of the solid
   Box box;
   std::vector<Vec3> points(mesh.num_vertices());
   for (const auto vertex : mesh.vertices()) {
@@ -329,7 +329,7 @@ std::vector<ExactMesh> apart(const ExactMesh& mesh) {
   for (ExactMesh& shell : shells)
     (processing::is_outward_oriented(shell) ? solids : cavities).push_back(std::move(shell));
   for (const ExactMesh& cavity : cavities) {
-    // It lies in all that hold its corners; the smallest of these is its own.
+    // A cavity lies in all solids that contain its corners; the smallest of them is its own.
     ExactMesh* own = nullptr;
     for (ExactMesh& solid : solids) {
       if (!meet(box_of(solid), box_of(cavity))) continue;

@@ -1,4 +1,4 @@
-// Nef polyhedra: booleans where surfaces touch themselves, and cutting into convex pieces.
+// Nef polyhedra: booleans for surfaces that touch themselves, and convex decomposition.
 #include "solids/cgal/cgal_boxes.h"
 
 #include <CGAL/Nef_polyhedron_3.h>
@@ -29,7 +29,7 @@ namespace {
 
 Nef solid_of(const Part& part) { return part.nef ? part.nef->solid() : Nef(ExactMesh(part.surface)); }
 
-// The library goes through a Nef polyhedron in an order that may depend on addresses.
+// Sorts points and polygons, because the order in which CGAL visits a Nef polyhedron may depend on memory addresses.
 void put_in_order(std::vector<Exact::Point_3>& points, std::vector<std::vector<std::size_t>>& polygons) {
   std::vector<size_t> order(points.size()), place(points.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -58,7 +58,7 @@ ExactMesh surface_of(const Nef& nef) {
   return mesh_of_soup(std::move(points), std::move(polygons));
 }
 
-// Shells that touch each other become parts; one that touches itself keeps the solid together.
+// Splits a solid into parts at shells that touch each other; a shell that touches itself keeps its solid in one part.
 Parts parts_of(const Nef& nef) {
   if (nef.is_empty()) return {};
   ExactMesh surface = surface_of(nef);

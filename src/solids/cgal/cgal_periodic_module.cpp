@@ -1,5 +1,5 @@
-// Tetrahedra of a cell that repeats, by CGAL's Periodic_3_mesh_3.
-// First: it says how triangulations are to be compiled.
+// Tetrahedral meshes of a periodic cell, by CGAL's Periodic_3_mesh_3.
+// Its header comes first, because it configures the triangulations.
 #include <CGAL/Periodic_3_mesh_3/config.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -29,7 +29,7 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 Vec3 vec(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-// The place in the box that a point repeats.
+// Returns the point of the box that corresponds to p modulo its periods.
 Vec3 wrapped(Vec3 p, const Box& box) {
   const Vec3 size = box.size();
   for (int axis = 0; axis < 3; ++axis) p[axis] -= std::floor((p[axis] - box.lo[axis]) / size[axis]) * size[axis];
@@ -44,7 +44,7 @@ void refuse_other_than_cubes(const Box& box) {
       throw Error(Code::option, "tetrahedra repeat in cubes alone; choose bricks for other cells");
 }
 
-// A size that depends on the point, as criteria ask for it.
+// A position-dependent size, in the form that CGAL's criteria require.
 struct Sizing {
   using FT = Geometry::FT;
   using Point_3 = Point;
@@ -56,7 +56,7 @@ struct Sizing {
   }
 };
 
-// Corners of cells are copies of vertices, each with the number of periods along each axis that it lies away.
+// Corners of cells are copies of vertices, each with an offset in periods along each axis.
 Tetrahedra in_order(const Complex& complex) {
   const Triangulation& triangulation = complex.triangulation();
   Tetrahedra made;
@@ -114,7 +114,7 @@ Tetrahedra make_periodic(const TetrahedraRequest& request) {
     return make(true);
   } catch (const Questions::Enough&) {
   }
-  // A mesh that is being mended cannot be kept; without, its slivers stay.
+  // If mending exceeds its limit, the mesh is lost and made again without mending, with its slivers.
   try {
     return make(false);
   } catch (const Questions::Enough&) {

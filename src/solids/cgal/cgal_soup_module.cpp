@@ -1,4 +1,4 @@
-// Surface meshes from triangles, also where more than two of them share an edge.
+// Makes surface meshes of triangles, even if more than two of them share an edge.
 #include "solids/cgal/cgal_boxes.h"
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -17,22 +17,23 @@ using Point = Exact::Point_3;
 using Polygons = std::vector<std::vector<std::size_t>>;
 
 struct Use {
-  size_t triangle = 0, apex = 0;  // the apex is the number of a point
+  size_t triangle = 0, apex = 0;  // `apex` is the number of the opposite point
 };
 
-// Triangles at an edge from its lower point to its higher, and back.
+// Triangles at an edge: those from its lower point to its higher one, and those in reverse.
 struct EdgeUses {
   std::vector<Use> forward, backward;
 };
 
-// Which part of a turn about the line a-b, from c, leads to d: 0 none, 1 less than a half, 2 half, 3 more.
+// Returns the angle about the line a-b from c to d in half turns: 0 for none, 1 for less than half a turn, 2 for half a
+// turn, 3 for more.
 int part_of_turn(const Point& a, const Point& b, const Point& c, const Point& d) {
   const CGAL::Orientation side = CGAL::orientation(a, b, c, d);
   if (side != CGAL::COPLANAR) return side == CGAL::POSITIVE ? 1 : 3;
   return CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE ? 0 : 2;
 }
 
-// Makes corners of triangles that share an edge of the same sector one vertex.
+// Joins corners of triangles that share an edge of the same sector into one vertex.
 class Splitter {
  public:
   Splitter(const std::vector<Point>& points, const Polygons& triangles) : points_(points), triangles_(triangles) {
@@ -46,7 +47,7 @@ class Splitter {
       }
   }
 
-  // False where an edge is not passed as often in both directions.
+  // Joins all pairs. Returns false if an edge is not traversed equally often in both directions.
   bool join() {
     for (auto& [edge, uses] : edges_) {
       if (uses.forward.size() != uses.backward.size()) return false;
@@ -77,19 +78,19 @@ class Splitter {
  private:
   using Edge = std::pair<size_t, size_t>;
 
-  // Triangles of the same sector at an edge that others use too.
+  // A pair of triangles of the same sector at an edge that other triangles share.
   struct Pair {
     Edge edge;
     size_t forward = 0, backward = 0;
   };
 
-  // Where sheets that share an edge are joined at both of its ends, they would share the edge of the mesh as well. So
-  // each pair gets a middle of its own.
+  // Sheets that share an edge and are joined at both of its ends would also share the edge of the mesh. So each pair
+  // gets its own vertex in the middle of the edge.
   void cut_shared_edges(const std::map<size_t, size_t>& numbers, std::vector<Point>& points, Polygons& triangles) {
     std::map<Edge, int> users;
     for (const auto& triangle : triangles)
       for (size_t n = 0; n < 3; ++n) ++users[{triangle[n], triangle[(n + 1) % 3]}];
-    std::multimap<size_t, size_t> pieces;  // of a triangle that was cut
+    std::multimap<size_t, size_t> pieces;  // pieces of each cut triangle
     const auto cut = [&](size_t triangle, Edge edge, size_t middle) {
       const auto has_edge = [&](size_t t) {
         for (size_t n = 0; n < 3; ++n)
@@ -115,7 +116,8 @@ class Splitter {
     }
   }
 
-  // Outside is where a triangle that passes the edge forward turns to, so its sector ends at the last of the others.
+  // Returns the triangle that bounds the same sector. Turning from a triangle that runs forward along the edge leads
+  // outside, so its sector ends at the last of the others.
   std::vector<Use>::iterator partner_of(size_t a, size_t b, const Use& use, std::vector<Use>& others) const {
     const auto turn = [&](size_t apex) {
       return part_of_turn(points_[a], points_[b], points_[use.apex], points_[apex]);
@@ -144,7 +146,7 @@ class Splitter {
   const std::vector<Point> points_;
   const Polygons triangles_;
   std::map<std::pair<size_t, size_t>, EdgeUses> edges_;
-  std::vector<size_t> first_;  // union-find over corners
+  std::vector<size_t> first_;  // union-find parents of corners
 };
 
 }  // namespace

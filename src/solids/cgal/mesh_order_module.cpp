@@ -6,7 +6,7 @@
 namespace ombre::solids {
 namespace {
 
-// Ascending, but for the last two where the order would turn the tetrahedron inside out.
+// Sorts nodes in ascending order, except the last two if that would invert the tetrahedron.
 void sort_evenly(std::array<uint32_t, 4>& nodes) {
   bool is_odd = false;
   for (size_t a = 0; a < 4; ++a)

@@ -6,11 +6,11 @@
 namespace ombre::surface {
 namespace {
 
-// In parts of a cell's edge.
+// Steps as fractions of the length of a cell's edge.
 constexpr double gradient_step = 1e-4;
 constexpr double slope_step = 0.03;
 constexpr int slope_rounds = 20;
-// A value that changes so many times faster at its zero than on the edge's average jumps there.
+// A value counts as discontinuous at its zero if its slope there exceeds the edge's average slope by this factor.
 constexpr double jump_ratio = 1e3;
 
 Vec3 unit(int axis) {
@@ -43,7 +43,7 @@ bool is_usable(const EdgeSearch& s, Vec3 gradient) {
   return s.by_value && std::isfinite(steepness) && steepness > 0 && steepness < jump_ratio * s.rise / length(s.along);
 }
 
-// The same edge a little to the side, around its crossing.
+// A copy of an edge, shifted sideways and cut down to the stretch around its crossing.
 struct ShiftedEdge {
   const EdgeSearch* edge;
   Vec3 shift;
@@ -64,7 +64,7 @@ void find_borders(std::vector<ShiftedEdge>& shifted, PointEvaluator& evaluator) 
 
 int axis_of(const EdgeSearch& s) { return s.along.x != 0 ? 0 : s.along.y != 0 ? 1 : 2; }
 
-// By where the border is on four edges beside each of these.
+// Returns normals from where the border crosses four shifted copies of each edge.
 std::vector<Vec3> slopes(const std::vector<const EdgeSearch*>& searches, const Vec3& cell_mm,
                          PointEvaluator& evaluator) {
   std::vector<ShiftedEdge> shifted;

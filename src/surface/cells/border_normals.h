@@ -1,4 +1,4 @@
-// How the borders of regions lie where edges cross them.
+// Normals of the borders between regions where edges of cells cross them.
 #pragma once
 
 #include <span>
@@ -8,11 +8,12 @@
 
 namespace ombre::surface {
 
-// A unit vector for each finished search, from its region `from` into `to`: the gradient of the value that parts them,
-// by central differences; where that jumps or there is none, the slope of the border around the crossing.
+// Returns for each finished search the border's unit normal at the crossing, from region `from` into `to`. It is the
+// gradient of the value that separates the regions, by central differences. If that value jumps or does not exist, the
+// slope of the border around the crossing is measured instead.
 std::vector<Vec3> border_normals(std::span<const EdgeSearch> searches, const Vec3& cell_mm, PointEvaluator& evaluator);
 
-// Normals ask points so far around an edge, in parts of a cell.
+// Distance from an edge within which border_normals() evaluates points, as a fraction of a cell.
 constexpr double normals_reach = 0.25;
 
 }  // namespace ombre::surface

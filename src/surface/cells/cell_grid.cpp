@@ -16,9 +16,9 @@ using voxel::FieldTile;
 using voxel::Lattice;
 using voxel::TileBox;
 
-constexpr int64_t slab_layers = 8;  // of cells
+constexpr int64_t slab_layers = 8;  // number of layers of cells per slab
 
-// The labels of a few layers of corners.
+// Labels of the corners in a few layers.
 class CornerSlab {
  public:
   explicit CornerSlab(const TileBox& box) : box_(box), labels_(static_cast<size_t>(box.voxels())) {}

@@ -1,4 +1,4 @@
-// A grid of cells over the corners of a lattice, and those of its cells that more than one region reaches.
+// A grid of cells over the corners of a lattice, and its mixed cells: those whose corners lie in more than one region.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 namespace ombre::surface {
 
 // Corner (i, j, k) lies at lattice.center(i, j, k); cell (i, j, k) has corners i, i + 1 and so on.
-// A cell's corner number is x + 2 y + 4 z of its offsets. Edge 4 a + u + 2 v runs along axis a, with offset u along
-// axis a + 1 and v along axis a + 2, counted round.
+// A corner's number within its cell is x + 2 y + 4 z of its offsets. Edge 4 a + u + 2 v runs along axis a, with offset
+// u along axis a + 1 and offset v along axis a + 2 (axes modulo 3).
 using CellPlace = std::array<int32_t, 3>;
 
 constexpr int edge_number(int axis, int u, int v) { return 4 * axis + u + 2 * v; }
 constexpr int axis_of_edge(int edge) { return edge / 4; }
-// Offsets of an edge's first corner.
+// Returns the offsets of an edge's first corner.
 constexpr std::array<int, 3> start_of_edge(int edge) {
   std::array<int, 3> start{};
   const auto axis = static_cast<size_t>(edge / 4);
@@ -40,7 +40,7 @@ struct MixedCell {
   bool crosses(int edge) const { return corners[first_corner(edge)] != corners[second_corner(edge)]; }
 };
 
-// The mixed cells in order of z, then y, then x.
+// The mixed cells, ordered by z, then y, then x.
 class MixedCells {
  public:
   static constexpr uint32_t none = ~uint32_t{0};
@@ -48,17 +48,18 @@ class MixedCells {
   MixedCells(const voxel::Lattice& corners, std::vector<MixedCell> cells);
   const voxel::Lattice& lattice() const { return lattice_; }
   const std::vector<MixedCell>& cells() const { return cells_; }
-  // The number of a cell that is mixed, or none.
+  // Returns the number of the mixed cell at a place, or none if the cell there is not mixed.
   uint32_t find(const CellPlace& at) const;
 
  private:
   voxel::Lattice lattice_;
   std::vector<MixedCell> cells_;
-  std::vector<uint32_t> row_begins_;  // of row (j, k), and the end of the last
+  // index of the first cell of each row (j, k); the last entry is the number of cells
+  std::vector<uint32_t> row_begins_;
 };
 
-// Labels of all corners, tile by tile, in floats, kept where they differ. The outermost corners count as void.
-// Throws Cancelled.
+// Evaluates the labels of all corners tile by tile in single precision and keeps the mixed cells. The outermost corners
+// count as void. Throws Cancelled.
 MixedCells find_mixed_cells(const program::Program& label, const voxel::Lattice& corners, int threads,
                             Progress* progress = nullptr, const StopFlag* stop = nullptr);
 

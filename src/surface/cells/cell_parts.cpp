@@ -8,8 +8,8 @@ namespace ombre::surface {
 namespace {
 
 struct Face {
-  std::array<size_t, 4> corners{};  // 00, 10, 01, 11 along the two other axes
-  // Between corners 00-10, 01-11, 00-01, 10-11.
+  std::array<size_t, 4> corners{};  // in the order 00, 10, 01, 11 along the two other axes
+  // Edges between corners 00-10, 01-11, 00-01 and 10-11.
   std::array<int, 4> edges{};
 };
 
@@ -23,7 +23,7 @@ constexpr Face face_of(int axis, int side) {
     offsets[static_cast<size_t>(c)] = n >> 1;
     face.corners[static_cast<size_t>(n)] = corner_number(offsets);
   }
-  // Around axis b come c, then `axis`; around c come `axis`, then b.
+  // Axes are cyclic: axis b is followed by c, then `axis`; c is followed by `axis`, then b.
   face.edges = {edge_number(b, 0, side), edge_number(b, 1, side), edge_number(c, side, 0), edge_number(c, side, 1)};
   return face;
 }
@@ -41,18 +41,19 @@ class Joiner {
   std::array<int, 12> parents_{};
 };
 
-// All four edges are crossed: neighbours differ, diagonals may be equal.
+// Joins the edges of a face all four of whose edges are crossed: neighbouring corners differ, diagonal ones may be
+// equal.
 void join_ambiguous(const Face& face, const std::array<Label, 4>& q, Joiner& joiner) {
   const auto& e = face.edges;
   const bool first = q[0] == q[3], second = q[1] == q[2];
   if (!first && !second) {
     for (size_t n = 1; n < 4; ++n) joiner.join(e[0], e[n]);
   } else if (first && (!second || q[0] > q[1])) {
-    joiner.join(e[0], e[3]);  // cut off corner 10
-    joiner.join(e[1], e[2]);  // and 01
+    joiner.join(e[0], e[3]);  // cuts off corner 10
+    joiner.join(e[1], e[2]);  // cuts off corner 01
   } else {
-    joiner.join(e[0], e[2]);  // cut off corner 00
-    joiner.join(e[1], e[3]);  // and 11
+    joiner.join(e[0], e[2]);  // cuts off corner 00
+    joiner.join(e[1], e[3]);  // cuts off corner 11
   }
 }
 
@@ -84,7 +85,7 @@ CellParts find_parts(const std::array<Label, 8>& corners) {
   return parts;
 }
 
-// Of two regions only: the corners in the greater one, as bits.
+// Returns the corners in the greater region as bits; null unless exactly two regions meet in the cell.
 std::optional<size_t> bits_of_two(const std::array<Label, 8>& corners) {
   const auto [least, greatest] = std::ranges::minmax(corners);
   size_t bits = 0;

@@ -1,4 +1,4 @@
-// How the borders of regions go through one cell: which of its crossed edges belong together.
+// The parts of the borders of regions within one cell: which of its crossed edges belong together.
 #pragma once
 
 #include <array>
@@ -8,12 +8,12 @@
 
 namespace ombre::surface {
 
-// Crossed edges that are joined across the cell's faces are one part. Where two regions meet, a part is one disc
-// (Nielson, Dual Marching Cubes, 2004). Faces whose diagonals could both be joined join the greater label, and
-// cells that share the face see it alike.
+// Crossed edges that are joined across the cell's faces form one part. If two regions meet, each part is a disc
+// (Nielson, Dual Marching Cubes, 2004). On a face where both diagonals could be joined, the greater label is joined, so
+// both cells at the face decide alike.
 struct CellParts {
   static constexpr uint8_t none = 255;
-  std::array<uint8_t, 12> part_of_edge{};  // none where the edge is not crossed
+  std::array<uint8_t, 12> part_of_edge{};  // none if the edge is not crossed
   uint8_t count = 0;
 };
 

@@ -1,4 +1,4 @@
-// How borders go through one cell.
+// Tests of the parts of borders within one cell.
 #include "surface/cells/cell_parts.h"
 
 #include <gtest/gtest.h>
@@ -38,13 +38,13 @@ TEST(CellParts, UniformCellsHaveNone) {
 
 TEST(CellParts, OppositeCornersAreApart) { EXPECT_EQ(find_cell_parts(corners_of(1 | 128)).count, 2); }
 
-// Across the diagonal of a face the greater label holds together.
+// The greater label is joined across the diagonal of a face.
 TEST(CellParts, DiagonalsJoinTheGreaterLabel) {
   EXPECT_EQ(find_cell_parts(corners_of(1 | 8)).count, 1);
   EXPECT_EQ(find_cell_parts(corners_of(255 & ~9U)).count, 2);
 }
 
-// Every part of two regions is a ring of edges, so at least three, and every crossed edge is in one part.
+// Every part between two regions is a ring of at least three edges, and every crossed edge belongs to one part.
 TEST(CellParts, OfTwoRegionsAreRings) {
   for (unsigned bits = 0; bits < 256; ++bits) {
     const auto corners = corners_of(bits);
@@ -58,7 +58,7 @@ TEST(CellParts, OfTwoRegionsAreRings) {
   }
 }
 
-// Three regions around an edge of the cell's middle hold together in one part.
+// Three regions around a line through the middle of the cell share one part.
 TEST(CellParts, WhereThreeRegionsMeetThereIsOne) {
   const CellParts parts = find_cell_parts({1, 2, 3, 3, 1, 2, 3, 3});
   EXPECT_EQ(parts.count, 1);

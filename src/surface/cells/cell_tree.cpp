@@ -19,7 +19,7 @@ CellPlace first_unit_of(const CellPlace& grid_cell) {
   return {grid_cell[0] << grid_level, grid_cell[1] << grid_level, grid_cell[2] << grid_level};
 }
 
-// Which of eight children of a cell holds a unit.
+// Returns the number, 0 to 7, of the child that contains a unit.
 size_t child_of(const CellPlace& unit, int children_level) {
   size_t child = 0;
   for (size_t axis = 0; axis < 3; ++axis) child |= static_cast<size_t>(unit[axis] >> children_level & 1) << axis;
@@ -139,7 +139,7 @@ void CellTree::grow_at_end(const Growth& growth, const LabelQuery& ask) {
   take_in(growth.taken_in);
 }
 
-// In order; near cuts all of them.
+// Returns the leaves in and around cells of the grid, in ascending order, and sets their is_near_cut.
 std::vector<uint32_t> CellTree::leaves_around(const std::vector<CellPlace>& grid_cells) {
   std::vector<uint32_t> cells;
   for (const CellPlace& cell : grid_cells)
@@ -177,7 +177,7 @@ void CellTree::learn_corners(const Leaf& leaf) {
     labels_.try_emplace(moved(leaf.at, corner, 1 << leaf.level), leaf.corners[corner]);
 }
 
-// What was queried before, or what mixed cells of the grid know.
+// Returns a corner's label if it was queried before or belongs to a mixed cell of the grid.
 std::optional<Label> CellTree::known_label(const CellPlace& corner) const {
   if (const auto found = labels_.find(corner); found != labels_.end()) return found->second;
   const CellPlace above = grid_cell_of(corner);

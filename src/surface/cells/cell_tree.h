@@ -1,4 +1,4 @@
-// The mixed cells of a grid, some of them cut into finer ones: an octree below each cell of the grid.
+// The mixed cells of a grid, each of which may be the root of an octree of finer cells.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,8 @@
 
 namespace ombre::surface {
 
-// Places in a tree count in units, sides of its finest cells. A cell of level n has sides of 2^n units.
+// Places in a tree are counted in units; a unit is the side of the finest cells. A cell of level n has sides of 2^n
+// units.
 constexpr int grid_level = 5;
 constexpr int32_t units_per_cell = 1 << grid_level;
 
@@ -20,17 +21,17 @@ struct PlaceHash {
   size_t operator()(const CellPlace& at) const;
 };
 
-// A cell that is not cut.
+// A cell of the tree that is not subdivided.
 struct Leaf : MixedCell {
   uint8_t level = grid_level;
-  bool is_near_cut = false;     // a cell of the grid around it is cut, or its own
-  bool is_near_growth = false;  // the same since growth was forgotten, or one was taken in
+  bool is_near_cut = false;     // true if its own cell of the grid, or a neighbour of that, is subdivided
+  bool is_near_growth = false;  // true if such a cell was subdivided or added since forget_growth()
 
   bool is_mixed() const;
 };
 
-// Leaves above level 0 that are cut into eight, and cells of the grid that are not mixed and are taken in, by their
-// places in the grid.
+// A request to grow a tree: numbers of leaves above level 0 to subdivide into eight, and places of unmixed cells of the
+// grid to add to the tree.
 struct Growth {
   std::vector<uint32_t> cut;
   std::vector<CellPlace> taken_in;
@@ -41,30 +42,31 @@ struct Growth {
 class CellTree {
  public:
   static constexpr uint32_t none = ~uint32_t{0};
-  // The labels at corners, given by their places in units.
+  // Returns the labels at corners, which are given by their places in units.
   using LabelQuery = std::function<std::vector<Label>(const std::vector<CellPlace>&)>;
 
   explicit CellTree(MixedCells grid);
 
   const voxel::Lattice& lattice() const { return grid_.lattice(); }
   Vec3 point(const CellPlace& units) const;
-  CellPlace unit_at(Vec3 point) const;  // the unit that holds it
+  CellPlace unit_at(Vec3 point) const;  // the unit that contains the point
   Vec3 size_mm(int level) const;
-  // Whether the grid, of which the tree has but some cells, holds a unit.
+  // True if the unit lies inside the grid, even if the tree does not have that cell.
   bool is_within(const CellPlace& unit) const;
-  // Whether a corner lies on the border of the grid, where all is void.
+  // True if a corner lies on the outer boundary of the grid, where every label is void.
   bool is_outermost(const CellPlace& units) const;
 
-  // In order of the grid's cells: z, then y, then x.
+  // Leaves in the order of the grid's cells: by z, then y, then x.
   const std::vector<Leaf>& leaves() const { return leaves_; }
-  // The number of the leaf that holds a unit; none in cells of the grid that the tree does not have.
+  // Returns the number of the leaf that contains a unit, or none if the tree does not have that cell of the grid.
   uint32_t find(const CellPlace& unit) const;
 
   void forget_growth() { grown_.clear(); }
-  // Leaves get new numbers.
+  // Grows the tree and renumbers its leaves.
   void grow(const Growth& growth, const LabelQuery& ask);
-  // Grows by what `more` requests until it requests nothing. `more` gets the leaves in and around the cells of the grid
-  // that grew last; what was cut is still among all leaves() until the end, but is not found.
+  // Grows the tree by `growth`, then by what `more` requests, until it requests nothing. `more` is passed the leaves in
+  // and around the cells of the grid that grew last. Subdivided leaves remain in leaves() until the end, but find() no
+  // longer returns them.
   using MoreGrowth = std::function<Growth(const std::vector<uint32_t>& leaves)>;
   void grow_on(Growth growth, const LabelQuery& ask, const MoreGrowth& more);
 
@@ -74,7 +76,7 @@ class CellTree {
     uint32_t children = none;
     uint32_t leaf = none;
   };
-  // Of a cell of the grid: the first of its eight children, or its number as a leaf.
+  // A cell of the grid: the index of the first of its eight children, or its number as a leaf.
   struct Root {
     uint32_t children = none;
     uint32_t leaf = none;
@@ -84,7 +86,7 @@ class CellTree {
   std::optional<Label> known_label(const CellPlace& corner) const;
   void query_unknown(std::vector<CellPlace> corners, const LabelQuery& ask);
   void take_in(const std::vector<CellPlace>& places);
-  // Leaves that come are numbered after the others.
+  // Grows the tree; new leaves are numbered after the existing ones.
   void grow_at_end(const Growth& growth, const LabelQuery& ask);
   void cut(const Leaf& leaf);
   std::vector<uint32_t> leaves_around(const std::vector<CellPlace>& grid_cells);
@@ -97,14 +99,14 @@ class CellTree {
   void list_below(const CellPlace& at, int level, uint32_t children, bool is_near_growth);
 
   MixedCells grid_;
-  std::vector<Root> roots_;  // of the grid's mixed cells
+  std::vector<Root> roots_;  // one per mixed cell of the grid
   std::vector<Child> children_;
   std::vector<Leaf> leaves_;
-  std::vector<CellPlace> grown_;                            // cells of the grid, since growth was forgotten
-  std::unordered_map<CellPlace, Label, PlaceHash> labels_;  // at corners of cells that were cut
+  std::vector<CellPlace> grown_;                            // cells of the grid that grew since forget_growth()
+  std::unordered_map<CellPlace, Label, PlaceHash> labels_;  // labels at the corners of subdivided cells
 };
 
-// The numbers that leaves have after a tree grew; none where they were cut.
+// Returns the new number of each leaf after a tree grew, or none if the leaf was subdivided.
 std::vector<uint32_t> numbers_after_growth(const std::vector<Leaf>& before, const std::vector<Leaf>& after);
 
 }  // namespace ombre::surface

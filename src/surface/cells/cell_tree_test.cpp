@@ -1,4 +1,4 @@
-// Cells cut into finer ones.
+// Tests of trees of subdivided cells.
 #include "surface/cells/cell_tree.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace ombre::surface {
 namespace {
 
-// A millimetre apart.
+// Returns a lattice of corners 1 mm apart.
 voxel::Lattice corners_of(const std::array<int64_t, 3>& count) {
   voxel::Lattice corners;
   corners.pitch = {Pitch{1, 1}, Pitch{1, 1}, Pitch{1, 1}};
@@ -19,7 +19,7 @@ voxel::Lattice corners_of(const std::array<int64_t, 3>& count) {
   return corners;
 }
 
-// Eight cells around the middle corner, of which only that one is inside.
+// Returns the eight cells around a corner; only that corner is inside.
 CellTree cells_around_a_corner() {
   std::vector<MixedCell> cells;
   for (int32_t k = 1; k <= 2; ++k)
@@ -32,10 +32,10 @@ CellTree cells_around_a_corner() {
   return CellTree(MixedCells(corners_of({5, 5, 5}), std::move(cells)));
 }
 
-// Along each axis.
+// Coordinate of the middle corner along each axis, in units.
 constexpr int32_t middle = 2 * units_per_cell;
 
-// Inside is what is nearer to the middle corner than five eighths of a cell.
+// Labels corners 1 if they are closer to the middle corner than 5/8 of a cell, else 0.
 std::vector<Label> ball(const std::vector<CellPlace>& corners) {
   std::vector<Label> labels;
   for (const CellPlace& at : corners) {
@@ -46,7 +46,7 @@ std::vector<Label> ball(const std::vector<CellPlace>& corners) {
   return labels;
 }
 
-// A row of eight cells, two wide.
+// Returns two rows of eight cells.
 CellTree cells_along_a_plane() {
   std::vector<MixedCell> cells;
   for (int32_t j = 1; j <= 2; ++j)
@@ -66,7 +66,7 @@ std::vector<CrossedEdge> all_crossed_edges(const CellTree& tree) {
   return edges;
 }
 
-// Corners of neighbouring quads, so edges of the dual mesh, come in pairs of opposite directions.
+// Checks that the dual mesh is closed: each of its edges occurs as often in one direction as in the other.
 void expect_closed(const CellTree& tree) {
   std::vector<Crossing> crossings;
   for (const CrossedEdge& edge : all_crossed_edges(tree)) crossings.push_back({edge, {}, {1, 0, 0}});
@@ -103,7 +103,7 @@ TEST(CellTree, OfOneSizeHasAQuadForEachCrossedEdge) {
   expect_closed(tree);
 }
 
-// Next to leaves of every size, whichever are cut.
+// The mesh stays closed whichever of the leaves are subdivided.
 TEST(CellTree, OfManySizesIsClosed) {
   for (uint32_t which = 0; which < 256; ++which) {
     CellTree tree = cells_around_a_corner();

@@ -15,7 +15,7 @@ class Lister {
   void list(uint32_t number, std::vector<ListedEdge>& edges) const {
     const Leaf& leaf = tree_.leaves()[number];
     for (const std::array<int, 2> offsets : {std::array{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-      // Among cells of the same size that are all there, the one where the edge has no offsets lists it.
+      // Around an edge between cells of equal size, the cell in which the edge has offsets 0, 0 lists it.
       if (!leaf.is_near_cut && offsets != std::array{0, 0}) return;
       for (int axis = 0; axis < 3; ++axis) {
         const int number_of_edge = edge_number(axis, offsets[0], offsets[1]);
@@ -39,7 +39,7 @@ class Lister {
       if (other == CellTree::none) continue;
       const uint8_t level = tree_.leaves()[other].level;
       if (level < leaf.level) return;
-      // Of leaves that have all of the edge, the first around it lists it.
+      // If several leaves have the whole edge, the first of them in the order around the edge lists it.
       if (level == leaf.level && !is_listed && other != number) return;
       is_listed |= other == number;
     }

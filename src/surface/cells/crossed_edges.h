@@ -1,4 +1,4 @@
-// The edges of leaves whose ends lie in different regions, and the leaves around them.
+// Edges of leaves whose ends lie in different regions, and the leaves around each.
 #pragma once
 
 #include <array>
@@ -9,30 +9,31 @@
 
 namespace ombre::surface {
 
-// No leaf around the edge is smaller than it is long.
+// A crossed edge of a smallest leaf around it: no leaf around it has shorter sides.
 struct CrossedEdge {
-  CellPlace start{};  // in units
+  CellPlace start{};  // units
   uint8_t axis = 0, level = 0;
-  Label from = 0, to = 0;  // regions at its ends
-  // Corner n of an edge lies in the leaf where the edge has offsets quad_offsets[n]; larger leaves are there twice.
+  Label from = 0, to = 0;  // regions at its first and last corner
+  // Leaves around the edge: in leaves[n] the edge has offsets quad_offsets[n]. A leaf larger than the edge occurs
+  // twice.
   std::array<uint32_t, 4> leaves{};
 };
 constexpr std::array<std::array<int, 2>, 4> quad_offsets{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
-// The unit at an edge's start, in the leaf of this corner.
+// Returns the unit at the edge's start that lies in leaf number `corner` around it.
 CellPlace unit_beside(const CrossedEdge& edge, size_t corner);
 
-// One leaf around each edge lists it.
+// A crossed edge with the one leaf that lists it.
 struct ListedEdge {
   uint32_t leaf = 0;
   CrossedEdge edge;
 };
 
-// The edges that all leaves list, or those near growth, in order of the leaves, then axes. Leaves around them are
-// CellTree::none where the tree has no cell of the grid. Throws Cancelled.
+// Returns the crossed edges listed by all leaves, or by leaves near growth only, in order of leaves, then axes. Leaves
+// around them are CellTree::none if the tree does not have that cell of the grid. Throws Cancelled.
 std::vector<ListedEdge> crossed_edges(const CellTree& tree, bool only_near_growth, int threads,
                                       const StopFlag* stop = nullptr);
-// Those of these leaves.
+// Returns the crossed edges that the given leaves list.
 std::vector<ListedEdge> crossed_edges(const CellTree& tree, const std::vector<uint32_t>& leaves, int threads,
                                       const StopFlag* stop = nullptr);
 

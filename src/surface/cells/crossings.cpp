@@ -15,9 +15,9 @@
 namespace ombre::surface {
 namespace {
 
-constexpr uint32_t leaves_between_checks = 4096;  // at the stop flag
+constexpr uint32_t leaves_between_checks = 4096;  // number of leaves between two looks at the stop flag
 constexpr size_t comparisons_between_checks = 1 << 16;
-constexpr int32_t block_units = 16 * units_per_cell;  // along each axis of a block that shares a shortened program
+constexpr int32_t block_units = 16 * units_per_cell;  // side in units of the blocks that share a shortened program
 
 struct EdgeKey {
   CellPlace start{};
@@ -29,7 +29,7 @@ struct EdgeKeyHash {
   size_t operator()(const EdgeKey& key) const { return PlaceHash()(key.start) + size_t{3} * key.level + key.axis; }
 };
 
-// Crossings of all edges, those that were found before with what is known of them, and the numbers of the others.
+// Lists the crossings of all edges; copies those already known before growth, and collects the numbers of the others.
 class CrossingList {
  public:
   CrossingList(const CellTree& tree, const std::vector<Crossing>& before, const std::vector<uint32_t>& leaves,
@@ -49,8 +49,8 @@ class CrossingList {
   std::vector<uint32_t> unknown;
 
  private:
-  // The leaf that listed an edge before, the first that has all of it, if it lists just the same edges now, far from
-  // what grew; or none.
+  // Returns the current number of the leaf that listed the crossing's edge before, if growth has not come near it, so
+  // that it still lists the same edges; else none.
   uint32_t same_leaf(const Crossing& crossing) const {
     for (const uint32_t before : crossing.edge.leaves) {
       const uint32_t now = before == CellTree::none ? CellTree::none : leaves_[before];
@@ -94,12 +94,12 @@ class CrossingList {
   const std::vector<Crossing>& before_;
   const std::vector<uint32_t>& leaves_;
   std::unordered_map<EdgeKey, uint32_t, EdgeKeyHash> known_;
-  std::vector<uint32_t> same_;  // numbers before, of crossings with the same leaf
+  std::vector<uint32_t> same_;  // numbers before growth of the crossings whose leaf is unchanged
   const StopFlag* stop_;
   size_t next_ = 0;
 };
 
-// Numbers of crossings, block by block; edges of a block have the same length.
+// Sorts crossings by block and returns their numbers, one list per block. All edges of a block have the same length.
 std::vector<std::vector<uint32_t>> cut_into_blocks(const std::vector<Crossing>& crossings, std::vector<uint32_t> order,
                                                    const StopFlag* stop) {
   const auto block_of = [&](uint32_t n) {
@@ -129,7 +129,8 @@ EdgeSearch search_of(const CrossedEdge& edge, const CellTree& tree) {
   return search;
 }
 
-// Finds the crossings of a block, in parts where its program is long: in a smaller box less of it matters.
+// Finds the crossings of a block. If the block's program is long, the block is split, because a smaller box needs a
+// shorter program.
 class BlockFinder {
  public:
   BlockFinder(const Partition& partition, const CellTree& tree, std::vector<Crossing>& crossings, const StopFlag* stop)
@@ -141,7 +142,8 @@ class BlockFinder {
   }
 
  private:
-  // Crossings times operations; asking intervals of a part costs some ten points.
+  // Greatest product of crossings and operations that is not split. Shortening a program costs about as much as ten
+  // points.
   static constexpr size_t most_work = 20000;
 
   Vec3 cell_of(const std::vector<uint32_t>& block) const { return tree_.size_mm(crossings_[block[0]].edge.level); }

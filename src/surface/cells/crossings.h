@@ -1,4 +1,4 @@
-// Where edges of cells cross the borders of regions, and how the borders lie there.
+// Points where edges of cells cross the borders of regions, with the normals of the borders there.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,16 @@ struct Crossing {
   static constexpr uint32_t none = ~uint32_t{0};
   CrossedEdge edge;
   Vec3 at;                 // mm
-  Vec3 normal;             // unit; from the edge's region `from` into region `to`
-  uint32_t before = none;  // its number before the last cut, if its edge was crossed already
+  Vec3 normal;             // unit vector from the edge's region `from` into region `to`
+  uint32_t before = none;  // its number before the last growth, if the edge was already crossed
 };
 
-// All crossings, in order of their leaves, then axes. Throws Cancelled.
+// Returns all crossings, in order of their leaves, then axes. Throws Cancelled.
 std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads,
                                      Progress* progress = nullptr, const StopFlag* stop = nullptr);
 
-// The same after the tree grew; what was found before is taken over. `leaves` are the numbers that leaves have now.
+// Returns all crossings after the tree grew, and copies those that are known from `before`. `leaves` maps old numbers
+// of leaves to new ones. Throws Cancelled.
 std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,
                                                   const std::vector<Crossing>& before,
                                                   const std::vector<uint32_t>& leaves, int threads,

@@ -5,11 +5,12 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double exact_enough = 1e-8;  // of the edge's length
+constexpr double exact_enough = 1e-8;  // as a fraction of the edge's length
 constexpr int most_search_rounds = 40;
-constexpr double beside = 1e-4;  // an end
+constexpr double beside = 1e-4;  // distance from an end, as a fraction of the edge
 
-// Where the value is 0 at an end, the border is there; or the value stays 0 for a while, and labels say where it is.
+// Settles searches whose value is 0 at an end: the border is at that end, unless the value stays 0 for a stretch; then
+// labels decide.
 void settle_ends(std::span<EdgeSearch> searches, PointEvaluator& evaluator) {
   std::vector<EdgeSearch*> settled;
   std::vector<Vec3> points;
@@ -63,7 +64,7 @@ void narrow_by_value(EdgeSearch& s, double f) {
   const bool is_before = f <= 0;
   (is_before ? s.lo : s.hi) = s.t;
   (is_before ? s.f_lo : s.f_hi) = f;
-  // An end that stays twice counts half: Illinois.
+  // Illinois variant: the value at an end that stays twice is halved.
   const int kept = is_before ? 1 : -1;
   if (s.last_kept == kept) (is_before ? s.f_hi : s.f_lo) *= 0.5;
   s.last_kept = kept;

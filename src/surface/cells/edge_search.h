@@ -1,4 +1,4 @@
-// Finds where the edges of a block of cells cross from one region into the next.
+// Finds the points where edges of a block of cells cross from one region into another.
 #pragma once
 
 #include <span>
@@ -8,17 +8,17 @@
 
 namespace ombre::surface {
 
-// One edge: start + t * along, t from 0 to 1. Its crossing is at `t` when the search is over.
+// The search on one edge: start + t * along, with t from 0 to 1. `t` is the crossing once the search has finished.
 struct EdgeSearch {
   Vec3 start, along;
   Label from = 0, to = 0;
-  double t = -1;            // none yet
-  bool is_between = false;  // `start` lies in region `from`, the other end in region `to`
-  // Whether the value that parts the regions goes through zero on the edge, and by how much it rises along it.
+  double t = -1;            // -1 until found
+  bool is_between = false;  // true if `start` lies in region `from` and the other end in region `to`
+  // True if a continuous value separates the regions along the edge; `rise` is its increase from start to end.
   bool by_value = false;
   double rise = 0;
 
-  // The crossing lies between them; f at both, where by_value.
+  // Bounds of the crossing; f_lo and f_hi are the values there if by_value.
   double lo = 0, hi = 1, f_lo = 0, f_hi = 0;
   int last_kept = 0;
   bool is_done = false;
@@ -26,8 +26,8 @@ struct EdgeSearch {
   Vec3 point(double s) const { return start + s * along; }
 };
 
-// By what goes through zero there (a distance, a fraction) with the secant method, Illinois variant; where there is
-// no such value, by halving between the regions.
+// Finds the crossings. If a continuous value (a distance, a fraction) separates the regions, its zero is found by the
+// secant method, Illinois variant; otherwise by bisection on the labels.
 void search_edges(std::span<EdgeSearch> searches, PointEvaluator& evaluator);
 
 }  // namespace ombre::surface

@@ -18,13 +18,14 @@ using voxel::Lattice;
 using voxel::TileBox;
 
 constexpr uint8_t fine_level = grid_level - 2;
-constexpr int32_t units = 1 << fine_level;            // from one corner of finer cells to the next
-constexpr int32_t per_cell = units_per_cell / units;  // of the grid, along an axis
+constexpr int32_t units = 1 << fine_level;            // distance between corners of finer cells, in units
+constexpr int32_t per_cell = units_per_cell / units;  // number of finer cells along a side of a cell of the grid
 constexpr int64_t fine_slab_layers = int64_t{4} * per_cell;
-constexpr int64_t strip_rows = 64;  // of a slab, whose labels are in memory at a time
+constexpr int64_t strip_rows = 64;  // number of rows of a slab whose labels are in memory at a time
 constexpr size_t edges_at_once = size_t{1} << 18;
 
-// Corners of finer cells, the first of which is the first of the grid's; none if the pitch is too small for that.
+// Returns the lattice of corners of finer cells, which starts at the grid's first corner; null if its pitch is too
+// small.
 std::optional<Lattice> finer(const Lattice& corners) {
   Lattice finer;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -38,8 +39,8 @@ std::optional<Lattice> finer(const Lattice& corners) {
   return finer;
 }
 
-// Searches a tile that is not uniform for edges with both ends in it. What others miss by that is far larger than
-// cells, or has more edges.
+// Searches a tile that is not uniform for crossed edges with both ends in it. Edges between tiles may be skipped: a
+// border that crosses only those is much larger than a cell or crosses other edges too.
 class TileEdges {
  public:
   TileEdges(const FieldTile& tile, const CellTree& tree) : tile_(tile), tree_(tree) {
@@ -93,7 +94,7 @@ class TileEdges {
     edges.push_back(edge);
   }
 
-  // Behind the last corners there are no cells.
+  // Returns true if the tree does not have the unit's cell of the grid. There are no cells beyond the last corners.
   bool is_hidden(const CellPlace& unit) const {
     for (size_t axis = 0; axis < 3; ++axis)
       if (unit[axis] >= (tree_.lattice().count[axis] - 1) * units_per_cell) return false;
@@ -103,7 +104,7 @@ class TileEdges {
   const FieldTile& tile_;
   const CellTree& tree_;
   CellPlace first_cell_{}, cells_{};
-  std::vector<Cell> known_;  // of the grid's cells around the tile
+  std::vector<Cell> known_;  // state of the grid's cells around the tile
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Borders that no corner of a grid's cells sees, as of small pockets and thin gaps.
+// Borders that no corner of a grid's cells shows, such as those of small pockets and thin gaps.
 #pragma once
 
 #include <functional>
@@ -10,10 +10,10 @@
 
 namespace ombre::surface {
 
-// Finds edges of finer cells, a quarter as long, that are crossed in cells of the grid that the tree, of which nothing
-// is cut, does not have. Calls take() with some after the other, in an order that does not depend on the threads, until
-// it returns false. No leaves are given. Finds none in cells of less than about 1e-14 mm, whose quarter is no Pitch.
-// Throws Cancelled.
+// Finds crossed edges of finer cells (a quarter of the grid's) inside cells of the grid that the tree does not have;
+// nothing in the tree may be subdivided yet. Calls take() with batches of edges, in an order independent of the number
+// of threads, until it returns false. The edges' leaves are not set. Finds nothing if cells are smaller than about
+// 1e-14 mm, because a quarter of that is no Pitch. Throws Cancelled.
 void find_hidden_edges(const program::Program& label, const CellTree& tree, int threads, const StopFlag* stop,
                        const std::function<bool(const std::vector<CrossedEdge>&)>& take);
 

@@ -7,9 +7,9 @@
 namespace ombre::surface {
 namespace {
 
-// A crossing on the way around a face, and the region before it.
+// One crossing on the walk around a face, and the region before it.
 struct Step {
-  uint32_t crossing = 0;  // among those around the leaf
+  uint32_t crossing = 0;  // index among the crossings around the leaf
   Label before = 0;
 };
 
@@ -32,7 +32,7 @@ class PartFinder {
   }
 
  private:
-  // A square of the leaf's face, cut as the leaves beyond it are.
+  // Visits a square of the leaf's face; it is subdivided like the leaves on the other side.
   void visit_face(const CellPlace& at, size_t axis, int32_t side, int level) {
     CellPlace beyond = at;
     beyond[axis] -= 1 - side;
@@ -79,8 +79,8 @@ class PartFinder {
            edge.start[(axis + 2) % 3] == start[(axis + 2) % 3] && along >= 0 && along < 1 << level;
   }
 
-  // The region that has most stretches around the face, the greatest of equals, holds together across it; what lies
-  // between two of its stretches is cut off.
+  // Joins the crossings around one face. The region with most stretches around the face (the greatest label if several
+  // have as many) stays connected across the face; what lies between two of its stretches is cut off.
   void join_way() {
     std::map<Label, size_t> stretches;
     for (const Step& step : way_) ++stretches[step.before];

@@ -1,4 +1,4 @@
-// How the borders of regions go through a leaf that smaller ones touch.
+// The parts of the borders of regions within a leaf that touches smaller leaves.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace ombre::surface {
 
-// Part numbers, from 0, of crossings around a leaf, given by their numbers. Crossings that are joined across the faces
-// that the leaf has in common with its neighbours are one part, as in find_cell_parts: where two regions meet, each
-// part is a ring, and both leaves at a face see it alike.
+// Returns a part number, from 0, for each crossing around a leaf; `around` holds the numbers of the crossings.
+// Crossings that are joined across a face shared with a neighbour form one part, as in find_cell_parts: if two regions
+// meet, each part is a ring, and both leaves at a face decide alike.
 std::vector<uint32_t> find_leaf_parts(const CellTree& tree, const Leaf& leaf, const std::vector<Crossing>& crossings,
                                       std::span<const uint32_t> around);
 

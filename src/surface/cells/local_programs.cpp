@@ -13,18 +13,20 @@
 namespace ombre::surface {
 namespace {
 
-constexpr size_t short_enough = 1000;  // operations that are as soon shortened as looked up
-constexpr size_t many_parts = 32;      // are not written out
+// operations; looking up a shortened program would take as long as shortening this one
+constexpr size_t short_enough = 1000;
+constexpr size_t many_parts = 32;  // from this number of parts on, they are not unrolled
 constexpr int most_halvings = 8;
-constexpr double worth_keeping = 0.6;          // of the operations are left, at most
-constexpr size_t most_operations = 4'000'000;  // in all cells; some 130 MB
-constexpr double slack = 0.25;                 // of its side, to which a cell's program holds around it
+constexpr double worth_keeping = 0.6;          // greatest share of operations left for a shortened program to be kept
+constexpr size_t most_operations = 4'000'000;  // limit for all cells together; about 130 MB
+constexpr double slack = 0.25;  // fraction of its side by which a cell's program is valid beyond the cell
 
 }  // namespace
 
 double longest_side(const Box& box) { return std::max({box.size().x, box.size().y, box.size().z}); }
 
-// Cells: halves, quarters and so on of a cube, each with the program for a box somewhat larger than itself.
+// A hierarchy of cells: halves, quarters and so on of a cube, each with the program for a box slightly larger than
+// itself.
 class LocalPrograms::Cells {
  public:
   Cells(program::Program whole, const Box& space)
@@ -48,11 +50,11 @@ class LocalPrograms::Cells {
   }
 
  private:
-  using Place = std::array<int, 4>;  // how often halved, and the cell's index along each axis
+  using Place = std::array<int, 4>;  // number of halvings, then the cell's index along each axis
   struct Cell {
     std::once_flag once;
     program::Program program;
-    const program::Program* use = nullptr;  // this, or one for a larger cell
+    const program::Program* use = nullptr;  // the program of this cell, or that of a larger cell
   };
 
   const program::Program& shortened(const Place& place, double side, const program::Program& above) {

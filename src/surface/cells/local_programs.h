@@ -1,4 +1,4 @@
-// A long program as it is in parts of space, each shortened once for all who ask there.
+// Versions of a long program for parts of space, each shortened once and shared by all callers.
 #pragma once
 
 #include <memory>
@@ -7,16 +7,17 @@
 
 namespace ombre::surface {
 
-// Thread-safe; copies share what was shortened.
+// A cache of shortened programs. Thread-safe; copies share it.
 class LocalPrograms {
  public:
-  // Of nothing.
+  // Constructs the cache of an empty program.
   LocalPrograms();
-  // Parts of space are halves, quarters and so on of about this box.
+  // Constructs the cache of a program; its parts of space are halves, quarters and so on of about `space`.
   LocalPrograms(program::Program whole, const Box& space);
   const program::Program& whole() const;
 
-  // What is left of it somewhere around a box, within a few times its size, or in the whole of space. It stays.
+  // Returns a program valid at least in the box: one for a part of space up to a few times larger, or the whole
+  // program. The reference stays valid as long as this object.
   const program::Program& around(const Box& box) const;
 
  private:

@@ -24,7 +24,7 @@ Vec3 random_place(std::mt19937& random, const Box& box) {
   return place;
 }
 
-// The distance to the nearest of many balls.
+// Returns a program for the distance to the nearest of many balls.
 Program balls() {
   std::mt19937 random(2);
   Builder builder;

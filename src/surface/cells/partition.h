@@ -1,4 +1,4 @@
-// Space cut into regions: what contouring asks of a design.
+// A partition of space into regions, as contouring evaluates it.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace ombre::surface {
 
-// Which region a point is in: 0 is void, regions count from 1.
+// The number of a region; 0 is void, regions count from 1.
 using Label = uint16_t;
 
-// How regions are distinguished where both sides are inside.
+// The rule that decides between two regions inside the solid.
 enum class Division : uint8_t {
-  bands,     // by one score: region n + 1 lies where exactly n of the borders are at or below it
-  greatest,  // by a score for each region: the greatest decides, the first of equals
+  bands,     // by one score: region n + 1 is where exactly n of the borders are less than or equal to it
+  greatest,  // by one score per region: the greatest wins, the first if several are equal
 };
 
-// Programs are without calls.
+// Programs that define the partition; they contain no calls.
 struct Partition {
-  program::Program label;  // one output: the region's number
-  // Outputs: the region's number, g (negative inside, 0 on the surface), then the scores.
+  program::Program label;  // one output: the number of the region
+  // Outputs: the number of the region, g (negative inside, 0 on the surface), then the scores.
   LocalPrograms details;
   enum Output : size_t { label_output, distance_output, first_score };
   Division division = Division::bands;
-  std::vector<double> borders;  // of bands; increasing
+  std::vector<double> borders;  // borders of the bands, ascending
   size_t regions = 1;
 };
 

@@ -32,7 +32,7 @@ double PointEvaluator::between(Label a, Label b, size_t n) const {
   if (a == 0) return -distance;
   if (partition_->division == Division::greatest)
     return value(Partition::first_score + b - 1, n) - value(Partition::first_score + a - 1, n);
-  // Regions that are not neighbours are parted in the middle of those between them.
+  // Bands that are not neighbours are separated at the middle one of the borders between them.
   const double past = value(Partition::first_score, n) - partition_->borders[(a + b) / 2 - 1];
   return a < b ? past : -past;
 }

@@ -11,13 +11,13 @@ namespace ombre::surface {
 
 class PointEvaluator {
  public:
-  // `program` gives the partition's details in a region that holds all points.
+  // Selects the program for the next points; it must be valid in a region that contains them all.
   void begin(const Partition& partition, const program::Program& program);
-  // The results replace those of the last call.
+  // Evaluates points; the results replace those of the previous call.
   void ask(const std::vector<Vec3>& points);
 
   Label label(size_t n) const { return static_cast<Label>(value(Partition::label_output, n)); }
-  // A number that goes from negative to positive on the way from region a to region b.
+  // Returns a number that rises from negative to positive on the way from region a to region b.
   double between(Label a, Label b, size_t n) const;
 
  private:

@@ -1,4 +1,4 @@
-// Finds the regions of scattered points, in parallel.
+// Evaluates the regions of scattered points in parallel.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace ombre::surface {
 
-// Uses the reference evaluator. Throws Cancelled.
+// Returns the label at each point, from the reference evaluator. Throws Cancelled.
 std::vector<Label> labels_at(const Partition& partition, const std::vector<Vec3>& points, int threads,
                              const StopFlag* stop = nullptr);
 

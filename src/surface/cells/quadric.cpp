@@ -6,8 +6,8 @@
 namespace ombre::surface {
 namespace {
 
-// Directions in which planes agree but for noise and curvature: their share of the greatest eigenvalue. Planes that
-// meet at some 10 degrees have 0.01.
+// Least eigenvalue, as a share of the greatest, that counts as a constraint; smaller ones are noise and curvature.
+// Planes that meet at about 10 degrees have 0.01.
 constexpr double least_share = 0.01;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Points nearest to planes.
+// Tests of the points nearest to planes.
 #include "surface/cells/quadric.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(Quadric, OfThreePlanesIsTheirCorner) {
   planes.add({1, 8, 1}, {0, 0.6, 0.8});
   third.add({1, 1, 9}, {0, -0.8, 0.6});
   planes.add(third);
-  // x = 7, 0.6 y + 0.8 z = 5.6, -0.8 y + 0.6 z = 4.6
+  // The planes are x = 7, 0.6 y + 0.8 z = 5.6 and -0.8 y + 0.6 z = 4.6.
   expect_near(planes.least().at, {7, 0.6 * 5.6 - 0.8 * 4.6, 0.8 * 5.6 + 0.6 * 4.6});
 }
 

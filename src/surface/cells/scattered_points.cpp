@@ -12,9 +12,9 @@
 namespace ombre::surface {
 namespace {
 
-constexpr size_t most_points = 8192;  // of a task
-constexpr size_t fewest_points = 8;   // for which a program is shortened once more
-constexpr size_t most_work = 40000;   // points times operations of a program that is not shortened further
+constexpr size_t most_points = 8192;  // greatest number of points per task
+constexpr size_t fewest_points = 8;   // least number of points for which a program is shortened again
+constexpr size_t most_work = 40000;   // points times operations; less work is not split further
 
 using Numbers = std::span<uint32_t>;
 
@@ -24,7 +24,7 @@ Box box_of(const std::vector<Vec3>& points, Numbers numbers) {
   return box;
 }
 
-// Halves of about the same number, on both sides of a plane across the longest side of their box.
+// Splits points at a plane across the longest side of their box into two halves of about equal size.
 std::pair<Numbers, Numbers> halves(const std::vector<Vec3>& points, const Box& box, Numbers numbers) {
   const Vec3 size = box.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -43,7 +43,8 @@ void cut_into_tasks(const std::vector<Vec3>& points, Numbers numbers, std::vecto
   cut_into_tasks(points, two, tasks);
 }
 
-// Equal boxes over all points, with some thousand points each where they are spread evenly over a surface.
+// Divides the box around all points into equal boxes, with a few thousand points each if they are spread evenly over a
+// surface.
 class Boxes {
  public:
   explicit Boxes(const std::vector<Vec3>& points) {
@@ -70,7 +71,7 @@ class Boxes {
   size_t count_ = 1;
 };
 
-// The numbers of points, box by box, and where each box begins.
+// Numbers of the points, ordered by box, and the index at which each box begins.
 struct Sorted {
   std::vector<uint32_t> numbers;
   std::vector<size_t> begins;

@@ -1,4 +1,4 @@
-// Work at scattered points, cut into parts of space where less of a program matters.
+// Work at scattered points, divided into parts of space for which the program can be shortened.
 #pragma once
 
 #include <functional>
@@ -12,13 +12,13 @@
 
 namespace ombre::surface {
 
-// A program that holds at least in a box.
+// Returns a program that is valid at least in the box.
 using ProgramAround = std::function<const program::Program&(const Box&)>;
 
-// The program as it is around these points; their numbers.
+// Handles the points with the given numbers; `program` is valid around them.
 using PointWork = std::function<void(const program::Program& program, std::span<const uint32_t> numbers)>;
 
-// Does the work for all points, each once, in parallel; the program may be queried as far as the margin from them.
+// Calls `work` in parallel so that each point is handled once. Programs are valid up to the margin around the points.
 // Throws Cancelled.
 void work_at(const ProgramAround& program, const std::vector<Vec3>& points, double margin_mm, int threads,
              const StopFlag* stop, const PointWork& work);

@@ -1,4 +1,4 @@
-// Programs as they are in a box.
+// Shortens programs for a box.
 #pragma once
 
 #include <limits>
@@ -10,8 +10,8 @@ namespace ombre::surface {
 
 constexpr size_t all_parts = std::numeric_limits<size_t>::max();
 
-// The program for a box of points: what is settled there is left out, and many parts are written out, if fewer than
-// `many` reach it.
+// Returns a program equivalent to `details` inside the box, without the operations whose outcome is certain there.
+// Loops over parts are unrolled if fewer than `many` parts reach the box.
 program::Program shortened_for(const program::Program& details, const Box& box, size_t many = all_parts);
 
 }  // namespace ombre::surface

@@ -1,4 +1,4 @@
-// Threads that work on a surface until they are done, or are to stop.
+// The threads that work on a surface, and their stop flag.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@ struct Workers {
   int threads = 0;                 // 0: all cores
   const StopFlag* stop = nullptr;  // may be null
 
-  // Throws Cancelled once the work is to stop. Call it at least every few hundredths of a second.
+  // Throws Cancelled if a stop is requested. Long work calls it at least every few hundredths of a second.
   void check_stop() const {
     if (stop && stop->requested()) throw Cancelled();
   }
-  // The same in a long loop, at each so many turns.
+  // Calls check_stop() every 4096th turn of a long loop.
   void check_stop_at(size_t turn) const {
     if (turn % turns_between_checks == 0) check_stop();
   }
 
-  // body(begin, end) for pieces of 0 to count, in no particular order. Throws Cancelled.
+  // Calls body(begin, end) in parallel for consecutive pieces of 0 to count, in no particular order. Throws Cancelled.
   template <class Body>
   void in_pieces(size_t count, size_t piece, const Body& body) const {
     run_parallel((count + piece - 1) / piece, threads, [&](size_t p) {

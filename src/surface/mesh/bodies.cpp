@@ -18,12 +18,12 @@ std::vector<Triangle> triangles_around(const RegionSurface& surface, Label regio
   return triangles;
 }
 
-// One side of a triangle, from corner `side` to the next.
+// One side of a triangle, from corner `side` to the next corner.
 struct HalfEdge {
-  uint32_t low, high;  // vertices
+  uint32_t low, high;  // vertices at its ends
   uint32_t triangle;
   uint8_t side;
-  bool is_forward;  // from low to high
+  bool is_forward;  // true if the triangle runs from `low` to `high`
   double angle = 0;
 };
 
@@ -37,7 +37,7 @@ class Manifold {
   Body make() {
     join_along_edges();
     std::vector<uint32_t> number(class_.size(), none), vertex_of(class_.size());
-    std::vector<std::pair<uint32_t, uint32_t>> order;  // of the surface's vertex, class
+    std::vector<std::pair<uint32_t, uint32_t>> order;  // pairs of the surface's vertex and the class
     for (uint32_t corner = 0; corner < class_.size(); ++corner)
       if (find(corner) == corner) order.emplace_back(triangles_[corner / 3][corner % 3], corner);
     std::ranges::sort(order);
@@ -80,14 +80,15 @@ class Manifold {
     }
   }
 
-  // More than two triangles around an edge: those that have solid between them belong together.
+  // Joins the corners of pairs of triangles at an edge with more than two triangles: each pair encloses a wedge of
+  // solid.
   void join_wedges(std::vector<HalfEdge> fan) {
     const Vec3 low = surface_.vertices[fan[0].low], high = surface_.vertices[fan[0].high];
     const Vec3 along = high - low, u = third(fan[0]) - low;
     const Vec3 v = cross(along, u), w = cross(v, along);
     for (HalfEdge& e : fan) e.angle = std::atan2(dot(third(e) - low, v) * length(along), dot(third(e) - low, w));
     std::ranges::stable_sort(fan, {}, &HalfEdge::angle);
-    // Counter-clockwise from a triangle that runs backward there is solid, up to the next that runs forward.
+    // Solid lies counter-clockwise from a triangle that is not forward, up to the next one that is.
     for (size_t left = fan.size(); left >= 2; left -= 2) {
       size_t n = 0;
       while (n < fan.size() && (fan[n].is_forward || !fan[(n + 1) % fan.size()].is_forward)) ++n;
@@ -101,7 +102,7 @@ class Manifold {
 
   Vec3 third(const HalfEdge& e) const { return surface_.vertices[triangles_[e.triangle][(e.side + 2U) % 3]]; }
 
-  // The corners of both triangles at an edge's ends become one vertex each.
+  // Joins the corners of both triangles at each end of an edge into one vertex.
   void join(const HalfEdge& a, const HalfEdge& b) {
     const auto corner = [](const HalfEdge& e, bool at_low) {
       return 3 * e.triangle + (e.is_forward == at_low ? e.side : (e.side + 1U) % 3);
@@ -121,7 +122,7 @@ class Manifold {
 
   const RegionSurface& surface_;
   std::vector<Triangle> triangles_;
-  std::vector<uint32_t> class_;  // of corners that are one vertex
+  std::vector<uint32_t> class_;  // union-find parents of corners; corners in one class become one vertex
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One region's closed surface, as programs that read meshes want it.
+// The closed surface of one region, in the form that programs which read meshes expect.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ struct Body {
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
 };
 
-// The facets around a region. Where its surface touches itself in an edge or a vertex, that is there once for each
-// sheet, so that every edge has two triangles and every vertex one fan: a closed manifold. Vertices keep the order and
-// the bits that they have in the surface, so neighbours meet exactly.
+// Returns the facets around a region. If the region's surface touches itself in an edge or a vertex, that edge or
+// vertex is duplicated for each sheet. The result is a closed manifold: every edge has two triangles and every vertex
+// one fan. Vertices keep the order and the exact coordinates of the surface, so neighbouring bodies meet exactly.
 Body body_of(const RegionSurface& surface, Label region);
 
 double volume_mm3(const Body& body);

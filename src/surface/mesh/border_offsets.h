@@ -1,4 +1,4 @@
-// How far the border between two regions lies from points beside it.
+// Distances from points to the border between two regions.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace ombre::surface {
 
-// A point near the border between two regions, and the unit normal there, out of region `from` into region `to`.
+// A point near the border between two regions, and the border's unit normal there, from region `from` into region `to`.
 struct BorderSample {
   Vec3 at, normal;
   Label from = 0, to = 0;
 };
 
-// In mm along the normals, no more than the reach either way; nothing where the ends of that way lie in other regions.
-// Throws Cancelled.
+// Returns for each sample the signed distance in mm to the border along the normal, at most `reach_mm` either way; null
+// if the ends of that segment do not lie in the regions `from` and `to`. Throws Cancelled.
 std::vector<std::optional<double>> border_offsets(const Partition& partition, const std::vector<BorderSample>& samples,
                                                   double reach_mm, int threads, const StopFlag* stop = nullptr);
 

@@ -9,30 +9,32 @@
 namespace ombre::surface {
 namespace {
 
-// Of the tolerance, for the root of the mean square of distances to planes; the greatest is some three times that.
+// Limit for the rms distance to the planes, as a share of the tolerance; the greatest distance is about three times the
+// rms.
 constexpr double rms_share = 0.3;
 
 int level_of(int32_t index) { return index == 0 ? 31 : std::countr_zero(static_cast<uint32_t>(index)); }
 
-// A quad with its edge's axis, and the levels of the two lattice planes that the edge lies in: below 2^level units they
-// are borders of cells. Kept together, since crossings are large and lie far apart.
+// A quad with the axis of its edge and the levels of the two lattice planes that contain the edge: a plane of level n
+// is a boundary of cells of sides up to 2^n units. Stored compactly, because crossings are large and scattered in
+// memory.
 struct LevelQuad {
   uint32_t number = 0;
   uint8_t axis = 0, u = 0, v = 0;
 };
 
-// What is known of the clusters that may become one.
+// Data of clusters that may be joined into one.
 struct Candidate {
   std::vector<uint32_t> members;
-  int euler = 0;           // of their part of the surface: 1 for a disc
-  int inner_arc_ends = 0;  // of arcs in which members meet
+  int euler = 0;           // Euler characteristic of their part of the surface; 1 for a disc
+  int inner_arc_ends = 0;  // number of ends of arcs in which members meet
   uint16_t crossed_edges = 0;
   bool crosses_twice = false, is_blocked = false;
   Quadric planes;
   NormalSpread spread;
 };
 
-// The edges around each face of a cell.
+// Returns for each face of a cell its edges as bits.
 constexpr std::array<uint16_t, 6> edges_of_faces() {
   std::array<uint16_t, 6> faces{};
   for (size_t face = 0; face < 6; ++face)
@@ -70,7 +72,7 @@ class LevelBuilder {
     }
   }
 
-  // False when there is nothing left to join.
+  // Joins clusters into cells of a level. Returns false if nothing is left to join.
   bool build(int level) {
     level_ = level;
     for (uint32_t n = 0; n < mesh_.vertices.size(); ++n)
@@ -98,7 +100,7 @@ class LevelBuilder {
   }
   bool is_fresh(uint32_t cluster) const { return clusters_[cluster].level == level_ - 1; }
 
-  // Clusters that hang together across what is inside of a cell of this level.
+  // Groups the clusters that are connected inside a cell of this level.
   void gather() {
     group_.assign(clusters_.size(), Cluster::none);
     for (const uint32_t c : fresh_) group_[c] = c;
@@ -162,7 +164,7 @@ class LevelBuilder {
     return number_[cluster] == Cluster::none ? nullptr : &candidates_[number_[cluster]];
   }
 
-  // Points where four members meet, or more arcs go on.
+  // Counts the points at which four members meet or several arcs pass.
   void note_points() {
     for (const LevelQuad& q : quads_) {
       if (std::max(q.u, q.v) != level_ - 1) continue;
@@ -184,7 +186,7 @@ class LevelBuilder {
     }
   }
 
-  // Of candidates that are not blocked.
+  // Returns the points nearest to the planes of each candidate that is not blocked.
   std::vector<Quadric::Least> find_least() const {
     constexpr size_t piece = 4096;
     std::vector<Quadric::Least> least(candidates_.size());
@@ -195,7 +197,8 @@ class LevelBuilder {
     return least;
   }
 
-  // What cannot stand for its members may still hang together with others, and be a disc with them, a level up.
+  // Makes a cluster of each candidate within the tolerance. A cluster that is not a disc is marked as split: its
+  // members stay, but it may become part of a disc one level up.
   void make_clusters() {
     std::vector<uint32_t> made;
     const std::vector<Quadric::Least> leasts = find_least();
@@ -207,7 +210,7 @@ class LevelBuilder {
       if (least.rms_mm > candidate.spread.most_rms(rms_share) * tolerance_mm_) continue;
       CellPlace place = clusters_[candidate.members[0]].place;
       for (int32_t& index : place) index >>= 1;
-      // Two quads tell of each arc.
+      // Every arc is counted by two quads.
       const int euler = candidate.euler - candidate.inner_arc_ends / 2;
       const bool is_simple = euler == 1 && !candidate.crosses_twice && borders_are_simple(candidate.crossed_edges) &&
                              room_of(tree_, place, level_).contains(least.at);
@@ -234,12 +237,12 @@ class LevelBuilder {
   ClusterList& list_;
   std::vector<Cluster>& clusters_;
   int level_ = 0;
-  std::vector<Quadric> planes_;        // of what is joined
-  std::vector<NormalSpread> spreads_;  // the same
+  std::vector<Quadric> planes_;        // planes of the joined clusters
+  std::vector<NormalSpread> spreads_;  // normal spreads of the joined clusters
   std::vector<int> euler_;
   std::vector<bool> may_join_;
-  std::vector<uint32_t> tops_;  // by vertex: the cluster above it that is in none itself
-  std::array<std::vector<LevelQuad>, grid_level + 1> later_quads_;  // by levels of their edges
+  std::vector<uint32_t> tops_;                                      // by vertex: the topmost cluster above it
+  std::array<std::vector<LevelQuad>, grid_level + 1> later_quads_;  // by level of their edges
   std::vector<LevelQuad> quads_;
   std::vector<uint32_t> fresh_, group_, number_, blocked_, arc_ends_;
   std::vector<Candidate> candidates_;
@@ -262,7 +265,7 @@ Clusters::Clusters(const CellTree& tree, const std::vector<Crossing>& crossings,
     LevelBuilder builder(tree, crossings, mesh, tolerance_mm, workers, list_);
     const auto& count = tree.lattice().count;
     const auto longest = static_cast<uint64_t>(std::max({count[0], count[1], count[2]}));
-    // What hangs together in the whole grid ends there.
+    // At the level at which one cell holds the whole grid, nothing is left to join.
     const int levels = grid_level + static_cast<int>(std::bit_width(longest));
     for (int level = lowest + 1; level <= levels && builder.build(level); ++level) {
     }
@@ -282,7 +285,7 @@ void Clusters::split(uint32_t cluster, std::vector<uint32_t>& vertices) {
   let_stand(Cluster::none, cluster, vertices);
 }
 
-// For the vertices below, or what is not split there, if there is no cluster yet.
+// Makes `cluster` represent all vertices below `below`; if it is none, the first cluster below that is not split does.
 void Clusters::let_stand(uint32_t cluster, uint32_t below, std::vector<uint32_t>& vertices) {
   const Cluster& c = list_.all[below];
   if (cluster == Cluster::none && !c.is_split) cluster = below;

@@ -12,13 +12,14 @@ namespace ombre::surface {
 namespace {
 
 constexpr int most_cutting_rounds = 16, most_finishing_rounds = 3;
-// That may come from cutting, or twice as many as the grid has, if that is more.
+// Number of leaves that subdivision may add; twice the number of the grid's mixed cells if that is more.
 constexpr size_t most_more_leaves = size_t{1} << 22;
-constexpr size_t leaves_of_hidden_edge = 8;  // about, where it is to be seen
-// Larger trees are finished once if triangles still cross: they would after further rounds.
+constexpr size_t leaves_of_hidden_edge = 8;  // approximate number of leaves that it takes to resolve a hidden edge
+// Trees with at least this many leaves get one round of finishing if triangles still intersect: more rounds would not
+// remove the intersections.
 constexpr size_t most_leaves_of_rounds = size_t{1} << 21;
 
-// The cells of a partition, with what is known of them, cut where one vertex for each is too few.
+// Returns the greatest number of leaves. Throws Error if the grid's cells alone need more memory than is allowed.
 size_t most_leaves(size_t grid_leaves, size_t memory_bytes) {
   const size_t wanted = grid_leaves + std::max(most_more_leaves, 2 * grid_leaves);
   if (memory_bytes == 0) return wanted;
@@ -56,7 +57,7 @@ class CellRefiner {
         if (cut(coarse, round == 0 ? hidden_edges(maker) : std::vector<CrossedEdge>())) continue;
       }
       maker.finish(partition_);
-      // What was mended may lie too far off.
+      // Mending may have moved the surface too far off.
       if (++finished < rounds_of_finishing(maker) && cut(maker.far_cells(), {})) continue;
       maker.undo_far_moves();
       return maker.build();
@@ -74,7 +75,7 @@ class CellRefiner {
     return maker.far_hidden_edges((most_leaves_ - tree_.leaves().size()) / leaves_of_hidden_edge);
   }
 
-  // False when there is nothing to cut, or the tree is large enough.
+  // Subdivides cells. Returns false if there is nothing to subdivide or the tree has reached its greatest size.
   bool cut(const Growth& cells, const std::vector<CrossedEdge>& hidden) {
     if (cells.is_empty() && hidden.empty()) return false;
     if (tree_.leaves().size() >= most_leaves_) return false;

@@ -1,4 +1,4 @@
-// The borders of regions as triangles, by dual contouring.
+// Converts the borders of regions to triangles by dual contouring.
 #pragma once
 
 #include "base/system/progress.h"
@@ -6,14 +6,15 @@
 
 namespace ombre::surface {
 
-// What contouring takes for each cell that a border runs through, measured from 2e5 to 3e6 cells.
+// Memory that contouring needs for each cell that a border passes through, measured with 2e5 to 3e6 cells.
 constexpr double bytes_per_mixed_cell = 850;
 
-// Dual contouring (Ju et al., 2002) with a vertex for each part of a cell (Nielson, 2004), and cells joined in an
-// octree as Schaefer et al. (2007) do. Cells are cut up to grid_level times where the surface is too far off at
-// samples, or where a look at finer cells finds borders that they do not see, until there are millions more.
-// Regions of more than two meet in shared vertices. What is thinner than a quarter of a cell may be lost; the report
-// says where. Throws Cancelled.
+// Returns the borders of the regions by dual contouring (Ju et al., 2002), with a vertex for each part of a cell
+// (Nielson, 2004) and cells joined in an octree (Schaefer et al., 2007). Cells are subdivided up to grid_level times
+// where samples show that the surface is too far off, or where a finer grid finds borders that the cells miss.
+// Subdivision stops after some millions of additional cells.
+// Where more than two regions meet, they share vertices. Features thinner than a quarter of a cell may be lost; the
+// report says where. Throws Cancelled.
 RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr);
 
 }  // namespace ombre::surface

@@ -1,4 +1,4 @@
-// What contouring takes and gives.
+// Options and results of contouring.
 #pragma once
 
 #include <array>
@@ -11,27 +11,29 @@
 
 namespace ombre::surface {
 
-// Counter-clockwise as seen from region `front`; region `back` is behind it. 0 is void.
+// A triangle between two regions, counter-clockwise as seen from region `front`; region `back` lies behind it. Region 0
+// is void.
 struct Facet {
   std::array<uint32_t, 3> corners{};
   Label back = 0, front = 0;
 };
 
-// What is thinner than the cells and missing from a surface.
+// Parts of a design that are thinner than the cells and missing from a surface.
 struct LostParts {
-  uint64_t places = 0;  // corners of cells that have it beside them
+  uint64_t places = 0;  // number of corners of cells next to such parts
   Vec3 first;           // mm, one of the places
 };
 
 struct ContourReport {
-  uint64_t at_mean_points = 0;        // vertices that would have folded the surface
-  uint64_t folded = 0;                // triangles that still look against the surface there
-  uint64_t intersections = 0;         // pairs of triangles that still go through each other
-  double farthest_in_tolerances = 1;  // from the borders, or these from the triangles, at samples; at least 1
+  uint64_t at_mean_points = 0;  // vertices moved to mean points, because they would have folded the surface
+  uint64_t folded = 0;          // triangles that still face the wrong way there
+  uint64_t intersections = 0;   // pairs of triangles that still intersect
+  // greatest distance at the samples between the borders and the triangles, in tolerances; at least 1
+  double farthest_in_tolerances = 1;
   LostParts lost;
 };
 
-// Facets between any two regions; those around one region enclose it without a gap.
+// Facets between pairs of regions; the facets around one region form a closed surface.
 struct RegionSurface {
   std::vector<Vec3> vertices;  // mm
   std::vector<Facet> facets;
@@ -39,11 +41,12 @@ struct RegionSurface {
 };
 
 struct ContourOptions {
-  voxel::Lattice corners;   // the cells' corners; its outermost points count as void
-  double tolerance_mm = 0;  // cells are cut where the surface would lie farther off; at least 0
-  bool join_flat = true;    // flat cells are joined within the tolerance
+  voxel::Lattice corners;   // corners of the cells; the outermost ones count as void
+  double tolerance_mm = 0;  // cells are subdivided where the surface would be farther off; at least 0
+  bool join_flat = true;    // whether flat cells are joined within the tolerance
   Workers workers;
-  size_t memory_bytes = 0;  // 0: no limit; else fewer cells are cut, and grids that are too large throw Error
+  // limit on memory; 0: none. Fewer cells are subdivided if necessary, and grids that are too large throw Error.
+  size_t memory_bytes = 0;
 };
 
 }  // namespace ombre::surface

@@ -12,7 +12,7 @@ namespace {
 constexpr double most_reaches = 4;
 constexpr size_t steps = 12, fine_steps = 8;
 
-// Part of a sample's normal, or of the way against it.
+// A segment of a sample's normal, in either direction.
 struct Way {
   uint32_t sample = 0;
   Vec3 from, to;
@@ -20,8 +20,8 @@ struct Way {
   Vec3 point(double share) const { return from + share * (to - from); }
 };
 
-// Where the label first changes along each way, between two of so many equal steps; ways without such a place are left
-// out.
+// Divides each way into `step_count` equal steps and returns the first step over which the label changes; ways without
+// a change are dropped.
 std::vector<Way> first_changes(const Partition& partition, const std::vector<Way>& ways, size_t step_count, int threads,
                                const StopFlag* stop) {
   const double step = 1 / static_cast<double>(step_count);
@@ -51,7 +51,7 @@ std::vector<DeepBorder> find_deep_borders(const Partition& partition, const std:
     ways.push_back({n, samples[n].at - reach, samples[n].at - most_reaches * reach});
     ways.push_back({n, samples[n].at + reach, samples[n].at + most_reaches * reach});
   }
-  // Few calls, as points that lie together are asked together.
+  // The steps are refined in few passes, because nearby points are cheaper to evaluate together.
   for (const size_t count : {steps, fine_steps}) ways = first_changes(partition, ways, count, threads, stop);
   std::vector<DeepBorder> borders;
   for (const Way& way : ways) borders.push_back({way.sample, way.point(0.5)});

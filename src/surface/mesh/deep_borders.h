@@ -1,4 +1,5 @@
-// Borders before or behind a surface that passes them by, as the depths of narrow valleys and the edges of thin fins.
+// Finds borders in front of or behind a surface that misses them, such as the bottoms of narrow valleys and the edges
+// of thin fins.
 #pragma once
 
 #include <vector>
@@ -9,12 +10,12 @@
 namespace ombre::surface {
 
 struct DeepBorder {
-  uint32_t sample = 0;  // its number
+  uint32_t sample = 0;  // number of the sample
   Vec3 at;              // mm, on the border
 };
 
-// Where the normals of the samples of some numbers meet a border first, either way, between one and four reaches away.
-// In order of the numbers. Throws Cancelled.
+// Returns the first border on the normal of each sample in `numbers`, in either direction, between one and four reaches
+// away. Results are in the order of the numbers. Throws Cancelled.
 std::vector<DeepBorder> find_deep_borders(const Partition& partition, const std::vector<SurfaceSample>& samples,
                                           const std::vector<uint32_t>& numbers, double reach_mm, int threads,
                                           const StopFlag* stop = nullptr);

@@ -10,9 +10,9 @@ namespace {
 using program::Builder;
 using program::Field;
 
-constexpr double slope = 0.05;  // of the walls, from the middle of the valley
+constexpr double slope = 0.05;  // slope of the walls, relative to the middle plane of the valley
 
-// A solid with a valley along y, whose ground is at height 0; or the fin that fills it.
+// Returns a solid with a valley along y whose bottom is at height 0, or the fin that would fill the valley.
 Partition wedge(bool is_fin) {
   Builder builder;
   const Field is_wedge = less(abs(builder.input(0)), builder.input(2) * slope);
@@ -28,7 +28,8 @@ TEST(DeepBorders, AreTheGroundsOfValleysAndTheEdgesOfFins) {
   constexpr double reach = 0.1;
   for (const bool is_fin : {false, true}) {
     const Partition partition = wedge(is_fin);
-    // Above the ground; the last two are too high for it to be found, and near enough to need no search.
+    // Heights of the samples above the bottom. The last two are not found: one is too high, one so near that no search
+    // is needed.
     const std::vector<double> heights = {0.11, 0.25, 0.39, 0.6, 0.05};
     std::vector<SurfaceSample> samples;
     for (const double height : heights) samples.push_back({{0, 1, height}, {0, 0, 1}});

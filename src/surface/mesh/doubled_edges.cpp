@@ -7,9 +7,9 @@
 namespace ombre::surface {
 namespace {
 
-// One side of a facet, from corner `side` to the next.
+// One side of a facet, from corner `side` to the next corner.
 struct FacetSide {
-  uint32_t low, high;  // vertices
+  uint32_t low, high;  // vertices at its ends
   Label less, greater;
   uint32_t facet;
   uint8_t side;
@@ -31,11 +31,11 @@ std::vector<FacetSide> sides_of(const RegionSurface& surface) {
   return sides;
 }
 
-// A facet by its corners in ascending order.
+// A facet with its corners in ascending order.
 struct SortedFacet {
   std::array<uint32_t, 3> corners{};
   Label less = 0, greater = 0;
-  bool is_forward = true;  // seen from the lesser region they are counter-clockwise
+  bool is_forward = true;  // true if the corners are counter-clockwise as seen from the lesser region
   uint32_t facet = 0;
 
   auto key() const { return std::tie(corners, less, greater); }
@@ -50,7 +50,8 @@ SortedFacet sorted(const Facet& facet, uint32_t number) {
   return made;
 }
 
-// Facets with the same corners that look opposite ways enclose nothing, and no vertex on a side could part them.
+// Removes pairs of facets that have the same corners and face opposite ways: they enclose nothing, and no vertex on an
+// edge could separate them.
 void leave_out_facing_pairs(RegionSurface& surface) {
   std::vector<SortedFacet> all;
   all.reserve(surface.facets.size());
@@ -74,7 +75,7 @@ class Cutter {
  public:
   Cutter(RegionSurface& surface, size_t vertices) : surface_(surface), vertices_(vertices), sides_(sides_of(surface)) {}
 
-  // Facets are cut once at most; false when no edge is doubled.
+  // Cuts doubled edges, each facet at most once. Returns false if no edge is doubled.
   bool cut() {
     is_cut_.assign(surface_.facets.size(), false);
     bool any = false;
@@ -85,7 +86,7 @@ class Cutter {
         is_doubled |= end >= begin + 2 && sides_[end].key() == sides_[end - 2].key();
         ++end;
       }
-      // Halves of edges that were cut stay doubled.
+      // The halves of a cut edge stay doubled, so they are not cut again.
       if (is_doubled && sides_[begin].high < vertices_) {
         cut_edge(begin, end);
         any = true;
@@ -103,7 +104,7 @@ class Cutter {
     for (size_t n = begin; n < end; ++n) (is_forward(sides_[n]) ? forward : backward).push_back(n);
     const Vec3 at = 0.5 * (surface_.vertices[sides_[begin].low] + surface_.vertices[sides_[begin].high]);
     const bool is_of_two = sides_[begin].key() == sides_[end - 1].key() && forward.size() == backward.size();
-    // Of two regions each pair of facets gets a vertex; where more meet they share one, as they do everywhere.
+    // Between two regions, each pair of facets gets its own vertex; where more regions meet, all facets share one.
     uint32_t middle = add_vertex(at);
     for (size_t n = 0; n < std::max(forward.size(), backward.size()); ++n) {
       if (n > 0 && is_of_two) middle = add_vertex(at);
@@ -112,7 +113,7 @@ class Cutter {
     }
   }
 
-  // Seen from the lesser region, the facet runs from the lower to the higher vertex.
+  // True if the facet, seen from the lesser region, runs from the lower to the higher vertex.
   bool is_forward(const FacetSide& side) const {
     const Facet& facet = surface_.facets[side.facet];
     return (facet.corners[side.side] == side.low) == (facet.back < facet.front);
@@ -133,7 +134,7 @@ class Cutter {
   }
 
   RegionSurface& surface_;
-  size_t vertices_;  // before the first cut
+  size_t vertices_;  // number of vertices before the first cut
   std::vector<FacetSide> sides_;
   std::vector<bool> is_cut_;
 };

@@ -1,13 +1,13 @@
-// Edges in which a surface meets itself.
+// Separates the sheets of a surface that touch in an edge.
 #pragma once
 
 #include "surface/mesh/contour_types.h"
 
 namespace ombre::surface {
 
-// Cuts edges that have more than two facets between the same two regions in their middles. Two sheets may have both
-// ends of such an edge in common, and hang together around them: then only vertices on the edge can tell the
-// sheets apart. Pairs of facets upon each other, with the same corners but opposite ways, are left out first.
+// Cuts each edge that has more than two facets between the same two regions at its middle. Two sheets may share both
+// ends of such an edge and stay connected around the ends; then only vertices on the edge can separate them. Pairs of
+// facets with the same corners that face opposite ways are removed first.
 void cut_doubled_edges(RegionSurface& surface);
 
 }  // namespace ombre::surface

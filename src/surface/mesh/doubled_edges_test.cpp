@@ -1,4 +1,4 @@
-// Edges between more than two facets.
+// Tests of edges shared by more than two facets.
 #include "surface/mesh/doubled_edges.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(DoubledEdges, OfFacetsUponEachOtherAreLeftOut) {
   expect_each_side_once(surface);
 }
 
-// Of a second tetrahedron: both sheets get a vertex of their own on it.
+// A second tetrahedron shares an edge; each sheet gets its own vertex on that edge.
 TEST(DoubledEdges, AreCut) {
   RegionSurface surface = tetrahedron();
   surface.vertices.push_back({0.5, -1, 0});

@@ -14,14 +14,16 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double reach_of_tolerance = 0.88;         // samples see but a part of a facet
-constexpr double border_reach_of_tolerance = 0.66;  // and less of borders that lie deep, if cells are wide
-constexpr double small_of_reach = 0.5;              // sides of facets that need few samples
+// share of the tolerance that is checked, because samples see only part of a facet
+constexpr double reach_of_tolerance = 0.88;
+// share for deep borders if cells are wide; smaller, because samples see less of them
+constexpr double border_reach_of_tolerance = 0.66;
+constexpr double small_of_reach = 0.5;  // longest side, in reaches, of facets that need few samples
 constexpr double most_tolerances = 16;
-constexpr double sharp_cosine = 0.5;  // between the normals of two facets
-constexpr double least_sum = 1e-6;    // of normals, to have a direction
+constexpr double sharp_cosine = 0.5;  // cosine between the normals of two facets below which their side is a crease
+constexpr double least_sum = 1e-6;    // least length of a sum of normals that still has a direction
 constexpr size_t most_measured = 1000;
-constexpr size_t quads_at_once = size_t{1} << 16;  // keeps memory low
+constexpr size_t quads_at_once = size_t{1} << 16;  // limits memory
 
 double longest_side(const std::array<Vec3, 3>& corners) {
   const auto& [a, b, c] = corners;
@@ -35,7 +37,7 @@ class Sampler {
   Sampler(const QuadSurface& surface, double spacing_mm, double small_mm)
       : surface_(surface), spacing_mm_(spacing_mm), small_mm_(small_mm), has_vertex_(surface.clusters().size()) {}
 
-  // Little can be wrong in calm quads: they get a sample, others many, if they are not small.
+  // Adds samples of a quad: one if it is calm, since little can be wrong there; fewer than usual if it is small.
   void add(uint32_t quad) {
     quad_ = quad;
     is_seen_from_less_ = surface_.crossing(quad).edge.from < surface_.crossing(quad).edge.to;
@@ -59,7 +61,7 @@ class Sampler {
     samples.clear();
   }
 
-  std::vector<uint32_t> quads;  // of the samples
+  std::vector<uint32_t> quads;  // quad number of each sample
   std::vector<SurfaceSample> samples;
 
  private:
@@ -68,7 +70,7 @@ class Sampler {
     samples.push_back({at, normal_});
   }
 
-  // Once.
+  // Adds each vertex once.
   void add_vertices(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
     for (size_t n = 0; n < 3; ++n) {
       if (!has_vertex_[triangle[n]]) add(corners[n]);
@@ -76,7 +78,7 @@ class Sampler {
     }
   }
 
-  // Once where two facets, as seen from the same region, go along them in opposite directions.
+  // Adds each side once: its two facets, seen from the same region, run along it in opposite directions.
   void add_sides(const Triangle& triangle, const std::array<Vec3, 3>& corners) {
     for (size_t n = 0; n < 3; ++n) {
       const uint32_t next = triangle[(n + 1) % 3];
@@ -85,7 +87,7 @@ class Sampler {
     }
   }
 
-  // Sharp sides once more, when the second facet comes, with what lies between both normals.
+  // Samples a sharp side a second time when its second facet arrives, with the mean of both facets' normals.
   void add_crease(std::pair<uint32_t, uint32_t> side, Vec3 from, Vec3 to) {
     const Vec3 facet_normal = normal_, seen_from_less = is_seen_from_less_ ? normal_ : -1.0 * normal_;
     const auto [other, is_first] = facets_.keep(side.first, side.second, seen_from_less);
@@ -127,14 +129,15 @@ class Sampler {
   bool is_seen_from_less_ = true;
 };
 
-// An edge's direction, as long as its axis.
+// Returns a vector along the edge's axis with that component of `lengths`.
 Vec3 along(const CrossedEdge& edge, const Vec3& lengths) {
   Vec3 way;
   way[edge.axis] = lengths[edge.axis];
   return way;
 }
 
-// Of what belongs to quads and is in their order: with the quads' new numbers, without what is no more.
+// Returns the values, sorted by quad, with the new numbers of their quads; values of quads that no longer exist are
+// dropped.
 template <class T>
 std::vector<T> renumbered(const std::vector<T>& before, const std::vector<Crossing>& crossings) {
   std::vector<T> now;
@@ -149,7 +152,8 @@ std::vector<T> renumbered(const std::vector<T>& before, const std::vector<Crossi
   return now;
 }
 
-// Of the places, in steps: far ones have many facets within a long reach. At most `most_mm`.
+// Returns the greatest distance from the places to the facets, at most `most_mm`. The reach grows in steps, because a
+// long reach makes the search among facets expensive.
 double farthest_from_facets(std::vector<Vec3> places, const QuadSurface& surface, double reach_mm, double most_mm,
                             const Workers& workers) {
   double farthest = 0;
@@ -169,7 +173,7 @@ double farthest_from_facets(std::vector<Vec3> places, const QuadSurface& surface
   return farthest;
 }
 
-// The greatest level of cells no wider than this; -1: there are none.
+// Returns the greatest level whose cells are no wider than `width_mm`, or -1 if there is none.
 int level_within(double width_mm, double grid_cell_mm) {
   int level = grid_level;
   for (double cell_mm = grid_cell_mm; level >= 0 && cell_mm > width_mm; cell_mm /= 2) --level;
@@ -249,7 +253,7 @@ std::vector<Ball> FacetCheck::balls_around(const std::vector<FarBorder>& borders
   return balls;
 }
 
-// No other quads can have come near.
+// Only changed quads can have come near to these borders.
 void FacetCheck::keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed) {
   const std::vector<bool> near = meet_facets(balls_around(far_borders_, surface), surface, changed, workers_);
   remove_where(near, far_borders_);
@@ -270,7 +274,7 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
       return distance_to_triangle(surface.crossing(quad).at, surface.corners(triangle)) <= reach_mm_;
     });
   });
-  // No other quads can have come near to those that were far before.
+  // Only changed quads can have come near to the crossings that were far before.
   remove_where(meet_facets(balls_at(crossings_of(still, surface), reach_mm_), surface, changed, workers_), still);
   remove_where(meet_facets(balls_at(crossings_of(off, surface), reach_mm_), surface, workers_), off);
   far_crossings_.clear();
@@ -290,10 +294,10 @@ std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface
   return {};
 }
 
-// By their middles first: most are humps of a face that is near.
+// Checks the middles of the edges first, because most hidden edges belong to bumps of a face that is near.
 void FacetCheck::add_far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface, const CellTree& tree,
                                std::vector<CrossedEdge>& far, std::vector<Vec3>& places) const {
-  double half_mm = 0;  // at most
+  double half_mm = 0;  // upper limit
   std::vector<Vec3> middles;
   for (const CrossedEdge& edge : hidden) {
     const Vec3 edge_mm = along(edge, tree.size_mm(edge.level));

@@ -1,4 +1,4 @@
-// Checks whether facets and the borders of regions agree within a tolerance.
+// Checks whether the facets and the borders of regions agree within a tolerance.
 #pragma once
 
 #include <vector>
@@ -14,20 +14,20 @@ class FacetCheck {
  public:
   FacetCheck(const Partition& partition, const ContourOptions& options);
 
-  // Checks samples of facets, at borders beside them and at crossings, but for those that were near already. Throws
-  // Cancelled.
+  // Checks samples of the facets, borders beside the samples, and crossings, except those that were near before and
+  // whose quads are unchanged. Throws Cancelled.
   void check(const QuadSurface& surface);
-  // Crossings, and the quads around them, have other numbers.
+  // Updates the numbers of quads after the crossings, and so the quads around them, were renumbered.
   void renumber(const std::vector<Crossing>& crossings);
-  // The far quads of the last check, in order.
+  // Returns the quads that were too far off in the last check, in order.
   std::vector<uint32_t> far_quads() const;
-  // Places on borders that quads among them pass by.
+  // Returns points of borders that the far quads miss.
   std::vector<Vec3> missed_borders() const;
-  // Borders that no corner of the grid's cells sees and no facet is near. If they are more than `most`, none; they
-  // count as far then. Nothing of the tree is cut. Throws Cancelled.
+  // Returns hidden edges whose border has no facet within reach. If there are more than `most`, returns none, and
+  // counts them as far in farthest_in_tolerances(). No leaf of the tree may be subdivided yet. Throws Cancelled.
   std::vector<CrossedEdge> far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most);
-  // At the samples, or a thousand of the far ones, at crossings and at hidden borders that count as far; 1 when all are
-  // near. Throws Cancelled.
+  // Returns the greatest distance in tolerances at the far samples (at most a thousand of them), at crossings and at
+  // hidden borders counted as far; 1 if all are near. Throws Cancelled.
   double farthest_in_tolerances(const QuadSurface& surface) const;
 
  private:
@@ -35,32 +35,33 @@ class FacetCheck {
     uint32_t quad = 0;
     SurfaceSample sample;
   };
-  // A border that the quad's triangles pass by.
+  // A border that the quad's triangles miss.
   struct FarBorder {
     uint32_t quad = 0;
     Vec3 at;
   };
 
-  // Of hidden borders, those that no facet is near, and where they are.
+  // Appends those of the hidden edges whose border has no facet within reach to `far`, and points on the borders to
+  // `places`.
   void add_far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface, const CellTree& tree,
                      std::vector<CrossedEdge>& far, std::vector<Vec3>& places) const;
   void check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads);
-  // As far as facets have to be near.
+  // Returns balls around the borders; a border is near if a facet meets its ball.
   std::vector<Ball> balls_around(const std::vector<FarBorder>& borders, const QuadSurface& surface) const;
   void keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed);
-  // Of those that were found, the ones that no facet is near.
+  // Adds those of the found borders that no facet is near.
   void add_far_borders(const QuadSurface& surface, std::vector<FarBorder> found);
   void check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& changed);
 
   const Partition& partition_;
   double tolerance_mm_, reach_mm_, border_reach_mm_, spacing_mm_;
-  int fine_level_;  // of cells no wider than the tolerance; -1: none
+  int fine_level_;  // greatest level of cells no wider than the tolerance; -1 if there is none
   Workers workers_;
   SeenQuads seen_;
-  std::vector<Far> far_;                // in order of quads
-  std::vector<FarBorder> far_borders_;  // in order of quads
+  std::vector<Far> far_;                // sorted by quad
+  std::vector<FarBorder> far_borders_;  // sorted by quad
   std::vector<uint32_t> far_crossings_;
-  std::vector<Vec3> left_hidden_;  // some of them, if there are too many
+  std::vector<Vec3> left_hidden_;  // sample of the hidden borders, if there were too many
 };
 
 }  // namespace ombre::surface

@@ -10,7 +10,7 @@
 namespace ombre::surface {
 namespace {
 
-// Calls work(begin, end) for pieces of what is counted.
+// Number of items per parallel piece.
 constexpr size_t piece = 1024;
 
 std::vector<uint32_t> all_quads(const QuadSurface& surface) {
@@ -26,7 +26,7 @@ BoxTree tree_around(const std::vector<Ball>& balls) {
   return BoxTree(boxes);
 }
 
-// Those of the quads that may meet a ball, with their boxes.
+// The quads that may meet any of the balls, in a tree of their boxes.
 class NearQuads {
  public:
   NearQuads(const std::vector<Ball>& balls, const QuadSurface& surface, const std::vector<uint32_t>& quads,
@@ -49,7 +49,7 @@ class NearQuads {
     tree_ = BoxTree(kept);
   }
 
-  // Within the ball; any that is `enough_mm` or less.
+  // Returns the distance to the nearest triangle inside the ball, or any distance of at most `enough_mm`.
   double distance(const Ball& ball, double enough_mm) const {
     return tree_.nearest(ball.center, ball.radius_mm, enough_mm, [&](uint32_t n) {
       double nearest = HUGE_VAL;
@@ -71,7 +71,8 @@ class NearQuads {
   BoxTree tree_;
 };
 
-// In each ball; any that is no more than this share of the radius is enough.
+// Returns for each ball the distance to the nearest triangle in it, or any distance of at most `enough` times the
+// radius.
 std::vector<double> distances(const std::vector<Ball>& balls, const QuadSurface& surface,
                               const std::vector<uint32_t>& quads, double enough, const Workers& workers) {
   if (balls.empty() || quads.empty()) return std::vector<double>(balls.size(), HUGE_VAL);

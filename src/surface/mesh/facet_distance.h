@@ -1,4 +1,4 @@
-// How far points are from the facets of a surface.
+// Distances from points to the facets of a surface.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace ombre::surface {
 
-// From each point to the nearest facet within reach; infinite where there is none.
+// Returns for each point the distance to the nearest facet, or infinity if there is none within reach.
 std::vector<double> distances_to_facets(const std::vector<Vec3>& points, const QuadSurface& surface, double reach_mm,
                                         const Workers& workers);
 struct Ball {
@@ -15,9 +15,9 @@ struct Ball {
   double radius_mm = 0;
 };
 
-// Whether each ball meets a facet.
+// Returns for each ball whether a facet meets it.
 std::vector<bool> meet_facets(const std::vector<Ball>& balls, const QuadSurface& surface, const Workers& workers);
-// One of these quads.
+// Returns for each ball whether a facet of the given quads meets it.
 std::vector<bool> meet_facets(const std::vector<Ball>& balls, const QuadSurface& surface,
                               const std::vector<uint32_t>& quads, const Workers& workers);
 

@@ -9,7 +9,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double nearly_one = 1 - 1e-6;  // of a cosine
+constexpr double nearly_one = 1 - 1e-6;  // magnitude of the cosine from which facets are parallel
 
 // All triangles of a surface.
 class Triangles {
@@ -32,7 +32,7 @@ class Triangles {
   }
 
  private:
-  // Six times the volume of a tetrahedron.
+  // Returns six times the volume of a tetrahedron.
   double volume(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const {
     const Vec3 from = places_[a];
     return dot(places_[b] - from, ombre::cross(places_[c] - from, places_[d] - from));
@@ -42,7 +42,7 @@ class Triangles {
     return std::ranges::find(triangle, corner) != triangle.end();
   }
 
-  // Whether a side of `a` that has no end in common with `b` goes through it.
+  // True if a side of `a` that shares no vertex with `b` passes through `b`.
   bool pierces(const Triangle& a, const Triangle& b) const {
     for (size_t n = 0; n < 3; ++n) {
       const uint32_t from = a[n], to = a[(n + 1) % 3];
@@ -51,7 +51,7 @@ class Triangles {
     return false;
   }
 
-  // Whether facets with a common side are folded flat upon each other.
+  // True if two facets with a common side are folded flat onto each other.
   bool lie_upon(const Triangle& a, const Triangle& b) const {
     for (size_t n = 0; n < 3; ++n) {
       const uint32_t from = a[n], to = a[(n + 1) % 3], third = a[(n + 2) % 3];
@@ -64,7 +64,7 @@ class Triangles {
     return false;
   }
 
-  // From the line through two corners to a third, at right angles.
+  // Returns the vector from the line through two corners to a third corner, perpendicular to the line.
   Vec3 beside(uint32_t from, uint32_t to, uint32_t third) const {
     const Vec3 along = places_[to] - places_[from], way = places_[third] - places_[from];
     const double share = dot(way, along) / dot(along, along);
@@ -83,7 +83,7 @@ class Triangles {
   std::vector<uint32_t> quads_;
 };
 
-// Pairs of triangles of which one is fresh.
+// Finds intersecting pairs of triangles of which at least one is fresh.
 class PairFinder {
  public:
   PairFinder(const Triangles& triangles, const std::vector<uint32_t>& fresh_quads) : triangles_(triangles) {

@@ -1,4 +1,4 @@
-// Facets that go through each other.
+// Finds intersecting facets.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,18 @@
 
 namespace ombre::surface {
 
-// Numbers of quads, lower first, one twice if its triangles lie upon each other.
+// Pairs of numbers of quads, the lower first; both are equal if the two triangles of one quad intersect.
 using QuadPairs = std::vector<std::pair<uint32_t, uint32_t>>;
 
 class IntersectionFinder {
  public:
   explicit IntersectionFinder(const Workers& workers) : workers_(workers) {}
 
-  // Pairs of triangles of which a side of one pierces the other, or that have a common side and lie upon each other; in
-  // order. Triangles that only touch do not count. Checks only pairs of which one changed since the last time.
+  // Returns, in order, the quads of pairs of triangles of which a side of one passes through the other, or which share
+  // a side and are folded onto each other. Touching triangles do not count. Checks only pairs of which one changed
+  // since the last call.
   QuadPairs find(const QuadSurface& surface);
-  // After a cut the quads around crossings have other numbers.
+  // Updates the numbers of quads after a subdivision renumbered the crossings.
   void renumber(const std::vector<Crossing>& crossings) { clean_.renumber(crossings); }
 
  private:

@@ -8,15 +8,17 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double about_parallel = 0.9;  // cosine between a facet and what becomes of it, which is in the same plane
-constexpr double least_heights = 10;    // of facets, in the distance that is allowed; what is lower has no plane
-constexpr size_t corner_lines = 3;      // where so many lines meet, a vertex stays
+// least cosine between the normals of a facet before and after a collapse in its plane
+constexpr double about_parallel = 0.9;
+// least height of a facet, in multiples of the allowed distance; lower facets do not define a plane
+constexpr double least_heights = 10;
+constexpr size_t corner_lines = 3;  // a vertex where at least this many lines meet stays
 
-// A vertex would go to a neighbour.
+// A possible edge collapse, which moves a vertex onto its neighbour `to`.
 struct Collapse {
   uint32_t to = 0;
-  double off_mm = 0;        // how far the vertex lies from the planes of the facets that stay
-  double least_height = 0;  // of these facets, mm
+  double off_mm = 0;        // distance of the vertex from the planes of the remaining facets
+  double least_height = 0;  // least height of the remaining facets, mm
 };
 
 class CoplanarJoiner {
@@ -55,10 +57,10 @@ class CoplanarJoiner {
     return std::ranges::find(corners(facet), vertex) != corners(facet).end();
   }
 
-  // As long as twice the area.
+  // Returns the normal of a triangle, with a length of twice its area.
   static Vec3 normal(const std::array<Vec3, 3>& c) { return cross(c[1] - c[0], c[2] - c[0]); }
 
-  // In ascending order; a neighbour is there once for each facet that the two share.
+  // Returns the neighbours in ascending order; a neighbour occurs once for each facet shared with the vertex.
   std::vector<uint32_t> neighbours(uint32_t vertex) const {
     std::vector<uint32_t> found;
     for (const uint32_t facet : facets_of_[vertex])
@@ -87,7 +89,7 @@ class CoplanarJoiner {
     return best;
   }
 
-  // Nothing where a facet would leave its plane, fold or vanish.
+  // Measures a collapse; null if a facet would leave its plane, fold or vanish.
   std::optional<Collapse> measured(uint32_t vertex, uint32_t to) const {
     Collapse made{to, 0, 1e300};
     for (const uint32_t facet : facets_of_[vertex]) {
@@ -113,7 +115,8 @@ class CoplanarJoiner {
     return std::max({length(c[1] - c[0]), length(c[2] - c[1]), length(c[0] - c[2])});
   }
 
-  // The link condition (Dey et al. 1999): what both vertices have beside them lies beside the edge between them.
+  // Checks the link condition (Dey et al. 1999): every common neighbour of both vertices must be opposite to the edge
+  // between them.
   bool keeps_topology(uint32_t vertex, uint32_t to, const std::vector<uint32_t>& others) const {
     std::vector<uint32_t> beside;
     for (const uint32_t facet : facets_of_[vertex])
@@ -131,7 +134,8 @@ class CoplanarJoiner {
     return true;
   }
 
-  // Whether the side of `facet` across from `to` is that of a facet around the vertex, too: both would become one.
+  // True if the side of `facet` opposite to `to` also belongs to another facet around the vertex; the collapse would
+  // merge both facets.
   bool is_opposite(uint32_t vertex, uint32_t facet, uint32_t to) const {
     return std::ranges::any_of(facets_of_[vertex], [&](uint32_t other) {
       return !has_corner(other, to) && std::ranges::all_of(corners(facet), [&](uint32_t corner) {
@@ -177,9 +181,9 @@ class CoplanarJoiner {
   double most_mm_;
   const Workers& workers_;
   std::vector<std::vector<uint32_t>> facets_of_;  // by vertex
-  std::vector<double> off_mm_;                    // by vertex: how far what went there may lie from the planes
-  std::vector<bool> is_open_;                     // by vertex: something changed around it
-  std::vector<bool> is_gone_;                     // by facet
+  std::vector<double> off_mm_;  // by vertex: greatest distance from the planes of all that collapsed into it
+  std::vector<bool> is_open_;   // by vertex: its surroundings changed, so it has to be examined
+  std::vector<bool> is_gone_;   // by facet
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Facets of planes joined, by Euler's formula: a closed surface of V vertices has 2 V - 4 triangles.
+// Tests of joining coplanar facets. By Euler's formula a closed surface of V vertices has 2 V - 4 triangles.
 #include "surface/mesh/join_coplanar.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@
 namespace ombre::surface {
 namespace {
 
-// A surface made of rectangles and triangles, whose equal corners are one vertex.
+// Builds a surface of rectangles and triangles; equal corners become one vertex.
 class Maker {
  public:
   explicit Maker(Vec3 (*place)(Vec3)) : place_(place) {}
 
-  // n x n squares, counter-clockwise as seen from `front`.
+  // Adds a face of n x n squares, counter-clockwise as seen from `front`.
   void add_face(Vec3 at, Vec3 u, Vec3 v, int n, Label back, Label front) {
     const auto corner = [&](int i, int j) { return vertex(at + (1.0 * i / n) * u + (1.0 * j / n) * v); };
     for (int i = 0; i < n; ++i)
@@ -29,7 +29,7 @@ class Maker {
       }
   }
 
-  // All but the faces across x that are left out.
+  // Adds the faces of a cube, optionally without those across x.
   void add_cube(Vec3 at, int n, Label inside, bool has_low_x = true, bool has_high_x = true) {
     const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     if (has_low_x) add_face(at, z, y, n, inside, 0);
@@ -80,7 +80,7 @@ TEST(JoinCoplanar, OfACubeLeavesTwelveTriangles) {
   }
 }
 
-// Two cubes share a face: 12 corners; 10 rectangles outside and one between them.
+// Two cubes with a common face have 12 corners, 10 rectangles outside and one between them.
 TEST(JoinCoplanar, KeepsBordersOfRegions) {
   Maker maker(turned);
   maker.add_cube({0, 0, 0}, 5, 1, true, false);
@@ -96,7 +96,7 @@ TEST(JoinCoplanar, KeepsBordersOfRegions) {
   }
 }
 
-// Coordinates are as they were.
+// All coordinates stay unchanged.
 TEST(JoinCoplanar, LeavesCurvedSurfacesAlone) {
   Maker maker(on_a_ball);
   maker.add_cube({0, 0, 0}, 8, 1);
@@ -106,7 +106,7 @@ TEST(JoinCoplanar, LeavesCurvedSurfacesAlone) {
   EXPECT_EQ(maker.surface.vertices, before.vertices);
 }
 
-// One vertex in the middle of a face, and one on an edge, were found a little off.
+// One vertex inside a face and one on an edge are slightly displaced.
 TEST(SnapToPlanes, MovesWhatIsNearlyInAPlane) {
   Maker maker(turned);
   maker.add_cube({0, 0, 0}, 7, 1);
@@ -131,15 +131,15 @@ TEST(SnapToPlanes, LeavesCurvedSurfacesAlone) {
   EXPECT_EQ(maker.surface.vertices, before.vertices);
 }
 
-// A row of vertices along a parabola, each of which lies within the distance of the line between its neighbours: that
-// they go one by one must not add up.
+// Vertices lie along a parabola, each within the allowed distance of the line between its neighbours. Removing them one
+// by one must not accumulate the errors.
 TEST(JoinCoplanar, DoesNotDrift) {
   constexpr double allowed = 1e-3, bend = 0.1;
   Maker maker([](Vec3 p) { return Vec3{p.x, p.y + bend * p.x * p.x, p.z}; });
   maker.add_cube({0, 0, 0}, 64, 1);
   join_coplanar(maker.surface, allowed, {});
   EXPECT_LT(maker.surface.facets.size(), 12u * 64 * 64 / 4);
-  // Between two vertices of a parabola the chord is off by a quarter of the bend times their distance squared.
+  // A chord between two vertices of a parabola is off by a quarter of the bend times the square of their distance.
   std::set<double> xs;
   for (const Vec3& v : maker.surface.vertices) xs.insert(v.x);
   double before = 0;

@@ -1,4 +1,4 @@
-// Parts and gaps of a design that are too thin for any corner of the cells to lie in.
+// Finds parts and gaps of a design that are too thin to contain a corner of the cells.
 #include "surface/mesh/lost_parts.h"
 
 #include <algorithm>
@@ -21,11 +21,11 @@ using voxel::TileBox;
 
 constexpr double most_cells = 1 << 29;
 constexpr int64_t check_layers = 8, check_rows = 256;
-// In cells: how far from a corner a border may lie, how far a facet is from what is missing, how far behind its border
-// a part is looked for, and the steps of differences.
+// Lengths in cells: greatest distance from a corner to a border, margin around facets, distance behind a border at
+// which a part is looked for, and step of finite differences.
 constexpr double border_reach = 0.75, facet_room = 1, step_behind = 0.002, difference_step = 0.001;
 
-// Cells that facets come near.
+// Flags the cells near facets.
 class NearFacets {
  public:
   NearFacets(const RegionSurface& surface, const Lattice& corners) : corners_(corners) {
@@ -60,7 +60,7 @@ class NearFacets {
     return static_cast<int64_t>(std::clamp(cell, 0.0, static_cast<double>(count_[axis] - 1)));
   }
 
-  // Of cells around the triangle those that its plane comes near.
+  // Flags the cells around the triangle that its plane passes near.
   void flag(const std::array<Vec3, 3>& t) {
     const Vec3 room = facet_room * size_mm_, normal = cross(t[1] - t[0], t[2] - t[0]);
     std::array<int64_t, 3> lo, hi;
@@ -85,7 +85,7 @@ class NearFacets {
   std::vector<bool> near_;
 };
 
-// Searches from the corners of a tile.
+// Searches for lost parts from the corners of a tile.
 class CornerCheck {
  public:
   CornerCheck(const Partition& partition, const Lattice& corners, const NearFacets& facets)
@@ -125,7 +125,7 @@ class CornerCheck {
         (0.5 / step) * Vec3{distance(1) - distance(2), distance(3) - distance(4), distance(5) - distance(6)};
     const double squared = dot(slope, slope);
     if (!(squared > 0) || !std::isfinite(squared)) return;
-    // Two steps of Newton's, then a little farther.
+    // Finds the border with two Newton steps, then goes slightly beyond it.
     Vec3 border = p - (here / squared) * slope;
     asker_.ask({border});
     border = border - (distance(0) / squared) * slope;

@@ -1,4 +1,3 @@
-// Makes dual meshes.
 #include "surface/mesh/dual_mesh.h"
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 namespace ombre::surface {
 namespace {
 
-// What two regions meet on an edge; a leaf's part may see several such pairs.
+// Records which pair of regions a part separates; a part of a leaf may separate several pairs.
 class PairsOfParts {
  public:
   void note(Label a, Label b) {
@@ -29,7 +28,7 @@ class PairsOfParts {
   bool is_empty_ = true, has_many_ = false;
 };
 
-// The crossings around leaves that smaller ones touch, and the part of the leaf that each belongs to.
+// The crossings around leaves that touch smaller ones, and the part of the leaf that each crossing belongs to.
 class TouchedLeaves {
  public:
   TouchedLeaves(const CellTree& tree, const std::vector<Crossing>& crossings)
@@ -58,7 +57,7 @@ class TouchedLeaves {
   }
 
  private:
-  // Leaves that are larger than the edge are around it twice.
+  // Visits the leaves larger than the edge, which occur twice around it, once each.
   template <class Visit>
   void each_touched(const Crossing& crossing, const Visit& visit) const {
     const std::array<uint32_t, 4>& leaves = crossing.edge.leaves;
@@ -67,7 +66,7 @@ class TouchedLeaves {
   }
 
   std::vector<bool> is_touched_;
-  std::vector<uint32_t> begins_;  // of each leaf in what follows
+  std::vector<uint32_t> begins_;  // index at which each leaf's entries begin in the next members
   std::vector<uint32_t> crossings_, parts_;
 };
 
@@ -92,7 +91,7 @@ class DualMeshMaker {
   }
 
  private:
-  // A vertex for each part of a leaf.
+  // Adds one vertex for each part of a leaf.
   struct Part {
     uint32_t leaf = 0;
     bool parts_two = false;
@@ -168,12 +167,12 @@ class DualMeshMaker {
   const std::vector<Crossing>& crossings_;
   const Workers& workers_;
   TouchedLeaves touched_;
-  std::vector<CellParts> parts_;  // of the others
+  std::vector<CellParts> parts_;  // parts of the leaves that touch no smaller ones
   std::vector<uint32_t> first_vertex_;
   DualMesh mesh_;
 };
 
-// A leaf far from what grew has the vertices that it had.
+// Copies the vertices of leaves that are far from the growth.
 void take_over_places(const CellTree& tree, const DualMesh& before, const std::vector<uint32_t>& leaves,
                       DualMesh& mesh) {
   size_t next = 0;

@@ -1,4 +1,4 @@
-// How far the normals around a vertex lie apart, and what distances from their planes say there.
+// The spread of the normals around a vertex, and the limit on distances from the planes that follows from it.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,9 @@ class NormalSpread {
 
   double least_cosine() const { return least_cosine_; }
 
-  // The root of the mean square of distances to the planes may be so large, in tolerances, where `usual` is enough on
-  // surfaces that are smooth or meet bluntly. In a wedge it says little of how far its edge is, in narrow ones nothing.
+  // Returns the greatest allowed rms distance to the planes, in tolerances; `usual` is the limit for surfaces that are
+  // smooth or meet at obtuse angles. In a wedge that distance says little about how far the edge is off, and nothing in
+  // a narrow wedge.
   double most_rms(double usual) const {
     constexpr double of_wedges = 0.15, cosine_of_wedges = -0.3, cosine_of_narrow_wedges = -0.98;
     if (least_cosine_ > cosine_of_wedges) return usual;
@@ -32,7 +33,7 @@ class NormalSpread {
 
  private:
   Vec3 first_;
-  double least_cosine_ = 1;  // between the first and another
+  double least_cosine_ = 1;  // least cosine between the first normal and any other
 };
 
 }  // namespace ombre::surface

@@ -8,11 +8,11 @@
 namespace ombre::surface {
 namespace {
 
-// Between two normals around a vertex, times the width of a cell in tolerances: between vertices that lie a cell's
-// diagonal apart the surface stays within about a third of the tolerance.
+// Limit for the angle between two normals around a vertex, times the width of a cell in tolerances. Below it, the
+// surface between vertices a cell's diagonal apart is off by at most about a third of the tolerance.
 constexpr double calm_radians_of_cells = 2;
 
-// The corners of a quad after its vertices were drawn together: 0, 3 or 4 of them.
+// The corners of a quad after clusters were joined: 0, 3 or 4.
 struct Polygon {
   std::array<uint32_t, 4> corners{};
   size_t count = 0;
@@ -27,7 +27,7 @@ Polygon without_repeats(const std::array<uint32_t, 4>& corners) {
   return polygon;
 }
 
-// How well two triangles look along the border's normal, and the least of their heights, mm.
+// Quality of two triangles: the least cosine between their normals and the border's, and their least height in mm.
 struct Fit {
   double agreement = 1, height = 1e300;
 };
@@ -44,7 +44,8 @@ Fit fit_of(const QuadSurface& surface, const std::array<Triangle, 2>& triangles,
   return fit;
 }
 
-// Cut along the diagonal that follows the border better, or leaves no slivers.
+// Splits a polygon into triangles along the diagonal that follows the border better; if both are about equal, along the
+// one that avoids slivers.
 QuadTriangles triangles_of(const QuadSurface& surface, const Polygon& p, Vec3 normal) {
   const auto& c = p.corners;
   if (p.count == 0) return {};

@@ -1,4 +1,4 @@
-// The surface as it is between changes: what stands for the corners of each quad, and its triangles.
+// The surface between changes: the clusters at the corners of each quad, and the quad's triangles.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace ombre::surface {
 
-// Between clusters.
+// A triangle by the numbers of its clusters.
 using Triangle = std::array<uint32_t, 3>;
 
-// What is left of a quad after its vertices were drawn together: up to two triangles.
+// The up to two triangles of a quad after clusters were joined.
 struct QuadTriangles {
   std::array<Triangle, 2> all{};
   uint8_t count = 0;
@@ -34,24 +34,24 @@ class QuadSurface {
   std::span<const uint32_t> quads_around(uint32_t vertex) const {
     return std::span(quads_of_vertices_).subspan(quad_begins_[vertex], quad_begins_[vertex + 1] - quad_begins_[vertex]);
   }
-  // Hashes of the quads' shapes: equal where the shapes are, also after their clusters got other numbers.
+  // Hashes of the quads' shapes: equal shapes have equal hashes even if their clusters were renumbered.
   const std::vector<uint64_t>& shape_hashes() const { return shape_hashes_; }
-  // Whether the quad is small, the border around it nearly flat, and the quad along it.
+  // True if the quad is small, the border around it is nearly flat, and the quad is parallel to the border.
   bool is_calm(uint32_t quad) const;
 
-  Vec3 normal(const Triangle& triangle) const;  // as long as twice its area
+  Vec3 normal(const Triangle& triangle) const;  // length is twice the area
   bool is_folded(const Triangle& triangle, uint32_t quad) const;
   bool is_folded(uint32_t quad) const;
   std::vector<uint32_t> folded_quads() const;
 
   void split(uint32_t cluster) { clusters_.split(cluster, changed_); }
   void move(uint32_t vertex, Vec3 at);
-  // What stands for several too; all quads count as changed.
+  // Moves a cluster, joined or not; afterwards all quads count as changed.
   void place(uint32_t cluster, Vec3 at) {
     clusters_.move(cluster, at);
     is_new_ = true;
   }
-  // Quads that changed since the last time, or all, in order.
+  // Updates the surface and returns, in order, the quads changed since the last call, or all.
   std::vector<uint32_t> refresh();
 
   RegionSurface build() const;
@@ -68,7 +68,7 @@ class QuadSurface {
   std::vector<uint32_t> quad_begins_, quads_of_vertices_;
   std::vector<QuadTriangles> triangles_;
   std::vector<uint64_t> shape_hashes_;
-  std::vector<uint32_t> changed_;  // vertices
+  std::vector<uint32_t> changed_;  // changed vertices
   bool is_new_ = true;
 };
 

@@ -7,7 +7,7 @@
 namespace ombre::surface {
 namespace {
 
-// Between leaves around a crossed edge.
+// Greatest difference in level between leaves around a crossed edge.
 constexpr int most_level_difference = 1;
 
 void sort_once(Growth& growth) {
@@ -17,7 +17,7 @@ void sort_once(Growth& growth) {
   growth.taken_in.erase(std::unique(growth.taken_in.begin(), growth.taken_in.end()), growth.taken_in.end());
 }
 
-// One level of the cutting after which hidden edges are edges of leaves.
+// Returns the leaves to subdivide next, so that after repeated calls the hidden edges are edges of leaves.
 Growth growth_within(const CellTree& tree, const std::vector<CrossedEdge>& hidden) {
   Growth growth;
   for (const CrossedEdge& edge : hidden) {
@@ -28,7 +28,7 @@ Growth growth_within(const CellTree& tree, const std::vector<CrossedEdge>& hidde
   return growth;
 }
 
-// What is cut and taken in so that leaves around crossed edges are mixed, and not far larger than the edges are long.
+// Returns the growth after which leaves around the crossed edges are mixed, and at most slightly larger than the edges.
 Growth growth_around(const CellTree& tree, const std::vector<ListedEdge>& edges, bool may_cut) {
   Growth growth;
   for (const auto& [leaf_of_edge, edge] : edges)

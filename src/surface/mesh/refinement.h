@@ -1,4 +1,4 @@
-// Cells that are cut because one vertex cannot say what the surface does in them.
+// Subdivides cells in which one vertex cannot represent the surface.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace ombre::surface {
 
-// Lets a tree grow, by what may be in any order and more than once, and cuts leaves in which hidden edges are until
-// they show them; then those around them that are not mixed, though the surface goes into them, or far larger, as long
-// as the tree has fewer than `most_leaves`. Throws Cancelled.
+// Grows a tree by `first`, whose entries may be unordered and repeated. Leaves that contain hidden edges are subdivided
+// until those are edges of leaves. Then leaves around crossed edges that are not mixed or much too large are
+// subdivided, as long as the tree has fewer than `most_leaves` leaves. Throws Cancelled.
 void refine(CellTree& tree, Growth first, const std::vector<CrossedEdge>& hidden, size_t most_leaves,
             const Partition& partition, int threads, const StopFlag* stop);
 

@@ -1,4 +1,4 @@
-// Which quads are unchanged since they were last checked, by hashes of their shapes.
+// Remembers which quads are unchanged since they were last checked, by hashes of their shapes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace ombre::surface {
 
 class SeenQuads {
  public:
-  // Those whose hash has changed, in order; from now on they count as seen.
+  // Returns the quads whose hash changed, in order, and marks all as seen.
   std::vector<uint32_t> see(const std::vector<uint64_t>& shape_hashes) {
     std::vector<uint32_t> different;
     seen_.resize(shape_hashes.size());
@@ -21,7 +21,7 @@ class SeenQuads {
   }
   void forget(uint32_t quad) { seen_[quad] = 0; }
 
-  // After a cut the quads around crossings have other numbers.
+  // Updates the numbers of quads after a subdivision renumbered the crossings.
   void renumber(const std::vector<Crossing>& crossings) {
     std::vector<uint64_t> seen(crossings.size());
     for (size_t n = 0; n < crossings.size(); ++n)

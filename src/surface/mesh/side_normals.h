@@ -1,4 +1,4 @@
-// For each side of facets the normal of the first facet that came with it.
+// Stores for each side the normal of the first facet that has it.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace ombre::surface {
 
-// A table with open addresses: millions of sides come and go with each look at a surface, and lists of nodes would take
-// seconds to be freed.
+// A hash table with open addressing: it holds millions of sides for a short time, and the nodes of std::unordered_map
+// would take seconds to free.
 class SideNormals {
  public:
-  // Keeps the normal if the side is new, which the second value says; else gives the one that is kept.
+  // Stores the normal if the side is new. Returns the stored normal, and whether the side was new.
   std::pair<Vec3, bool> keep(uint32_t a, uint32_t b, Vec3 normal) {
     if (2 * (count_ + 1) > slots_.size()) grow();
     Slot& slot = slot_of(a, b);
@@ -24,7 +24,7 @@ class SideNormals {
   }
 
  private:
-  // No side goes from a corner to itself.
+  // A slot is free if a == b, because no side has equal ends.
   struct Slot {
     uint32_t a = 0, b = 0;
     Vec3 normal;
@@ -47,7 +47,7 @@ class SideNormals {
       if (!slot.is_free()) slot_of(slot.a, slot.b) = slot;
   }
 
-  std::vector<Slot> slots_;  // a power of two of them
+  std::vector<Slot> slots_;  // the size is a power of two
   size_t count_ = 0;
 };
 

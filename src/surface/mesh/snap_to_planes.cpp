@@ -10,10 +10,10 @@
 namespace ombre::surface {
 namespace {
 
-constexpr size_t fewest_vertices = 6;      // that lie exactly in a plane; in any facet's plane there are three
-constexpr double least_share = 0.8;        // of its vertices that do
-constexpr double rounding_of_exact = 0.1;  // vertices that are off by less stay where they are
-constexpr double least_area_mm2 = 1e-9;    // of facets that have a side to look to
+constexpr size_t fewest_vertices = 6;  // vertices that must lie exactly in a plane; three do in the plane of any facet
+constexpr double least_share = 0.8;    // least share of a plane's vertices that must lie exactly in it
+constexpr double rounding_of_exact = 0.1;  // vertices closer than this share of exact_mm are not moved
+constexpr double least_area_mm2 = 1e-9;    // facets with less area have no usable normal
 
 struct Plane {
   Vec3 at, normal;
@@ -50,7 +50,7 @@ class PlaneSnapper {
   static constexpr uint32_t none = ~uint32_t{0};
 
   Vec3 at(uint32_t vertex) const { return surface_.vertices[vertex]; }
-  // As long as twice the area.
+  // Returns the normal of a facet, with a length of twice its area.
   Vec3 normal(uint32_t facet) const {
     const auto& c = surface_.facets[facet].corners;
     return cross(at(c[1]) - at(c[0]), at(c[2]) - at(c[0]));
@@ -65,7 +65,7 @@ class PlaneSnapper {
     return order;
   }
 
-  // Takes the facets around the seed that are near to its plane, if this is one.
+  // Collects the facets around the seed that lie near its plane, if they form a plane.
   void grow(uint32_t seed) {
     const Vec3 across = normal(seed);
     if (length(across) < least_area_mm2) return;
@@ -112,7 +112,7 @@ class PlaneSnapper {
     if (length(after - before) <= 2 * near_mm_ && !turns(vertex, after)) surface_.vertices[vertex] = after;
   }
 
-  // Whether a facet would look to its other side.
+  // True if moving the vertex would turn a facet over.
   bool turns(uint32_t vertex, Vec3 to) const {
     return std::ranges::any_of(facets_of_[vertex], [&](uint32_t facet) {
       std::array<Vec3, 3> c;
@@ -129,7 +129,7 @@ class PlaneSnapper {
   double exact_mm_, near_mm_;
   const Workers& workers_;
   std::vector<std::vector<uint32_t>> facets_of_;  // by vertex
-  std::vector<uint32_t> seen_by_;                 // by vertex: the last seed that came there
+  std::vector<uint32_t> seen_by_;                 // by vertex: the last seed whose search reached it
   std::vector<uint32_t> tried_by_, plane_of_;     // by facet
   std::vector<Plane> planes_;
 };

@@ -1,4 +1,4 @@
-// Vertices that should lie in a plane, and nearly do.
+// Moves vertices into planes in which they nearly lie.
 #pragma once
 
 #include "surface/cells/workers.h"
@@ -6,9 +6,9 @@
 
 namespace ombre::surface {
 
-// Finds planes in which most vertices lie within exact_mm, and moves what of their facets' vertices is off by more than
-// rounding, and by no more than near_mm, into them: into the line or the point where several meet. Curved surfaces stay
-// as they are. Throws Cancelled.
+// Finds planes in which most vertices lie within exact_mm. Vertices of their facets that are off by more than rounding,
+// and by at most near_mm, move into the plane, or into the line or point where several planes meet. Curved surfaces
+// stay unchanged. Throws Cancelled.
 void snap_to_planes(RegionSurface& surface, double exact_mm, double near_mm, const Workers& workers);
 
 }  // namespace ombre::surface

@@ -11,13 +11,13 @@
 namespace ombre::surface {
 namespace {
 
-// Ways all around, and how far they go, in parts of the reach.
+// Number of directions around a sample, and the distances searched, as shares of the reach.
 struct Ways {
   int count;
   std::array<double, 4> shares;
 };
 constexpr Ways few_ways{40, {1.0, 0.5, 0, 0}}, many_ways{98, {1.0, 0.6, 0.3, 0.1}};
-constexpr double golden_angle = 2.399963229728653;  // of Fibonacci's lattice on the sphere
+constexpr double golden_angle = 2.399963229728653;  // angle of the Fibonacci lattice on the sphere
 
 Vec3 way_around(int n, int count) {
   const double z = 1 - 2 * (n + 0.5) / count, radius = std::sqrt(1 - z * z);
@@ -34,7 +34,7 @@ class FarFinder {
   FarSamples find(double reach_mm, const Ways& ways) {
     search_along_normals(reach_mm);
     const std::vector<uint32_t> across = open_;
-    // Thin walls are found by short ways.
+    // Short distances find thin walls.
     for (const double share : {0.3, 0.1, 0.02}) search_along_normals(share * reach_mm);
     for (const double share : ways.shares)
       if (share > 0) search_around(share * reach_mm, ways.count);
@@ -44,7 +44,7 @@ class FarFinder {
   }
 
  private:
-  // Asks `ways` points of each sample that is open, and keeps open those where all answers are alike.
+  // Evaluates `ways` points around each open sample; a sample stays open if all its points have the same label.
   template <class PointOf>
   void search(int ways, const PointOf& point_of) {
     std::vector<Vec3> points;
@@ -97,7 +97,7 @@ double farthest_mm(const Partition& partition, std::vector<SurfaceSample> sample
   return std::min(reach, most_reaches * reach_mm);
 }
 
-// Over the triangle, to its plane; else to the nearest side.
+// If the point projects into the triangle, the distance is that to its plane; else that to the nearest side.
 double distance_to_triangle(Vec3 point, const std::array<Vec3, 3>& corners) {
   const auto [a, b, c] = corners;
   const Vec3 normal = cross(b - a, c - a);

@@ -1,4 +1,4 @@
-// How far points are from the borders of regions, and from triangles.
+// Distances from points to the borders of regions and to triangles.
 #pragma once
 
 #include <array>
@@ -10,22 +10,23 @@
 
 namespace ombre::surface {
 
-// A point that should lie on a border, and how the border should lie there.
+// A point that should lie on a border, and the normal that the border should have there.
 struct SurfaceSample {
   Vec3 at, normal;
 };
 
-// Numbers of samples, in order.
+// Numbers of samples, ascending.
 struct FarSamples {
-  std::vector<uint32_t> far;     // from which no other region was found within reach, along the normal and all around
-  std::vector<uint32_t> beside;  // others, with the same region a reach before and behind them
+  std::vector<uint32_t> far;     // samples with no other region within reach, along the normal and all around
+  std::vector<uint32_t> beside;  // other samples, with the same region one reach in front and behind
 };
 
-// Throws Cancelled.
+// Searches around each sample for another region. Throws Cancelled.
 FarSamples find_far_samples(const Partition& partition, const std::vector<SurfaceSample>& samples, double reach_mm,
                             int threads, const StopFlag* stop = nullptr);
 
-// How far the farthest is, or a quarter more; no less than the reach, no more than 16 times it. Throws Cancelled.
+// Returns an upper bound on the distance of the farthest sample from a border, at most a quarter too high, limited to 1
+// to 16 times the reach. Throws Cancelled.
 double farthest_mm(const Partition& partition, std::vector<SurfaceSample> samples, double reach_mm, int threads,
                    const StopFlag* stop = nullptr);
 

@@ -14,10 +14,11 @@ namespace {
 
 constexpr int most_rounds = 40, most_crossing_rounds = 6, most_far_rounds = 12, most_fitting_rounds = 6,
               most_undoing_rounds = 6;
-// How far vertices of one plane lie from it: by their rounding, which is nothing beside what facets may lie off; the
-// few near edges whose normals were mixed farther, within what facets are kept closer than the tolerance.
+// Greatest distances of a plane's vertices from it, in tolerances. The first covers rounding and is negligible against
+// the allowed deviation. The second covers the few vertices near edges that were found from mixed normals; facets are
+// kept closer than the tolerance to leave room for it.
 constexpr double coplanar_of_tolerance = 1e-3, nearly_coplanar_of_tolerance = 0.05;
-// Clusters of the highest level are taken apart first, vertices never.
+// Rank of a vertex: clusters of the highest level are split first, vertices never.
 constexpr int vertex_rank = -1;
 
 }  // namespace
@@ -78,7 +79,7 @@ void SurfaceMaker::finish(const Partition& partition) {
   mend_intersections();
 }
 
-// As far as facets keep near, and do not fold.
+// Fits the volumes, and undoes moves that take facets too far off or fold them.
 void SurfaceMaker::fit_volumes(const Partition& partition) {
   VolumeFit fit(surface_, partition, options_.tolerance_mm, options_.workers);
   for (int round = 0; round < most_fitting_rounds; ++round) {
@@ -116,7 +117,7 @@ void SurfaceMaker::undo_far_moves() {
   if (is_undone) pairs_left_ = intersections_.find(surface_).size();
 }
 
-// Clusters around what lies too far off that finishing moved.
+// Returns the clusters around quads that are too far off which finishing has moved.
 std::vector<uint32_t> SurfaceMaker::moved_around_far() const {
   std::vector<uint32_t> moved;
   for (const uint32_t quad : check_.far_quads())
@@ -150,8 +151,8 @@ void SurfaceMaker::mend_folds() {
   surface_.refresh();
 }
 
-// Takes clusters apart where the surface folds or lies too far off; single vertices that fold it go to the mean of
-// their crossings. False when there was nothing to mend.
+// Splits clusters where the surface folds or is too far off; single vertices that fold it move to the mean of their
+// crossings. Returns false if nothing had to be mended.
 bool SurfaceMaker::mend(const std::vector<uint32_t>& quads) {
   std::vector<uint32_t> apart, back;
   for (const uint32_t quad : quads) {
@@ -172,7 +173,8 @@ bool SurfaceMaker::mend(const std::vector<uint32_t>& quads) {
   return move_back(back) || !apart.empty();
 }
 
-// The same for triangles that go through each other.
+// Splits the clusters of intersecting triangles, and moves single vertices to the mean of their crossings. Returns
+// false if nothing could be changed.
 bool SurfaceMaker::mend(const QuadPairs& pairs) {
   std::vector<uint32_t> back;
   bool is_apart = false;
@@ -190,7 +192,7 @@ bool SurfaceMaker::mend(const QuadPairs& pairs) {
   return move_back(back) || is_apart;
 }
 
-// Takes clusters apart where the surface lies too far off; false when there are none.
+// Splits clusters where the surface is too far off. Returns false if there are none.
 bool SurfaceMaker::split_far() {
   bool is_apart = false;
   std::vector<uint32_t> apart;
@@ -221,7 +223,7 @@ bool SurfaceMaker::move_back(const std::vector<uint32_t>& vertices) {
   return moved;
 }
 
-// Whether the crossing is farther from the triangles' planes than the tolerance.
+// True if the crossing is farther than the tolerance from the planes of all of the quad's triangles.
 bool SurfaceMaker::is_far(uint32_t quad) const {
   const double reach = options_.join_flat ? options_.tolerance_mm : 0;
   return std::ranges::all_of(surface_.triangles(quad), [&](const Triangle& t) {

@@ -1,5 +1,4 @@
-// Draws vertices together where the surface is flat, and takes apart what folds, lies too far off, or goes through
-// other facets.
+// Joins vertices where the surface is flat, and splits clusters where it folds, is too far off or intersects itself.
 #pragma once
 
 #include <vector>
@@ -15,26 +14,27 @@ class SurfaceMaker {
   SurfaceMaker(const CellTree& tree, const std::vector<Crossing>& crossings, const DualMesh& mesh,
                const ContourOptions& options, FacetCheck& check, IntersectionFinder& intersections);
 
-  // As near as clusters that are taken apart bring it.
+  // Splits clusters until the surface is as close to the borders as that can make it.
   void bring_near();
-  // Leaves above level 0 around what lies too far off, and cells in which borders lie that facets pass by; the same
-  // with leaves around facets that go through others. In any order, some more than once.
+  // far_cells() returns the leaves above level 0 around quads that are too far off, and the cells that contain borders
+  // which facets miss. coarse_cells() adds the leaves around intersecting facets. Both are unordered and may contain
+  // duplicates.
   Growth far_cells() const;
   Growth coarse_cells();
-  // What the grid does not see; nothing of the tree is cut.
+  // Returns borders that the grid does not show; no leaf of the tree may be subdivided yet.
   std::vector<CrossedEdge> far_hidden_edges(size_t most) { return check_.far_hidden_edges(surface_, tree_, most); }
   // Fits volumes and mends intersections. Throws Cancelled.
   void finish(const Partition& partition);
-  bool crosses_nowhere() const { return pairs_left_ == 0; }  // when finished
-  // If finishing moved anything too far off, it goes back, and triangles may cross there. Throws Cancelled.
+  bool crosses_nowhere() const { return pairs_left_ == 0; }  // valid after finish()
+  // Moves clusters back that finishing moved too far off; triangles may then intersect. Throws Cancelled.
   void undo_far_moves();
 
   RegionSurface build() const;
 
  private:
   void note_leaf(uint32_t vertex, std::vector<uint32_t>& leaves) const;
-  // Whether the vertex's cell is wider than the tolerance, corner to corner. In others nothing is far, and cuts would
-  // only find finer waves to mend.
+  // True if the diagonal of the vertex's cell is longer than the tolerance. Smaller cells cannot be too far off, and
+  // subdividing them would only add smaller waves to mend.
   bool is_wide(uint32_t vertex) const;
   void fit_volumes(const Partition& partition);
   void mend_intersections();
@@ -45,7 +45,7 @@ class SurfaceMaker {
   bool split_far();
   bool move_back(const std::vector<uint32_t>& vertices);
   bool is_far(uint32_t quad) const;
-  // Leaves planes as few triangles as they need.
+  // Reduces the triangles in each plane to as few as it needs.
   void join_planes(RegionSurface& made) const;
   int rank(uint32_t cluster) const;
 
@@ -54,7 +54,7 @@ class SurfaceMaker {
   FacetCheck& check_;
   IntersectionFinder& intersections_;
   QuadSurface surface_;
-  std::vector<Vec3> unfinished_;  // places, by cluster
+  std::vector<Vec3> unfinished_;  // by cluster: its place before finishing
   uint64_t at_mean_points_ = 0;
   size_t pairs_left_ = 0;
 };

@@ -22,7 +22,7 @@ class Unfolder {
                                  [&](const Triangle& triangle) { return surface_.is_folded(triangle, quad); });
   }
 
-  // Of the triangles around the vertex if it lay there.
+  // Returns the number of folded triangles around the vertex if it lay at `at`.
   std::ptrdiff_t folds_at(uint32_t vertex, Vec3 at) {
     surface_.move(vertex, at);
     std::ptrdiff_t count = 0;

@@ -1,12 +1,12 @@
-// Vertices moved a little where triangles look inwards.
+// Moves vertices slightly where triangles are turned over.
 #pragma once
 
 #include "surface/mesh/quad_surface.h"
 
 namespace ombre::surface {
 
-// Of vertices that stand for themselves, where fewer triangles around them are folded then. All that changed before is
-// refreshed.
+// Refreshes the surface, then moves vertices that are not part of a cluster if fewer triangles around them are folded
+// afterwards.
 void unfold(QuadSurface& surface);
 
 }  // namespace ombre::surface

@@ -6,10 +6,11 @@
 namespace ombre::surface {
 namespace {
 
-// Around a cell, in its sides, or in those of the grid's cells if it is larger.
+// Margin around a cell in which its vertex may lie, in sides of the cell, or in sides of the grid's cells if the cell
+// is larger than those.
 constexpr double vertex_room_cells = 0.5;
 
-// From the mean, which lies in the cell, as far towards the best point as the cell reaches.
+// Returns the point as far from the mean, which lies in the cell, towards the best point as the cell extends.
 Vec3 within(const Box& cell, Vec3 mean, Vec3 best) {
   double share = 1;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Where the vertex of a leaf lies.
+// Places the vertices of leaves.
 #pragma once
 
 #include "base/math/box.h"
@@ -6,11 +6,11 @@
 
 namespace ombre::surface {
 
-// The room around a cell in which its vertex may lie: sharp edges between its crossings may be a little outside of it.
-// Places are in units of the level.
+// Returns the box around a cell in which its vertex may lie; a sharp edge between the cell's crossings may lie slightly
+// outside of the cell. Places are in cells of the level.
 Box room_of(const CellTree& tree, const CellPlace& place, int level);
 
-// Where it is nearest to the planes around it, as far as the room goes.
+// Returns the point nearest to the planes around the vertex, inside the box of room_of().
 Vec3 place_of(const DualVertex& vertex, const CellTree& tree);
 
 }  // namespace ombre::surface

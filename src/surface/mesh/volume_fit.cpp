@@ -9,34 +9,34 @@
 namespace ombre::surface {
 namespace {
 
-constexpr double least_cosine = 0.5;  // between normals around a vertex of a smooth border
-// A smooth border passes half-way between the middle of the crossings around a vertex and the vertex, which is nearest
-// to the planes there; where borders meet in a line it passes through the vertex.
+constexpr double least_cosine = 0.5;  // least cosine between normals around a vertex of a smooth border
+// A smooth border passes half-way between the vertex, which is nearest to the planes there, and the middle of the
+// crossings around it. Where borders meet in a line, the border passes through the vertex.
 constexpr double usual_share = 0.5, most_beside = 0.25;
-constexpr double flat_enough = 1.0 / 16;  // of the reach; such vertices are not distinguished
-constexpr double least_offset = 1e-6;     // of the reach; less is rounding
+constexpr double flat_enough = 1.0 / 16;  // share of the reach; below it, vertices are treated alike
+constexpr double least_offset = 1e-6;     // share of the reach; smaller offsets are rounding errors
 
-// What a vertex or cluster stands for, and the facets around it.
+// A vertex or cluster with the facets around it.
 struct Star {
   uint32_t cluster = 0;
-  Vec3 middle;  // of crossings; a sum over its cells first
+  Vec3 middle;  // middle of the crossings; holds a sum over its cells at first
   double cells = 0;
   NormalSpread spread;
   bool parts_two = true, is_smooth = false;
   Label less = 0, greater = 0;
-  Vec3 areas;              // sum of the facets' normals, as long as twice their areas, out of region `less`
-  double offset = 0;       // of the border, mm
-  double missing = 0;      // its share of what lies between the facets and the border, mm3
-  double volume_a_mm = 0;  // what the facets enclose more when it moves along its normal
+  Vec3 areas;          // sum of the facets' normals out of region `less`, each with a length of twice the facet's area
+  double offset = 0;   // distance of the border, mm
+  double missing = 0;  // its share of the volume between the facets and the border, mm3
+  double volume_a_mm = 0;  // increase of the enclosed volume per mm of movement along its normal
   uint32_t sample = 0;
 
   Vec3 normal() const { return (1 / length(areas)) * areas; }
 };
 
-// A facet with smooth corners.
+// A facet with at least one smooth corner.
 struct Patch {
   std::array<uint32_t, 3> corners{};  // numbers of stars
-  Vec3 areas;                         // as above
+  Vec3 areas;                         // the facet's normal, with a length of twice its area
   uint32_t sample = 0;
 };
 
@@ -59,7 +59,7 @@ class Fitter {
       if (offsets[patch.sample]) share(patch, *offsets[patch.sample]);
   }
 
-  // Calls f with each cluster that moves, and where to.
+  // Calls f(cluster, new place) for each cluster that has to move.
   template <class F>
   void each_move(F f) const {
     for (const Star& star : stars_) {
@@ -154,7 +154,7 @@ class Fitter {
                                    most_beside * std::abs(to_middle) + flat_enough * reach_mm_;
   }
 
-  // The mean of a quadratic over a triangle is 3/4 of what it is in the middle and 1/12 of what it is in each corner.
+  // The mean of a quadratic over a triangle is 3/4 of its value in the middle plus 1/12 of its value at each corner.
   void share(const Patch& patch, double in_the_middle) {
     const double smooth = static_cast<double>(smooth_corners(patch));
     if (smooth == 0) return;
@@ -171,8 +171,8 @@ class Fitter {
 
   const QuadSurface& surface_;
   double reach_mm_;
-  std::vector<uint32_t> numbers_;  // of stars, by cluster
-  std::vector<Star> stars_;        // of clusters with facets
+  std::vector<uint32_t> numbers_;  // by cluster: number of its star
+  std::vector<Star> stars_;        // one for each cluster with facets
   std::vector<Patch> patches_;
   std::vector<BorderSample> samples_;
 };

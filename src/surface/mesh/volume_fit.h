@@ -1,4 +1,4 @@
-// Vertices moved so that the regions keep their volumes.
+// Moves vertices so that the regions keep their volumes.
 #pragma once
 
 #include <optional>
@@ -8,20 +8,20 @@
 
 namespace ombre::surface {
 
-// What moved from where.
+// A correction of volumes that remembers the former places of the clusters it moved.
 class VolumeFit {
  public:
-  // Along curved borders facets enclose too much or too little: vertices lie where they are nearest to planes. What
-  // lies between each facet and the border is measured, and the vertices and clusters around it move along the border's
-  // normal until they have made up for it. Those on lines where borders meet stay, as do those where more than two
-  // regions do. The border is looked for within `reach_mm`. Throws Cancelled.
+  // Facets along curved borders enclose too much or too little volume, because vertices lie nearest to planes. The
+  // constructor measures the volume between each facet and the border, and moves the vertices and clusters around it
+  // along the border's normal to compensate. Vertices on lines where borders or more than two regions meet stay. The
+  // border is searched for within `reach_mm`. Throws Cancelled.
   VolumeFit(QuadSurface& surface, const Partition& partition, double reach_mm, const Workers& workers);
 
-  // Moves what stands at the corners of these quads back; false when nothing there had moved.
+  // Moves the clusters at the corners of these quads back. Returns false if none of them had moved.
   bool undo(QuadSurface& surface, const std::vector<uint32_t>& quads);
 
  private:
-  std::vector<std::optional<Vec3>> from_;  // by cluster
+  std::vector<std::optional<Vec3>> from_;  // by cluster: its former place, if it moved
 };
 
 }  // namespace ombre::surface

@@ -1,4 +1,3 @@
-// The regions of a layer as closed polygons.
 #include "surface/outline/outline.h"
 
 #include <algorithm>
@@ -13,8 +12,8 @@
 namespace ombre::surface {
 namespace {
 
-// The rest is for what a straight line between two crossings of a cell leaves out.
-constexpr double simplifying_share = 0.5;  // of the tolerance
+// The rest of the tolerance covers the error of a straight line between two crossings of a cell.
+constexpr double simplifying_share = 0.5;  // share of the tolerance
 
 void take(const voxel::FieldTile& tile, CornerLabels& corners) {
   const float* from = tile.values.data();
@@ -34,7 +33,7 @@ void clear_outermost(CornerLabels& corners) {
   }
 }
 
-// A chain in the direction in which a region is on its left.
+// A chain, oriented so that a region is on its left.
 struct Side {
   Label region = 0;
   uint32_t start = 0, chain = 0;
@@ -42,7 +41,8 @@ struct Side {
   auto key() const { return std::tuple(region, start); }
 };
 
-// At a junction each region begins one chain and ends another, so going on from chain to chain goes around it.
+// Joins chains to polygons. At a junction each region begins one chain and ends another, so following the chains leads
+// around the region.
 class Assembler {
  public:
   Assembler(const OutlineGraph& graph, const std::vector<OutlineChain>& chains) : graph_(graph), chains_(chains) {
@@ -79,7 +79,7 @@ class Assembler {
     return polygon;
   }
 
-  // All points but the last; returns the last node.
+  // Appends all points but the last. Returns the last node.
   uint32_t append(const Side& side, Polygon& polygon) const {
     const auto& nodes = chains_[side.chain].nodes;
     for (size_t n = 0; n + 1 < nodes.size(); ++n) {

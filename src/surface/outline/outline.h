@@ -1,4 +1,4 @@
-// The regions of a layer as closed polygons.
+// Outlines of regions in one layer as closed polygons.
 #pragma once
 
 #include <vector>
@@ -10,29 +10,31 @@
 
 namespace ombre::surface {
 
-// Closed, without the first point at the end; at least three points, no two neighbours alike. mm
+// A closed polygon in mm of at least three points, without a repeated first point; neighbouring points differ.
 using Polygon = std::vector<Vec2>;
 
-// Counter-clockwise polygons are outer borders, clockwise ones those of holes; the outer ones go first.
+// The polygons of each region. Counter-clockwise polygons are outer borders and come first; clockwise ones are borders
+// of holes.
 struct LayerOutline {
-  std::vector<std::vector<Polygon>> regions;  // region 1 and so on
+  std::vector<std::vector<Polygon>> regions;  // region 1, region 2 and so on
 };
 
-// Positive when counter-clockwise.
+// Returns the polygon's area, positive if it is counter-clockwise.
 double area_mm2(const Polygon& polygon);
-// Of a region: outer borders without holes.
+// Returns the area of a region: that of its outer borders less that of its holes.
 double area_mm2(const std::vector<Polygon>& polygons);
 
-// Dual contouring in the plane (Ju et al., 2002): each cell that borders go through gets a vertex where they meet, so
-// corners stay sharp, and borders run through the points where they cross the cells' edges. Regions that meet share
-// their points, bit by bit. What is thinner than a cell may be lost.
+// Traces outlines by dual contouring in the plane (Ju et al., 2002). Each cell that borders pass through gets a vertex
+// where they meet, so corners stay sharp, and borders pass through the points where they cross the edges of cells.
+// Neighbouring regions share their points exactly. Features thinner than a cell may be lost.
 class Outliner {
  public:
-  // Layer k is the plane of corners k; cells are squares. The outermost corners along x and y count as void. Borders
-  // lie within the tolerance where it is an eighth of a cell or more and radii are four cells or more.
+  // Constructs an outliner; layer k is the plane of the corners k, and cells are squares. The outermost corners along x
+  // and y count as void. Borders are accurate to the tolerance if it is at least an eighth of a cell and radii are at
+  // least four cells.
   Outliner(const Partition& partition, const voxel::Lattice& corners, double tolerance_mm);
 
-  // Thread-safe. Throws Cancelled.
+  // Returns the outlines in layer k. Thread-safe. Throws Cancelled.
   LayerOutline layer(int64_t k, const StopFlag* stop = nullptr) const;
 
  private:

@@ -1,19 +1,18 @@
-// One layer of square cells: where borders of regions cross their edges, and which crossings belong together.
 #include "surface/outline/outline_cells.h"
 
 namespace ombre::surface {
 namespace {
 
-// A cell's edges, and which part of the border each belongs to.
+// The edges of a cell.
 enum Edge : uint8_t { bottom, top, left, right };
 constexpr size_t edges = 4;
 
 struct SquareParts {
-  std::array<uint8_t, edges> part_of_edge{};  // of those that are crossed
+  std::array<uint8_t, edges> part_of_edge{};  // for crossed edges: the number of its part
   uint8_t count = 1;
 };
 
-// Labels of corners 00, 10, 01, 11.
+// Labels of the corners 00, 10, 01 and 11.
 using Square = std::array<Label, 4>;
 
 std::array<bool, edges> crossed_edges(const Square& q) {
@@ -22,9 +21,9 @@ std::array<bool, edges> crossed_edges(const Square& q) {
 
 SquareParts find_parts(const Square& q, const std::array<bool, edges>& crossed) {
   const bool all = crossed[bottom] && crossed[top] && crossed[left] && crossed[right];
-  const bool rising = q[0] == q[3], falling = q[1] == q[2];  // diagonals of one label
+  const bool rising = q[0] == q[3], falling = q[1] == q[2];  // both corners of a diagonal have one label
   if (!all || (!rising && !falling)) return {};
-  // What is not joined is cut off: corners 10 and 01, or 00 and 11.
+  // Corners that are not joined are cut off: 10 and 01, or 00 and 11.
   if (rising && (!falling || q[0] > q[1])) return {{0, 1, 1, 0}, 2};
   return {{0, 1, 0, 1}, 2};
 }
@@ -45,7 +44,7 @@ class Tracer {
       const Square q{corners_.at(i, j), corners_.at(i + 1, j), corners_.at(i, j + 1), corners_.at(i + 1, j + 1)};
       if (q[0] == q[1] && q[0] == q[2] && q[0] == q[3]) continue;
       const auto crossed = crossed_edges(q);
-      // Those below and on the left are known from the cells there.
+      // The crossings on the lower and left edges are known from the cells below and on the left.
       std::array<uint32_t, edges> crossings{};
       if (crossed[bottom]) crossings[bottom] = below_[static_cast<size_t>(i)];
       if (crossed[left]) crossings[left] = from_left;
@@ -62,7 +61,8 @@ class Tracer {
 
   void join(int32_t i, int32_t j, const SquareParts& parts, const std::array<bool, edges>& crossed,
             const std::array<uint32_t, edges>& crossings) {
-    // Upwards the first end of an edge along x is on the left, towards the left that of an edge along y.
+    // The first end of an edge along x is on the left when going upwards; that of an edge along y is on the left when
+    // going left.
     constexpr std::array<size_t, edges> side{1, 0, 0, 1};
     const auto first = static_cast<uint32_t>(graph_.vertices.size());
     graph_.vertices.resize(first + parts.count, {i, j, 0, {}, {}});
@@ -76,7 +76,7 @@ class Tracer {
   }
 
   const CornerLabels& corners_;
-  std::vector<uint32_t> below_;  // crossings of the edges along x under this row
+  std::vector<uint32_t> below_;  // crossings of the edges along x at the bottom of this row
   OutlineGraph graph_;
 };
 

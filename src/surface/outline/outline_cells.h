@@ -10,25 +10,26 @@
 
 namespace ombre::surface {
 
-// The labels of a layer's corners, x fastest. The outermost corners are void.
+// Labels of a layer's corners, x fastest. The outermost corners are void.
 struct CornerLabels {
   int32_t width = 0, height = 0;
   std::vector<Label> labels;
   Label at(int32_t i, int32_t j) const { return labels[static_cast<size_t>(j) * static_cast<size_t>(width) + i]; }
 };
 
-// Of the edge from corner (i, j) one step along an axis. On the way from vertex ends[0] to ends[1] through the
+// The crossing of the edge from corner (i, j) one step along an axis. From vertex ends[0] to ends[1] through the
 // crossing, region `from` is on the left.
 struct OutlineCrossing {
   int32_t i = 0, j = 0;
   uint8_t axis = 0;
-  Label from = 0, to = 0;  // regions at the edge's ends
+  Label from = 0, to = 0;  // regions at the ends of the edge
   std::array<uint32_t, 2> ends{};
   Vec2 at;      // mm
-  Vec2 normal;  // unit; from region `from` into region `to`
+  Vec2 normal;  // unit vector from region `from` into region `to`
 };
 
-// Of a part of cell (i, j), between its crossings: two where two regions meet, three or four where more do.
+// The vertex of one part of cell (i, j), with the crossings that it connects: two where two regions meet, else three or
+// four.
 struct OutlineVertex {
   int32_t i = 0, j = 0;
   uint8_t count = 0;
@@ -42,7 +43,8 @@ struct OutlineGraph {
   std::vector<OutlineVertex> vertices;
 };
 
-// What crosses where, without positions. Cells whose diagonals could both be joined join the greater label.
+// Returns the crossings and vertices of a layer, without positions. In cells where both diagonals could be joined, the
+// greater label is joined.
 OutlineGraph trace_cells(const CornerLabels& corners);
 
 }  // namespace ombre::surface

@@ -1,4 +1,4 @@
-// Borders in single cells, drawn by hand.
+// Tests of borders in single cells, whose labels are written by hand.
 #include "surface/outline/outline_cells.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace ombre::surface {
 namespace {
 
-// Corners 00, 10, 01, 11 with void around them.
+// Traces one cell with corners 00, 10, 01 and 11, surrounded by void.
 OutlineGraph trace(Label a, Label b, Label c, Label d) {
   return trace_cells({4, 4, {0, 0, 0, 0, 0, a, b, 0, 0, c, d, 0, 0, 0, 0, 0}});
 }
@@ -21,7 +21,7 @@ std::vector<OutlineVertex> middle_vertices(const OutlineGraph& graph) {
   return found;
 }
 
-// Whether a part of the middle cell goes through the edges at its lower and its left side.
+// True if a part of the middle cell passes through its lower and left edges.
 bool cuts_off_first_corner(const OutlineGraph& graph) {
   for (const OutlineVertex& v : middle_vertices(graph)) {
     const OutlineCrossing &p = graph.crossings[v.crossings[0]], &q = graph.crossings[v.crossings[1]];
@@ -30,7 +30,7 @@ bool cuts_off_first_corner(const OutlineGraph& graph) {
   return false;
 }
 
-// A polyline of vertices without crossings.
+// Returns a graph with these points as vertices and no crossings.
 OutlineGraph graph_of(const std::vector<Vec2>& points) {
   OutlineGraph graph;
   for (const Vec2 p : points) graph.vertices.push_back({0, 0, 2, {}, p});
@@ -48,7 +48,7 @@ TEST(OutlineCells, CheckerboardsJoinTheGreaterLabel) {
   EXPECT_EQ(find_chains(cut).size(), 1U);
   EXPECT_TRUE(cuts_off_first_corner(trace(1, 2, 2, 1)));
   EXPECT_FALSE(cuts_off_first_corner(trace(2, 1, 1, 2)));
-  // Only one diagonal can be joined.
+  // Only one diagonal can be joined here.
   EXPECT_FALSE(cuts_off_first_corner(trace(1, 2, 3, 1)));
   EXPECT_TRUE(cuts_off_first_corner(trace(1, 2, 2, 3)));
 }
@@ -66,7 +66,7 @@ TEST(OutlineCells, RegionIsOnTheLeftOfItsChain) {
   const auto chains = find_chains(graph);
   ASSERT_EQ(chains.size(), 1U);
   EXPECT_TRUE(chains[0].is_closed());
-  // Around all of it there are 8 cells and 8 crossings.
+  // The border around the cells has 8 vertices and 8 crossings, and repeats its first node.
   EXPECT_EQ(chains[0].nodes.size(), 17U);
   EXPECT_TRUE(trace(0, 0, 0, 0).crossings.empty());
 }
@@ -86,7 +86,8 @@ TEST(OutlineSimplify, KeepsWhatIsFartherThanTheTolerance) {
   EXPECT_EQ(made[0].nodes, (std::vector<uint32_t>{0, 2, 3, 4}));
 }
 
-// Two borders between the same places, closer than the tolerance: drawn as one line the region would be gone.
+// Two borders connect the same points, closer together than the tolerance. If both became the same line, the region
+// would vanish.
 TEST(OutlineSimplify, RegionsDoNotCollapse) {
   OutlineGraph graph = graph_of({{0, 0}, {4, 0}, {2, 0.05}, {2, -0.05}});
   graph.vertices[0].count = graph.vertices[1].count = 3;

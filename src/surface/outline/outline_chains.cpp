@@ -1,4 +1,4 @@
-// Borders of regions in one layer as chains.
+// Finds the borders of regions in one layer as chains.
 #include "surface/outline/outline_chains.h"
 
 namespace ombre::surface {
@@ -15,7 +15,7 @@ class ChainFinder {
       for (size_t n = 0; n < vertex.count; ++n)
         if (!is_used_[vertex.crossings[n]]) trace(v, vertex.crossings[n]);
     }
-    // What is left meets no junction.
+    // The remaining chains meet no junction.
     for (uint32_t c = 0; c < graph_.crossings.size(); ++c)
       if (!is_used_[c]) trace(graph_.crossings[c].ends[0], c);
     return std::move(chains_);

@@ -1,4 +1,4 @@
-// Where the edges of a layer's cells cross borders, and where the vertices between the crossings lie.
+// Finds where the edges of a layer's cells cross borders, and places the vertices between the crossings.
 #include "surface/outline/outline_crossings.h"
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int32_t block_cells = 32;  // along each side of a block that shares a shortened program
+constexpr int32_t block_cells = 32;  // side in cells of the blocks that share a shortened program
 constexpr double rounding_cells = 1e-9;
-constexpr double corner_room_cells = 2;  // that a corner may lie outside of its cell
-// Borders that are nearly level have no direction in the plane.
+constexpr double corner_room_cells = 2;  // greatest distance of a corner from its cell
+// Least length of a normal's component in the plane; below it, the border is nearly level and has no direction there.
 constexpr double least_in_plane = 1e-6;
 
 std::array<int32_t, 2> block_of(const OutlineCrossing& c) { return {c.j / block_cells, c.i / block_cells}; }
@@ -64,7 +64,7 @@ bool is_near(const voxel::Lattice& corners, const OutlineVertex& v, Vec2 p, doub
   return lo.x - room_mm <= p.x && p.x <= hi.x + room_mm && lo.y - room_mm <= p.y && p.y <= hi.y + room_mm;
 }
 
-// The sum of squared distances from the borders through a vertex's crossings.
+// Returns the sum of squared distances from a point to the borders through a vertex's crossings.
 double misfit(const OutlineGraph& graph, const OutlineVertex& vertex, Vec2 p) {
   double sum = 0;
   for (size_t n = 0; n < vertex.count; ++n) {
@@ -75,7 +75,7 @@ double misfit(const OutlineGraph& graph, const OutlineVertex& vertex, Vec2 p) {
   return sum;
 }
 
-// Where the misfit is least between two points.
+// Returns the point between a and b with the least misfit.
 Vec2 best_between(const OutlineGraph& graph, const OutlineVertex& vertex, Vec2 a, Vec2 b) {
   double slope = 0, curvature = 0;
   for (size_t n = 0; n < vertex.count; ++n) {

@@ -1,4 +1,4 @@
-// Which chains of a layer run across each other.
+// Finds chains of a layer that cross each other.
 #include "surface/outline/outline_overlaps.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ PlacedSegment placed(const OutlineGraph& graph, const ChainSegment& segment) {
 
 bool are_opposite(double a, double b) { return (a < 0 && b > 0) || (a > 0 && b < 0); }
 
-// Of segments on one line.
+// True if two collinear segments have more than a point in common.
 bool share_length(const PlacedSegment& s, const PlacedSegment& o) {
   const Vec2 along = s.b - s.a;
   const double p = dot(along, o.a - s.a), q = dot(along, o.b - s.a);

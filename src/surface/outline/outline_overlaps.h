@@ -1,4 +1,4 @@
-// Which chains of a layer run across each other.
+// Finds chains of a layer that cross each other.
 #pragma once
 
 #include <utility>
@@ -8,12 +8,12 @@
 
 namespace ombre::surface {
 
-// From node a to node b of a chain.
+// The segment of a chain from node a to node b.
 struct ChainSegment {
   uint32_t chain = 0, a = 0, b = 0;
 };
 
-// Pairs of segments that cross, or lie on each other for some length. What only touches does not.
+// Returns the pairs of segments that cross, or overlap along some length. Pairs that only touch do not count.
 std::vector<std::pair<ChainSegment, ChainSegment>> find_overlaps(const OutlineGraph& graph,
                                                                  const std::vector<OutlineChain>& chains);
 

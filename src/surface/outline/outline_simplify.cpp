@@ -1,4 +1,3 @@
-// Chains with as few points as a tolerance allows.
 #include "surface/outline/outline_simplify.h"
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 namespace ombre::surface {
 namespace {
 
-constexpr int most_simplifying_rounds = 12;  // of halving the tolerance
+constexpr int most_simplifying_rounds = 12;  // halvings of the tolerance
 
 double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 along = b - a, to = p - a;
@@ -20,7 +19,7 @@ double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   return std::hypot(to.x - share * along.x, to.y - share * along.y);
 }
 
-// After Douglas and Peucker (1973).
+// Simplifies a chain by the algorithm of Douglas and Peucker (1973).
 class Thinner {
  public:
   Thinner(const OutlineGraph& graph, const std::vector<uint32_t>& nodes, double tolerance)
@@ -62,7 +61,8 @@ class Thinner {
   std::vector<bool> stays_;
 };
 
-// A ring begins at its point farthest from where it began: a point that every simplification keeps.
+// Rotates a ring so that it begins at its point farthest from its former beginning, a point that every simplification
+// keeps.
 void turn_ring(const OutlineGraph& graph, OutlineChain& ring) {
   const Vec2 from = point_of(graph, ring.nodes.front());
   const auto farther = [&](uint32_t a, uint32_t b) {
@@ -93,7 +93,7 @@ void leave_out_hairpins_ahead(const voxel::Lattice& corners, const OutlineGraph&
   nodes = std::move(kept);
 }
 
-// A vertex outside of its cell may lie beyond the next points of its chain.
+// Removes hairpins: a vertex outside of its cell may lie beyond the next points of its chain.
 void leave_out_hairpins(const voxel::Lattice& corners, const OutlineGraph& graph, std::vector<OutlineChain>& chains) {
   for (OutlineChain& chain : chains)
     for (int way = 0; way < 2; ++way) {
@@ -107,7 +107,7 @@ class Untangler {
   Untangler(const voxel::Lattice& corners, OutlineGraph& graph)
       : corners_(corners), graph_(graph), places_(graph.vertices.size(), Place::best) {}
 
-  // False when no vertex could be moved.
+  // Moves the vertices of overlapping segments back to their cells. Returns false if no vertex could be moved.
   bool draw_in(const std::vector<std::pair<ChainSegment, ChainSegment>>& overlaps) {
     std::set<uint32_t> nodes;
     for (const auto& [s, o] : overlaps) nodes.insert({s.a, s.b, o.a, o.b});

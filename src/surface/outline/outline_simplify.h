@@ -1,4 +1,4 @@
-// Chains with as few points as a tolerance allows.
+// Simplifies chains to as few points as a tolerance allows.
 #pragma once
 
 #include "surface/outline/outline_chains.h"
@@ -6,12 +6,12 @@
 
 namespace ombre::surface {
 
-// The chains of a graph. Vertices that lead a chain across another go back to their cells, and if that is not enough
-// to the means of their crossings, where no chain crosses another.
+// Returns the chains of a graph. Vertices whose chains cross another move onto their cells; if that is not enough, they
+// move to the means of their crossings, where no chains cross.
 std::vector<OutlineChain> untangle(const voxel::Lattice& corners, OutlineGraph& graph);
 
-// Leaves points out, none farther than the tolerance from what stays. The ends of chains stay, so what meets there
-// meets still; no chain crosses another that did not before. What would collapse keeps more of its points.
+// Returns the chains with fewer points; no removed point is farther than the tolerance from its chain. Ends of chains
+// stay, so junctions stay connected, and no new crossings arise. Chains that would collapse keep more of their points.
 std::vector<OutlineChain> simplify(const OutlineGraph& graph, const std::vector<OutlineChain>& chains,
                                    double tolerance_mm);
 
