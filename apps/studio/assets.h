@@ -12,7 +12,7 @@ struct Asset {
   std::string_view bytes;
 };
 
-// Null when there is none.
+// Returns null if there is none.
 const Asset* find_asset(std::span<const Asset> assets, std::string_view path);
 
 }  // namespace ombre::studio

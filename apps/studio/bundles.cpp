@@ -34,7 +34,7 @@ MadeBundle make_bundle(const fs::path& design, const StopFlag& stop) {
   return {std::move(*contents), formats::read_file(path)};
 }
 
-// A folder that is not there yet, with that name or a number behind it.
+// Returns a folder that does not exist yet, with that name, or with a number after it.
 fs::path new_folder(const Workspace& workspace, const std::string& name) {
   constexpr int most_copies = 1000;
   fs::path folder = workspace.path(name);
@@ -45,7 +45,7 @@ fs::path new_folder(const Workspace& workspace, const std::string& name) {
   return folder;
 }
 
-// The name of the bundle's design in the workspace.
+// Unpacks a bundle; returns the name of its design in the workspace.
 std::string unpack(const Workspace& workspace, const std::string& name, std::string_view bytes) {
   const fs::path folder = new_folder(workspace, fs::path(name).stem().string());
   try {
@@ -62,7 +62,7 @@ std::string unpack(const Workspace& workspace, const std::string& name, std::str
 
 fs::path examples_folder() { return fs::path(compile::data_folder()) / "examples"; }
 
-// "// A knob for a 6 mm shaft, ..." without the slashes.
+// Returns the first sentence of the comment at the beginning, such as "A knob for a 6 mm shaft", without the slashes.
 std::string first_sentence(const fs::path& file) {
   const std::string text = formats::read_file(file.string());
   if (!text.starts_with("//")) return "";

@@ -1,4 +1,4 @@
-// Designs that leave the folder and come into it with their files: bundles, and the examples that come with Ombre.
+// Answers about designs with their files: bundles, and the examples that come with Ombre.
 #pragma once
 
 #include "base/system/progress.h"
@@ -7,15 +7,16 @@
 
 namespace ombre::studio {
 
-// Each answers one kind of request (docs/reference/studio-api.md). They throw RequestError, Error and Cancelled.
+// Each function answers one kind of request (docs/reference/studio-api.md). They throw RequestError, Error and
+// Cancelled.
 
-// "bundle": a design as it is on the disk, with what it reads.
+// "bundle": a design as it is on the disk, with the files that it reads.
 Answer bundle_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
-// "unbundle": a bundle, unpacked into a folder of its own.
+// "unbundle": unpacks a bundle into a folder of its own.
 Answer unbundle_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
-// "examples": what they are called, and the sentence that each begins with.
+// "examples": names of the examples, with their first sentences.
 Answer examples_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
-// "open_example": a copy of one, in a folder of its own.
+// "open_example": copies an example into a folder of its own.
 Answer open_example_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
 
 }  // namespace ombre::studio

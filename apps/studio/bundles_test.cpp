@@ -1,4 +1,4 @@
-// Designs that come with their files: bundles, and copies of examples.
+// Tests designs that come with their files: bundles, and copies of examples.
 #include <algorithm>
 #include <filesystem>
 

@@ -46,7 +46,7 @@ class Pair {
   std::array<SampledDesign, 2> sides_;
 };
 
-// Returns the fractions of each of the materials in each voxel of the slab, material after material.
+// Returns the fractions of each material in each voxel of the slab, material after material.
 std::vector<float> fractions(const SampledDesign& design, const std::vector<std::string>& names, const TileBox& slab,
                              const StopFlag& stop) {
   const auto voxels = static_cast<size_t>(slab.voxels());
@@ -67,7 +67,7 @@ std::vector<float> fractions(const SampledDesign& design, const std::vector<std:
   return dense;
 }
 
-// Adds up, over voxels, the shares of a voxel that were gained, lost and so on.
+// Sums over voxels of the shares that were gained, lost and so on.
 struct Sums {
   explicit Sums(size_t materials) : before(materials, 0), after(materials, 0) {}
   void add(const Sums& other) {
@@ -85,7 +85,8 @@ struct Sums {
   std::vector<double> before, after;  // of each material
 };
 
-// In each voxel the lesser share of a material is unchanged, and what both designs fill beyond that has changed.
+// Compares the designs in a slab. In each voxel the lesser share of a material is unchanged; the rest of what both
+// designs fill has changed.
 Sums compare_slab(const Pair& pair, const std::vector<std::string>& names, const TileBox& slab, const StopFlag& stop) {
   const std::vector<float> before = fractions(pair.side(0), names, slab, stop);
   const std::vector<float> after = fractions(pair.side(1), names, slab, stop);

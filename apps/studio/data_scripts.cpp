@@ -39,7 +39,7 @@ formats::Results read_results(const std::string& path) {
   return std::move(*results);
 }
 
-// The nearest 1, 2 or 5 times a power of ten that is not less.
+// Returns the least number that is not less than `value` and is 1, 2 or 5 times a power of ten.
 double round_up(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
   for (const double step : {1.0, 2.0, 5.0})
@@ -47,7 +47,8 @@ double round_up(double value) {
   return 10 * power;
 }
 
-// How many times the displacement moves the mesh by a quarter of its size; nothing where it has none.
+// Returns the factor with which the displacement moves the mesh by a quarter of its size; nothing if it has no
+// displacement.
 std::optional<double> greatest_deform(const formats::Results& results) {
   const formats::ResultField* field = formats::find_field(results, "displacement");
   if (!field || field->components != 3 || field->is_of_elements) return std::nullopt;
@@ -75,7 +76,7 @@ class FieldLines {
   const std::string& text() const { return text_; }
 
  private:
-  // A word that formulas can call; a name with a meaning of its own keeps to the unit of that.
+  // Returns a word for formulas. A standard name is only taken if the unit is that of the standard name.
   std::string name_for(const formats::ResultField& field, std::string_view component) {
     std::string name;
     for (const char c : field.name) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';

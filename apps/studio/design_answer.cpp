@@ -39,7 +39,7 @@ class NodeLister {
     return list;
   }
 
-  // A node's ports are where nodes go in: the solids that it takes, and the parameters that hold nodes.
+  // Returns a node's ports, to which other nodes connect: the solids that it takes, and the parameters that hold nodes.
   DataList ports(const design::Node& node) const {
     DataList ports;
     const auto add = [&](const std::string& name, std::string_view type, DataList edges) {
@@ -59,7 +59,7 @@ class NodeLister {
     return ports;
   }
 
-  // An edge ends at each node of a parameter's data; `output` is the one that the data names.
+  // Adds an edge from each node in a parameter's data; `output` is the output that the data names.
   void add_edges(const Data& data, const std::string& output, DataList& edges) const {
     if (const auto object = std::dynamic_pointer_cast<const design::NodeObject>(data.host_object()))
       return add_edge(*object->node(), output, edges);
@@ -112,7 +112,8 @@ DataList describe_materials(const OpenDesign& open) {
   return list;
 }
 
-// "// mm, of the plate" behind the value, which .vcad scripts have; comments that say a range are none.
+// Returns the comment after a value in a .vcad script, such as "// mm, of the plate"; comments that state a range do
+// not count.
 std::string remark_behind(const SourceText& source, const SourceRange& value) {
   const Place place = source.place(value.end);
   const std::string_view line = source.line(place.line);
@@ -140,7 +141,7 @@ std::vector<const design::Node*> listed_nodes(const design::Design& design) {
 DataMembers describe_call(const design::Node& node, const SourcePtr& page_text, const PageOffsets& offsets) {
   DataMembers members{{"type", node.type().name}};
   const SourceRange& where = node.where();
-  if (where.begin == where.end) return members;  // no call: a script's union of all that it shows, say
+  if (where.begin == where.end) return members;  // a node without a call, such as the union of a whole script
   if (!where.source || where.source->name() != page_text->name()) return members;
   members.emplace_back("from", offsets.at(where.begin));
   members.emplace_back("to", offsets.at(where.end));

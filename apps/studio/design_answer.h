@@ -1,4 +1,4 @@
-// Answers of the studio about a design that was loaded.
+// Describes a loaded design for answers of the studio.
 #pragma once
 
 #include <set>
@@ -10,21 +10,21 @@
 
 namespace ombre::studio {
 
-// Top-level variables of a script with what its comments say of them, and where their values stand in the text.
+// Describes the top-level variables of a script, with their comments and the places of their values in the text.
 DataList describe_variables(const SourcePtr& source);
 
-// "design" (a handle), "bounds_mm", "materials", "parts", "part_nodes", "attributes", "nodes", with their places in the
-// text that the page has.
+// Returns "design" (a handle), "bounds_mm", "materials", "parts", "part_nodes", "attributes", and "nodes" with their
+// places in the text of the page.
 DataMembers describe_design(const OpenDesign& design, const SourcePtr& page_text);
 
-// "type", and where its call stands in the page's text: "from", "to", "line", if it does.
+// Returns "type", and "from", "to" and "line" of its call if that is in the page's text.
 DataMembers describe_call(const design::Node& node, const SourcePtr& page_text, const PageOffsets& offsets);
 
-// The nodes of a design as describe_design() numbers them: the parts' first, and then those below them. Deeper or wider
-// designs are listed in part.
+// Returns the nodes of a design as describe_design() numbers them: those of the parts first, then the nodes below them.
+// Very deep or wide designs are listed in part.
 std::vector<const design::Node*> listed_nodes(const design::Design& design);
 
-// The files that its nodes name, where they were found.
+// Returns the paths of the files that the nodes name.
 std::set<std::string> design_files(const design::Design& design);
 
 DataList list_of(Vec3 v);

@@ -1,4 +1,4 @@
-// The designs that are open, and what was planned of them.
+// Keeps the open designs, and the plans of their jobs.
 #pragma once
 
 #include <list>
@@ -21,10 +21,10 @@ struct CutDesign {
 };
 using CutDesignPtr = std::shared_ptr<const CutDesign>;
 
-// A design that was loaded. Thread-safe.
+// A loaded design. Thread-safe.
 class OpenDesign {
  public:
-  // The memory outlives it.
+  // `memory` must outlive the design.
   OpenDesign(std::string name, compile::LoadedPtr design, const Box& box, std::string program,
              design::SubDesignMemory& kept)
       : handle(std::move(name)), loaded(std::move(design)), bounds(box), memory(kept), program_(std::move(program)) {}
@@ -32,10 +32,10 @@ class OpenDesign {
   const std::string handle;
   const compile::LoadedPtr loaded;
   const Box bounds;
-  design::SubDesignMemory& memory;  // of what was made of the design's parts, and of other designs'
+  design::SubDesignMemory& memory;  // results of the design's parts, and of other designs'
 
-  // Planned when it is first asked for, and kept. Throws RequestError, which says what is wrong, when the design cannot
-  // be cut so.
+  // Plans a job when it is first asked for, and keeps the plan. Throws RequestError if the design cannot be cut with
+  // these choices.
   CutDesignPtr cut(const JobChoices& choices);
 
  private:
@@ -45,21 +45,21 @@ class OpenDesign {
   };
   CutDesignPtr make(const JobChoices& choices) const;
 
-  std::string program_;  // that writes jobs: "ombre 0.1.0"
+  std::string program_;  // the program that writes jobs: "ombre 0.1.0"
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<Slot>> slots_;  // by the choices' key
+  std::map<std::string, std::shared_ptr<Slot>> slots_;  // by the key of the choices
 };
 using OpenDesignPtr = std::shared_ptr<OpenDesign>;
 
-// Keeps the designs that were loaded last, each by a handle. Thread-safe.
+// Keeps the designs that were loaded last, each with a handle. Thread-safe.
 class Designs {
  public:
   static constexpr size_t most = 12;
 
-  // The memory outlives all that is added.
+  // `memory` must outlive all designs.
   explicit Designs(design::SubDesignMemory& memory) : memory_(memory) {}
   OpenDesignPtr add(const compile::LoadedPtr& loaded, const Box& bounds, const std::string& program);
-  // Throws RequestError "gone" for one that is no longer kept: it is to be loaded again.
+  // Throws RequestError "gone" for a design that is no longer kept and has to be loaded again.
   OpenDesignPtr find(const std::string& handle);
 
  private:

@@ -17,16 +17,16 @@ struct Exports::Job {
   int64_t id = 0;
   ExportRequest request;
   State state = State::waiting;
-  State wanted = State::done;  // what a stop makes of it: paused or cancelled
+  State wanted = State::done;  // state after a stop: paused or cancelled
   HowFar how_far;
   int64_t layers = 0;
   std::string message;
-  DataList report;  // events of the kind's job, but for progress and messages
+  DataList report;  // events of the job, except for progress and messages
   Stopwatch since_report = {};
   std::shared_ptr<StopFlag> stop = std::make_shared<StopFlag>();
 };
 
-// Takes how far a job is, and tells it a few times a second.
+// Receives the progress of a job, and reports it a few times a second.
 class Exports::Watch : public Progress {
  public:
   Watch(Exports& exports, Job& job) : exports_(exports), job_(job) {}
@@ -89,7 +89,7 @@ DataMembers Exports::start(const ExportRequest& request) {
     for (const JobPtr& job : jobs_)
       if (job->request.folder == request.folder && (job->state == State::waiting || job->state == State::working))
         throw RequestError("busy", "a job is writing into " + request.name + " already");
-    // The new job takes the place of those that wrote there before.
+    // The new job replaces earlier ones that wrote to the same folder.
     std::erase_if(jobs_, [&](const JobPtr& job) { return job->request.folder == request.folder; });
     auto job = std::make_shared<Job>();
     job->id = ++count_;
@@ -101,7 +101,7 @@ DataMembers Exports::start(const ExportRequest& request) {
   return made;
 }
 
-// Makes the request one that goes on with what is there, if its kind can.
+// Changes the request so that the job resumes, if its kind can.
 void Exports::go_on(ExportRequest& request) {
   if (!request.kind) return;
   const auto& options = request.kind->options;
@@ -205,7 +205,7 @@ void Exports::work(Job& job) {
   try {
     job.request.kind ? run_kind(job, *stop) : slice(job, *stop);
   } catch (const Cancelled&) {
-    job.request.replace = false;  // a resumed job goes on with its own layers
+    job.request.replace = false;  // a resumed job continues with its own layers
     end(job, job.wanted, "");
   } catch (const options::WrongValue& error) {
     end(job, State::failed, wrong_value(error).what());
@@ -238,7 +238,7 @@ void Exports::slice(Job& job, const StopFlag& stop) {
   end(job, State::done, message);
 }
 
-// A search of variables makes the design anew from its file; other jobs take the design that is open.
+// Runs a job. A search of variables loads the design from its file again; other jobs take the open design.
 void Exports::run_kind(Job& job, const StopFlag& stop) {
   const ExportRequest& request = job.request;
   const jobs::JobKind& kind = *request.kind;

@@ -1,4 +1,4 @@
-// Jobs that the page started, of any kind: one at a time, each of which may pause.
+// Runs the jobs that the page starts, of any kind, one at a time; each may pause.
 #pragma once
 
 #include <condition_variable>
@@ -19,34 +19,35 @@ namespace ombre::studio {
 struct ExportRequest {
   OpenDesignPtr design;
   JobChoices choices;
-  std::string file;    // of the design, as the page knows it
-  std::string name;    // of the folder, likewise
-  std::string folder;  // its path
+  std::string file;    // name of the design on the page
+  std::string name;    // name of the folder on the page
+  std::string folder;  // path of the folder
   bool replace = false;
   const jobs::JobKind* kind = nullptr;  // null: a slice stack by the choices
-  DataMembers members = {};             // of the kind's options, with whole paths
-  DataMembers shown = {};               // the same, as the page has them
+  DataMembers members = {};             // values of the kind's options, with absolute paths
+  DataMembers shown = {};               // the same values as the page has them
 };
 
-// Thread-safe. A job writes the files that the command of its kind would. Of slice stacks and searches what is finished
-// stays when a job pauses, ends or the program is killed, and the same request goes on from there; others begin again.
+// The queue of jobs. Thread-safe. A job writes the files that the command of its kind would. When a job pauses or ends,
+// or the program is killed, finished parts of slice stacks and searches stay, and the same request continues from
+// there; jobs of other kinds begin again.
 class Exports {
  public:
-  // Called with a job's state when it changes, and now and then while it works, from any thread.
+  // A function that gets a job's state when it changes, and now and then while it works, from any thread.
   using Report = std::function<void(const DataMembers& job)>;
 
-  // `program` is for job.json: "ombre 0.1.0".
+  // `program` is the text for job.json: "ombre 0.1.0".
   Exports(Report report, sources::SourceCache& cache, std::string program);
-  // Pauses what is at work, and waits for it.
+  // Pauses the job that works, and waits for it.
   ~Exports();
   Exports(const Exports&) = delete;
   Exports& operator=(const Exports&) = delete;
 
-  bool is_at_work() const;  // or has jobs that wait
+  bool is_at_work() const;  // true also if jobs wait
 
-  // The new job. Throws RequestError when the folder's job is at work or waits already.
+  // Adds a job and describes it. Throws RequestError if a job for the folder works or waits already.
   DataMembers start(const ExportRequest& request);
-  // Each throws RequestError when there is no such job, or it is in no state for that.
+  // These throw RequestError if there is no such job, or its state does not allow the change.
   void pause(int64_t id);
   void resume(int64_t id);
   void cancel(int64_t id);

@@ -1,4 +1,4 @@
-// Jobs: where they lie, what they take, and how they go on.
+// Tests jobs: their placement, their estimates, and their resumption.
 #include <sys/resource.h>
 
 #include <csignal>
@@ -17,7 +17,7 @@ constexpr const char* gyroid =
     "gyroid_block(20);\nmodule gyroid_block(s) intersection() { rectprism((s, s, s)); "
     "function(\"sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)\", red); }";
 
-// Files of this process end after so many bytes, as on a disk without space.
+// Limits the size of this process's files, as a full disk does.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -40,10 +40,10 @@ class FullDisk {
 TEST_F(StudioTest, JobsCoverTheDesignOrTheTray) {
   const std::string job = R"("design": ")" + load(ball) + R"(", "printer": "j750", )";
   const Data middle = ask("plan", job + R"("place": "center")").first;
-  // 490 x 390 mm, at 600 and 300 dpi; above the ball are no layers.
+  // The tray has 490 x 390 mm, at 600 and 300 dpi; there are no layers above the ball.
   EXPECT_EQ(*middle.find("count"), Data(DataList{number(11575), number(4606), number(223)}));
   EXPECT_NEAR(*middle.find("origin_mm")->list()->front().number(), -245, 0.05);
-  // The ball stands around the tray's corner.
+  // The ball reaches over the tray's corner.
   EXPECT_EQ(text(ask("plan", job + R"("tray": true)").first, "error"), "design");
   EXPECT_EQ(*ask("plan", job + R"("place": "design")").first.find("count")->list()->front().number(), 142);
   EXPECT_EQ(text(ask("plan", job + R"("place": "moon")").first, "error"), "request");
@@ -64,13 +64,13 @@ TEST_F(StudioTest, JobsTakeTheOptionsOfTheCommandLine) {
   EXPECT_EQ(*plan(R"("voxel": [0.5, 0.25, 0.2])").find("count"), Data(DataList{number(4), number(8), number(10)}));
   EXPECT_EQ(*plan(R"("dpi": "254", "layer-height": 0.5)").find("count"),
             Data(DataList{number(20), number(20), number(4)}));
-  // A level makes the chosen voxels longer, too.
+  // A level makes chosen voxels longer, too.
   EXPECT_EQ(*plan(R"("voxel": [0.5, 0.25, 0.2], "level": 1)").find("count"),
             Data(DataList{number(2), number(4), number(10)}));
   const Data shades = *job_of(R"("by": "heat", "range": [-1, 1], "bits": "16")").find("shades");
   EXPECT_EQ(number_in(shades, "bits"), 16);
   EXPECT_EQ(number_in(shades, "black"), -1);
-  // Null, empty texts and false are as if nothing had been said.
+  // Null, empty texts and false mean that an option is not given.
   EXPECT_EQ(text(plan(R"("printer": "", "place": null, "tray": false)"), "job"),
             text(plan(R"("lane": "plan")"), "job"));
 
@@ -83,7 +83,7 @@ TEST_F(StudioTest, JobsTakeTheOptionsOfTheCommandLine) {
   EXPECT_NE(unknown.find("did you mean \"dither\"?"), std::string::npos) << unknown;
   for (const options::Option& option : JobChoices::options().options())
     EXPECT_NE(unknown.find(option.name().substr(2)), std::string::npos) << unknown;
-  EXPECT_NE(message(R"("folder": "x")").find("no option \"folder\""), std::string::npos);  // which plans have not
+  EXPECT_NE(message(R"("folder": "x")").find("no option \"folder\""), std::string::npos);  // plans have no folder
   EXPECT_EQ(message(R"("bits": "16")"), "\"bits\" needs \"by\"");
   EXPECT_EQ(message(R"("tray": true, "place": "center")"), "\"tray\" and \"place\" exclude each other: leave one out");
   EXPECT_NE(message(R"("dither": "random")").find("stochastic"), std::string::npos);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int coarsest_level = 12;
 
-// Tells members of a request from the options of its job.
+// True for members of a request that are not options of its job.
 bool is_of_request(const std::string& name, std::initializer_list<std::string_view> others) {
   constexpr std::string_view usual[] = {"id", "do", "lane", "design", "level"};
   return std::ranges::find(usual, name) != std::end(usual) || std::ranges::find(others, name) != others.end();

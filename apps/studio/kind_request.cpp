@@ -9,7 +9,7 @@
 namespace ombre::studio {
 namespace {
 
-// Jobs of a design or of a file. Slice stacks have a form of their own.
+// True for jobs on a design or a file, except for slice stacks, which have a form of their own.
 bool is_offered(const jobs::JobKind& kind) {
   const auto is_needed = [](const options::Option& option) {
     return option.is_required && (option.names == "design" || option.names == "file" || option.names == "folder");
@@ -30,7 +30,7 @@ const options::Option* find(const jobs::JobKind& kind, std::string_view name) {
   return found == kind.options.end() ? nullptr : &*found;
 }
 
-// Paths are those of the workspace, also in lists.
+// Returns the value with its paths, also in lists, made absolute in the workspace.
 Data placed(const options::Option& option, const Data& value, const Workspace& workspace) {
   if (option.kind != "file") return value;
   if (const DataList* list = value.list()) {

@@ -1,4 +1,4 @@
-// Requests of the page to run a job of some kind.
+// Reads requests of the page to run a job of some kind.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,12 @@
 
 namespace ombre::studio {
 
-// The kinds that the page offers, as a list of {"name", "help", "options"}, whose options are as options::describe has
-// them, but for the design.
+// Returns the kinds that the page offers as a list of {"name", "help", "options"}. Options are as options::describe has
+// them, without the design.
 DataList describe_kinds();
 
-// Reads {"kind", "file", "options": {name: value}, "replace"}: files among the options are in the workspace, and a
-// study may be its text. `design` gives the open design. Throws RequestError.
+// Reads {"kind", "file", "options": {name: value}, "replace"}. Files among the options are in the workspace, and a
+// study may be its text. `design` returns the open design. Throws RequestError.
 ExportRequest kind_request(const Request& request, const Workspace& workspace,
                            const std::function<OpenDesignPtr()>& design);
 

@@ -1,4 +1,4 @@
-// Scripts without end, designs that are too deep, and requests that are cancelled.
+// Tests endless scripts, designs that are too deep, and requests that are cancelled.
 #include "base/system/stopwatch.h"
 #include "base/text/json.h"
 #include "studio/test_studio.h"
@@ -36,7 +36,7 @@ TEST_F(StudioTest, StopsScriptsWithoutEnd) {
   EXPECT_EQ(text(endless, "error"), "time") << print_json(endless);
   EXPECT_NE(text(endless, "message").find("0.3 s"), std::string::npos);
   EXPECT_LT(watch.seconds(), 10);
-  EXPECT_EQ(*ask_impatient("sphere(1);").find("ok"), Data(true));  // the next is answered
+  EXPECT_EQ(*ask_impatient("sphere(1);").find("ok"), Data(true));  // the next request is answered
   impatient.remove(client);
 }
 

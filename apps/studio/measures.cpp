@@ -1,4 +1,4 @@
-// Volumes and masses of a design's materials and named parts.
+// Measures volumes and masses of a design's materials and named parts.
 #include <cmath>
 #include <optional>
 
@@ -10,17 +10,17 @@
 namespace ombre::studio {
 namespace {
 
-// Returns the density in g/cm3, or nothing where the material has none.
+// Returns the density in g/cm3, or nothing if the material has none.
 std::optional<double> density_of(const design::Material& material) {
   for (const auto& [name, value] : material.properties)
     if (name == "density" && value.number()) return *value.number();
   return std::nullopt;
 }
 
-// Adds up voxels by materials, and by parts where the design has labels of parts.
+// Sums voxels by materials, and by parts if the design has labels of parts.
 class Amounts {
  public:
-  // The grids are those of fractions, and behind them the label of parts, where there are names.
+  // The grids are the fractions; if there are names of parts, the label of parts comes after them.
   Amounts(const compile::GridJob& job, const design::MaterialTable& materials, const std::vector<std::string>& parts) {
     if (!parts.empty()) part_names_.emplace_back("rest");
     part_names_.insert(part_names_.end(), parts.begin(), parts.end());
@@ -57,8 +57,8 @@ class Amounts {
 
  private:
   struct Amount {
-    double voxels = 0, weighed = 0;  // voxels times g/cm3
-    bool is_known = true;            // are all densities?
+    double voxels = 0, weighed = 0;  // in voxels, and in voxels times g/cm3
+    bool is_known = true;            // true if all densities are known
 
     void add(double share, const std::optional<double>& density) {
       voxels += share;
@@ -87,7 +87,7 @@ class Amounts {
     return list;
   }
 
-  std::vector<std::string> names_, part_names_;  // no part names: the design has no labels of parts
+  std::vector<std::string> names_, part_names_;  // without part names the design has no labels of parts
   std::vector<std::optional<double>> densities_;
   std::vector<Amount> of_material_, of_part_;
 };

@@ -1,13 +1,13 @@
-// Volumes of materials, and versions that are compared.
+// Tests volumes of materials, and comparisons of versions.
 #include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {
 namespace {
 
-// A cube of 8 mm grows to 10 along x, loses 1 along z, and half of what stays (x < 4) is of another material.
+// A cube of 8 mm grows to 10 along x, loses 1 along z, and half of the rest (x < 4) gets another material.
 
-// Half red and half blue everywhere becomes three quarters red: a quarter of it is of another material.
+// A mixture changes from half red to three quarters red, so a quarter of it has another material.
 
 TEST_F(StudioTest, MeasuresABall) {
   const Data measured = ask("measure", R"("design": ")" + load(ball) + '"').first;

@@ -14,10 +14,10 @@ namespace {
 using design::Node;
 using design::NodePtr;
 
-// Solids that are evaluated at a point at once, each of which is compiled; bounds have left out most before.
+// Greatest number of solids that are compiled and evaluated at a point; bounds exclude most others before.
 constexpr size_t most_candidates = 64;
 
-// Is the shape that of its one input, as it is or in other places?
+// True if the node shows the shape of its one input, as it is or in other places.
 bool shows_its_input(const Node& node) {
   constexpr std::array<std::string_view, 3> elsewhere{"transforms", "warps", "arrays"};
   if (node.inputs().size() != 1) return false;
@@ -52,7 +52,7 @@ class Descent {
                                     : first_around({node.inputs().begin(), node.inputs().end()}, counts_last(node));
   }
 
-  // The solid where the nodes above put it.
+  // Returns the solid in the place to which the nodes above move it.
   NodePtr placed(NodePtr solid) const {
     for (const Node* above : around_) solid = above->type().with_inputs(*above, {solid});
     return solid;
@@ -74,7 +74,7 @@ class Descent {
     return found < candidates.size() ? candidates[found] : nullptr;
   }
 
-  // The number of the part, or one beyond the last.
+  // Returns the number of the first part that holds the point, or the count of parts.
   size_t first_inside(const design::Design& alone) const {
     if (stop_.requested()) throw Cancelled();
     compile::SampleQuery query;

@@ -8,7 +8,7 @@
 namespace ombre::studio {
 namespace {
 
-// Cubes of such a size that about so many fill the box.
+// Returns the side of cubes of which about `voxels` fill the box.
 Pitch pitch_for(const Box& box, double voxels) {
   const Vec3 size = box.size();
   const double least = std::max({size.x, size.y, size.z}) / 1000;

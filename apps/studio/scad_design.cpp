@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace openscad = lang::openscad;
 
-// A line of the script, without the blanks before it; the script as a whole for messages from elsewhere.
+// Returns the line of a message without the blanks before it, or the whole script for messages about other files.
 SourceRange range_of(const SourcePtr& script, const openscad::Message& message) {
   const bool is_own = message.file.empty() || fs::path(message.file).filename() == fs::path(script->name()).filename();
   if (message.line < 1 || !is_own) return {script, 0, 0};
@@ -46,7 +46,7 @@ void report(const openscad::Message& message, const SourcePtr& script, const com
   }
 }
 
-// "names" where all solids have one of a material, else "colours".
+// Returns "names" if all solids have the name of a material, else "colours".
 std::string naming(const solids::Pieces& pieces, const compile::LoadOptions& options, Diagnostics& diagnostics) {
   const auto materials = compile::load_materials(options.materials, diagnostics);
   const bool are_named = materials && std::ranges::all_of(pieces, [&](const auto& piece) {

@@ -12,7 +12,7 @@
 namespace ombre::studio {
 namespace {
 
-constexpr int64_t most_side = 1024;  // numbers of a plane, each way
+constexpr int64_t most_side = 1024;  // numbers of a plane along each axis
 
 double number_at(const formats::VoxelVolume& volume, const std::array<int64_t, 3>& at) {
   const int64_t n = (at[2] * volume.count[1] + at[1]) * volume.count[0] + at[0];
@@ -20,13 +20,13 @@ double number_at(const formats::VoxelVolume& volume, const std::array<int64_t, 3
       volume, [&](const auto& numbers) { return static_cast<double>(numbers[static_cast<size_t>(n)]); });
 }
 
-// When the file was changed last, so that another scan under its name is read again.
+// Returns the time of the file's last change, so that another scan under its name is read again.
 std::string stamp_of(const std::filesystem::path& path) {
   std::error_code error;
   return std::to_string(std::filesystem::last_write_time(path, error).time_since_epoch().count());
 }
 
-// The lengths of a voxel's sides; ones where the file does not say them.
+// Returns the lengths of a voxel's sides; ones if the file does not state them.
 DataList steps_of(const formats::VoxelVolume& volume) {
   DataList steps;
   for (int axis = 0; axis < 3; ++axis) {
@@ -41,7 +41,7 @@ DataList steps_of(const formats::VoxelVolume& volume) {
 Scan read_scan(const std::string& path, const formats::VolumeChoice& choice, const StopFlag* stop) {
   sources::FileStore files;
   const sources::ReadFile read = [&](const std::string& file) { return files.view(file, files.content(file)); };
-  std::vector<std::string> warnings;  // the design that reads the scan says them
+  std::vector<std::string> warnings;  // ignored here: the design that reads the scan reports them
   Scan scan;
   scan.volume = sources::read_volume_parts(path, sources::volume_parts(path, read), choice, read, stop, warnings);
   scan.range = sources::value_range(scan.volume);
@@ -57,7 +57,7 @@ ScanPtr Scans::find(const Request& request, const StopFlag& stop) {
   if (request.body.find("channel")) choice.channel = static_cast<int>(request.whole("channel", -1, 100000));
   const std::string key =
       stamp_of(path) + ' ' + std::to_string(choice.channel) + ' ' + choice.name + '\n' + path.string();
-  // Requests for the planes of one scan come together: the first reads it, the others wait.
+  // The planes of one scan are requested together, so the first request reads it while the others wait.
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find(kept_, key, [](const auto& entry) -> const std::string& { return entry.first; });
   if (known != kept_.end()) {

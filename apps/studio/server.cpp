@@ -41,7 +41,7 @@ RequestHead head_of(const HttpRequest& request) {
           text_of(request[http::field::cookie]), text_of(request[http::field::authorization])};
 }
 
-// The page loads nothing from elsewhere, stands in no other page, and keeps nothing in caches.
+// Adds headers by which the page loads nothing from elsewhere, cannot be framed, and is not cached.
 void add_page_headers(HttpResponse& response) {
   response.set("Content-Security-Policy",
                "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
@@ -70,24 +70,24 @@ HttpResponse plain(const HttpRequest& request, unsigned status, const std::strin
   return response_of(request, status, "text/plain; charset=utf-8", text + "\n");
 }
 
-// A connection, while it is not closed.
+// An open connection.
 class Connection {
  public:
   virtual ~Connection() = default;
   virtual void close() = 0;
-  // Closes it for a newer one, with words where it can take some.
+  // Closes the connection for a newer one, with a message if it can take one.
   virtual void give_way() = 0;
-  // Connections that matter least give way first: silent ones, then those that load files, then pages.
+  // Order in which connections give way: silent ones first, then those that load files, then pages.
   enum class Matters { least, more, most };
   virtual Matters matters() const = 0;
 };
 
-// Connections share this state. All of it runs on the one thread that calls serve().
+// State that connections share. All of it is used on the one thread that calls serve().
 struct Shared {
   Studio& studio;
   const ServerOptions& options;
   Guard guard;
-  std::shared_ptr<asio::io_context> context;              // which pages need, as long as answers name them
+  std::shared_ptr<asio::io_context> context;              // pages need it as long as answers name them
   std::list<std::weak_ptr<Connection>> connections = {};  // the oldest first
   size_t pages = 0;
 
@@ -224,7 +224,7 @@ class Visit : public Connection, public std::enable_shared_from_this<Visit> {
   }
   Matters matters() const override { return was_let_in_ ? Matters::more : Matters::least; }
 
-  // The words are few, so that the socket takes them at once, or never.
+  // The message is short, so that the socket takes it at once or never.
   void give_way() override {
     if (!is_answering_) {
       HttpResponse words = plain(last_request(), 503, "Too many connections to the studio are open; close some.");
@@ -235,7 +235,7 @@ class Visit : public Connection, public std::enable_shared_from_this<Visit> {
   }
 
  private:
-  // Behind whose answer the connection closes.
+  // Makes the request after whose answer the connection closes.
   static HttpRequest last_request() {
     HttpRequest request;
     request.version(11);
@@ -305,9 +305,9 @@ class Listener {
   void accept(const std::shared_ptr<Shared>& shared) {
     acceptor_.async_accept([this, shared](error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      if (error) return accept_later(shared);  // too many open files, say
+      if (error) return accept_later(shared);  // for example too many open files
       error_code ignored;
-      socket.set_option(tcp::no_delay(true), ignored);  // answers are small, and waited for
+      socket.set_option(tcp::no_delay(true), ignored);  // answers are small, and the page waits for them
       shared->make_room();
       const auto visit = std::make_shared<Visit>(std::move(socket), shared);
       shared->connections.emplace_back(visit);

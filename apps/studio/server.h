@@ -1,4 +1,4 @@
-// The studio on the network of this machine alone: its page by HTTP, its requests by a WebSocket.
+// Serves the studio on this machine: its page by HTTP, its requests by a WebSocket.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 namespace ombre::studio {
 
 struct ServerLimits {
-  size_t connections = 64;  // with more, those that have said nothing for the longest time are closed
-  size_t pages = 16;        // WebSockets
+  size_t connections = 64;  // beyond it, the connections that have been silent for longest are closed
+  size_t pages = 16;        // number of WebSockets
   double head_seconds = 10;
-  size_t head_bytes = 8 << 10, body_bytes = 16 << 10;  // of an HTTP request
-  size_t frame_bytes = 16 << 20;                       // of what a page says
-  size_t waiting_bytes = 256 << 20;                    // that a page has not yet taken
+  size_t head_bytes = 8 << 10, body_bytes = 16 << 10;  // greatest size of an HTTP request
+  size_t frame_bytes = 16 << 20;                       // greatest size of a message from a page
+  size_t waiting_bytes = 256 << 20;                    // greatest size of messages that a page has not taken yet
 };
 
 struct ServerOptions {
-  uint16_t port = 0;  // 0: one that is free
+  uint16_t port = 0;  // 0: a free one
   std::string token;  // empty: a random one
   std::span<const Asset> assets;
   ServerLimits limits = {};
-  double idle_seconds = 0;  // it ends after so long without a page or a job; 0: never
+  double idle_seconds = 0;  // the server ends after this time without a page or a job; 0: never
 };
 
 // The address at which the server listens.
@@ -34,10 +34,10 @@ struct Address {
   uint16_t port = 0;
   std::string token;
 
-  std::string url() const;  // that opens the page
+  std::string url() const;  // opens the page
 };
 
-// Serves 127.0.0.1 until asked to stop, after `ready` was called. Throws Error when the port is taken.
+// Serves 127.0.0.1 until it is asked to stop, and calls `ready` once it listens. Throws Error if the port is taken.
 void serve(Studio& studio, const ServerOptions& options, const StopFlag& stop,
            const std::function<void(const Address&)>& ready);
 

@@ -20,7 +20,7 @@ namespace {
 const std::string page_token = "fedcba9876543210fedcba9876543210";
 constexpr Asset page[] = {{"/index.html", "text/html", "<p>hello</p>"}, {"/app.js", "text/javascript", "1"}};
 
-// A connection that says and hears bytes.
+// A connection that sends and receives bytes.
 class Caller {
  public:
   explicit Caller(uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -44,7 +44,7 @@ class Caller {
       at += static_cast<size_t>(sent);
     }
   }
-  // Until the text was heard, or the other side has closed.
+  // Receives until the text arrives or the other side closes.
   std::string hear(const std::string& until = "\r\n\r\n") const {
     std::string heard;
     char block[4096];
@@ -55,7 +55,7 @@ class Caller {
     }
     return heard;
   }
-  // Has the other side closed, without a word?
+  // True if the other side has closed without a message.
   bool is_closed() const {
     char byte = 0;
     return ::recv(socket_, &byte, 1, 0) <= 0;
@@ -66,7 +66,7 @@ class Caller {
   bool is_open_ = false;
 };
 
-// A frame as clients send it, with a mask of zeros. `first` is the byte of flags and kind: 0x81 is a text.
+// Makes a frame as clients send it, with a mask of zeros. `first` is the byte of flags and kind: 0x81 is a text.
 std::string client_frame(unsigned char first, const std::string& payload) {
   std::string frame{static_cast<char>(first)};
   if (payload.size() < 126) {
@@ -172,11 +172,11 @@ TEST_F(ServerTest, ClosesOnMalformedAndGiantFrames) {
   limits.frame_bytes = 1000;
   start(limits);
   const std::string bad[] = {client_frame(0x81, std::string(2000, ' ')),  // too long
-                             client_frame(0x8f, "x"),                     // no such kind
+                             client_frame(0x8f, "x"),                     // unknown kind
                              client_frame(0xf1, "x"),                     // reserved bits
-                             client_frame(0x81, "\xff\xff"),              // no UTF-8
+                             client_frame(0x81, "\xff\xff"),              // invalid UTF-8
                              std::string("\x81\x01x", 3),                 // without a mask
-                             client_frame(0x82, "bytes"),                 // no text
+                             client_frame(0x82, "bytes"),                 // binary, not text
                              "\x81" + std::string(9, '\xff') + std::string(4, '\0')};
   for (const std::string& frame : bad) {
     const Caller caller(port);
@@ -224,7 +224,7 @@ TEST_F(ServerTest, ClosesThoseWhoSayNothing) {
   EXPECT_LT(watch.seconds(), 10);
 }
 
-// The oldest make room.
+// The oldest connections make room.
 TEST_F(ServerTest, AnswersWhile200ConnectionsSayNothing) {
   start();
   std::vector<std::unique_ptr<Caller>> callers;
@@ -253,14 +253,14 @@ TEST_F(ServerTest, Refuses200WindowsInClearWords) {
     }
   }
   EXPECT_EQ(windows.size(), ServerLimits().pages);
-  EXPECT_TRUE(has(open_window()->hear("close some."), " 503 "));  // the 201st
-  // Windows that are open stay so, and are answered.
+  EXPECT_TRUE(has(open_window()->hear("close some."), " 503 "));  // connection 201
+  // Open windows stay open, and are answered.
   for (const auto& window : windows) {
     window->say(client_frame(0x81, R"({"id": 5, "do": "list"})"));
     EXPECT_TRUE(has(window->hear("files"), R"("id":5)"));
   }
   EXPECT_TRUE(has(get("/", cookie()), " 200 "));
-  // And there is room again when they are closed, as soon as the server has seen it.
+  // There is room again once the server has seen that they are closed.
   windows.clear();
   refused.clear();
   const Stopwatch watch;

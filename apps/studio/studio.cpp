@@ -128,7 +128,8 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
             broadcast("job", {{"job", job}});
           },
           cache, options_.program),
-      // A few at once, so that short questions are answered while a long one is at work; each uses all cores.
+      // The queue runs a few requests at once, so that short ones are answered while a long one works; each uses all
+      // cores.
       queue_(std::max(4, core_count())) {}
 
 Studio::~Studio() = default;
@@ -200,8 +201,8 @@ void Studio::answer(const ClientPtr& client, const Request& request, const Kind&
   }
 }
 
-// The allocator keeps what threads freed, each in a heap of its own, so that a server grows from edit to edit although
-// it holds no more.
+// Returns freed memory to the system. The allocator keeps it in a heap for each thread, so that a server would
+// otherwise grow with each edit.
 void Studio::give_memory_back() {
   constexpr double seconds_between = 3;
   if (!has_answered_ || given_back_.seconds() < seconds_between) return;
@@ -252,7 +253,7 @@ Answer Studio::hello(const Request&, const StopFlag&) {
 
 Answer Studio::list(const Request&, const StopFlag&) { return {listed(), {}}; }
 
-// The answer for a scan or for results has as text a script that shows them.
+// Opens a file. For a scan or for results, the text of the answer is a script that shows them.
 Answer Studio::open(const Request& request, const StopFlag&) {
   const std::string& name = request.text("file");
   const std::filesystem::path path = workspace_.path(name);
@@ -281,7 +282,7 @@ Answer Studio::save(const Request& request, const StopFlag&) {
   return {{{"saved", true}, {"version", version}}, {}};
 }
 
-// The answer names files as a script writes them, from its own folder on.
+// Lists files with their names as a script writes them, relative to its own folder.
 Answer Studio::files_ending_in(const Request& request, const StopFlag&) {
   const std::string& script = request.text("file");
   const std::filesystem::path from = std::filesystem::path(workspace_.name_of(workspace_.path(script))).parent_path();
@@ -319,7 +320,7 @@ Answer Studio::presets_answer(const std::string& file, DataList presets) {
   return {{{"presets", std::move(presets)}}, {}};
 }
 
-// A Python script is run when a person asks for it, not while it is typed: it may do anything.
+// Loads a design. A Python script may do anything, so it only runs when a person asks for it, not while it is typed.
 compile::LoadedPtr Studio::read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                                 Diagnostics& diagnostics) {
   const std::string& file = request.text("file");

@@ -1,4 +1,4 @@
-// The studio apart from its connections: takes requests, sends answers and events.
+// The studio without its connections: takes requests, sends answers and events.
 #pragma once
 
 #include <atomic>
@@ -21,24 +21,25 @@
 
 namespace ombre::studio {
 
-// One connection to a page.
+// A connection to a page.
 class Client {
  public:
   virtual ~Client() = default;
-  // Thread-safe; does nothing once the connection is gone.
+  // Sends a frame; does nothing once the connection is gone. Thread-safe.
   virtual void send(Frame frame) = 0;
 };
 using ClientPtr = std::shared_ptr<Client>;
 
 struct StudioOptions {
   std::string program;               // "ombre 0.1.0"
-  std::vector<std::string> command;  // the words that start Ombre's command line; empty: no designs in Python
-  std::string first_file;            // that a page opens; empty: none
-  double most_seconds = 60;          // that an answer may take
-  std::function<bool(const std::string& folder)> open_folder = nullptr;  // shows it to a person; empty: no display
+  std::vector<std::string> command;  // words that start Ombre's command line; empty: no designs in Python
+  std::string first_file;            // file that a page opens at first; empty: none
+  double most_seconds = 60;          // time limit of an answer
+  std::function<bool(const std::string& folder)> open_folder =
+      nullptr;  // shows the folder to a person; empty: no display
 };
 
-// Thread-safe.
+// The studio. Thread-safe.
 class Studio {
  public:
   Studio(const std::filesystem::path& folder, StudioOptions options, sources::SourceCache& cache);
@@ -46,13 +47,13 @@ class Studio {
 
   void add(const ClientPtr& client);
   void remove(const ClientPtr& client);
-  // A request of the client; its answer comes when it is done.
+  // Takes a request of the client; the answer is sent when it is done.
   void take(const ClientPtr& client, const std::string& text);
-  // To be called a few times a second: tells clients which files others have changed.
+  // Tells clients which files have been changed by others; to be called a few times a second.
   void check_disk();
-  // How long it has had neither a client nor a job at work.
+  // Returns the time since it had a client or a working job.
   double idle_seconds();
-  // How often something was made of a sub-design, and how often it was there already.
+  // Counts of results of sub-designs that were computed, and that were found in memory.
   compile::SubDesignCache::Counts counts() const { return memory_.counts(); }
 
  private:
@@ -102,7 +103,7 @@ class Studio {
   Workspace workspace_;
   Scans scans_;
   Presets presets_;
-  sources::SourceCache made_{size_t{256} << 20};  // what was made of sub-designs, apart from files
+  sources::SourceCache made_{size_t{256} << 20};  // results of sub-designs, apart from files
   compile::SubDesignCache memory_{made_};
   Designs designs_{memory_};
   std::mutex mutex_;
@@ -110,7 +111,7 @@ class Studio {
   Stopwatch idle_, given_back_;
   std::atomic<bool> has_answered_ = false;
   Exports exports_;
-  WorkQueue queue_;  // last, so that it ends first
+  WorkQueue queue_;  // declared last, so that it ends first
 };
 
 }  // namespace ombre::studio

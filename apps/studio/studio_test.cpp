@@ -1,11 +1,11 @@
-// The studio answers questions about its folder, about scripts and about their mistakes.
+// Tests answers about the folder, about scripts and about their mistakes.
 #include "base/text/json.h"
 #include "studio/test_studio.h"
 
 namespace ombre::studio {
 namespace {
 
-// A turned design is the one that the script would turn, in its bounds and in what is sliced.
+// A turned design equals the design that the script would turn, in its bounds and its slices.
 
 TEST_F(StudioTest, SaysWhatThereIs) {
   folder.write("b.vcad", ball);
@@ -44,7 +44,7 @@ TEST_F(StudioTest, LoadsWithVariables) {
   ASSERT_EQ(loaded.find("variables")->list()->size(), 1U);
   const Data& variable = loaded.find("variables")->list()->front();
   EXPECT_EQ(number_in(variable, "most"), 5);
-  EXPECT_EQ(number_in(variable, "value"), 3);  // of the text
+  EXPECT_EQ(number_in(variable, "value"), 3);  // place in the text
   EXPECT_EQ(number_in(variable, "from"), 9);
   EXPECT_EQ(number_in(variable, "to"), 10);
   const DataList& nodes = *loaded.find("nodes")->list();

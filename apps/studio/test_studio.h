@@ -22,7 +22,7 @@ namespace ombre::studio {
 inline constexpr const char* ball =
     "radius = 3;  // [1:5]\n"
     "fgrade([\"0.5 + x / 6\", \"0.5 - x / 6\"], [red, blue]) sphere(radius);\n";
-// Remembers what it was sent.
+// A client that remembers what it was sent.
 class Listener : public Client {
  public:
   void send(Frame frame) override {
@@ -42,7 +42,7 @@ class Listener : public Client {
     news_.notify_all();
   }
 
-  // The first frame, and only it, for which the question holds; a null value after half a minute.
+  // Returns the first frame for which the question holds, and removes it; returns a null value after half a minute.
   template <class Question>
   std::pair<Data, std::string> wait(const Question& is_it) {
     std::unique_lock lock(mutex_);
@@ -90,7 +90,7 @@ class StudioTest : public testing::Test {
     EXPECT_TRUE(loaded.find("design")) << print_json(loaded);
     return text(loaded, "design");
   }
-  // The job when it is in that state.
+  // Returns the job when it is in that state.
   Data job_in(const std::string& state) {
     const auto event = client->wait([&](const Data& data) {
       const Data* job = data.find("job");

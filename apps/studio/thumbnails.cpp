@@ -1,6 +1,6 @@
-// Small pictures of the nodes of a design: of solids from a corner; of values in colours, over the slice through the
-// middle of the design. They are kept as long as there is room, by the hash of the node and of all
-// below it, so that an edit makes only those again whose nodes it changed.
+// Draws small pictures of the nodes of a design: of solids from a corner; of values in colours, over the slice through
+// the middle of the design. Pictures are kept while there is room, under the hash of the node and of all nodes below
+// it, so an edit only draws those of changed nodes again.
 #include "design/outputs.h"
 #include "formats/images/png.h"
 #include "jobs/picture/picture.h"
@@ -12,12 +12,12 @@ namespace ombre::studio {
 namespace {
 
 constexpr int64_t most_thumbnail = 256;  // pixels
-constexpr double most_seconds = 2;       // that one may take: others wait
+constexpr double most_seconds = 2;       // time limit of one picture, since others wait
 constexpr const char* view = "iso";
 
 constexpr const char* shown_value = "value";
 
-// The solid as a design of its own.
+// Returns the solid as a design of its own.
 compile::Loaded alone(const compile::Loaded& loaded, design::NodePtr solid) {
   design::Design design;
   design.materials = loaded.design.materials;
@@ -38,7 +38,7 @@ design::NodePtr make(const char* name, const design::Design& design,
   return node;
 }
 
-// A block around the design that is made of the node's mixture, or has its first output as an attribute.
+// Returns a block around the design that has the node's mixture, or its first output as an attribute.
 design::NodePtr block_of(const OpenDesign& open, const design::NodePtr& value) {
   const design::Design& design = open.loaded->design;
   const Vec3 size = open.bounds.size(), middle = open.bounds.center();
@@ -50,7 +50,7 @@ design::NodePtr block_of(const OpenDesign& open, const design::NodePtr& value) {
   return is_mixture ? block : make("attribute", design, {{"name", shown_value}, {"value", output}}, {block});
 }
 
-// The design that the small picture shows. The nodes of the whole design live as long as it.
+// Returns the design that the small picture shows. The nodes of the whole design stay alive as long as it.
 compile::Loaded shown(const OpenDesign& open, const design::Node& node, compile::PictureRequest& picture) {
   const design::NodePtr not_held(design::NodePtr(), &node);
   if (node.type().is_solid()) {

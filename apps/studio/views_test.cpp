@@ -1,4 +1,4 @@
-// Pictures, tiles, probes and volumes of a design.
+// Tests pictures, tiles, probes and volumes of a design.
 #include <map>
 
 #include "base/text/json.h"
@@ -16,7 +16,7 @@ TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
     return ask("render", R"("design": ")" + design + R"(", "width": 40, "height": 40, "azimuth": 0, "elevation": 0, )" +
                              R"("height_mm": 8, "target": )" + target);
   };
-  // Ten pixels a ball, in the middle; and 10 pixels to the left of it.
+  // The ball has ten pixels in the middle; the other place is 10 pixels to its left.
   const auto middle = formats::decode_png(picture("[0, 0, 0]").second, "middle");
   EXPECT_EQ(middle.colour(20, 20)[3], 255);
   EXPECT_EQ(middle.colour(20, 13)[3], 0);
@@ -128,7 +128,7 @@ TEST_F(StudioTest, VolumesHoldFractions) {
   }
 }
 
-// An edit makes nothing again that it leaves as it is.
+// An edit does not compute anything that it leaves unchanged.
 TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
   const auto made_by = [&](double radius, double beside, const std::string& material) {
     const size_t before = studio.counts().made;
@@ -140,14 +140,14 @@ TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
     EXPECT_TRUE(ask("plan", R"("printer": "j750", "design": ")" + design + '"').first.find("count"));
     return studio.counts().made - before;
   };
-  // One stage for the picture and the job, and the ends of the picture's rays.
+  // The picture and the job share one stage; the ends of the picture's rays are kept as well.
   EXPECT_EQ(made_by(3, 2, "red"), 2U);
   EXPECT_EQ(made_by(3, 2.5, "red"), 1U);
   EXPECT_LE(made_by(3, 2.5, "blue"), 1U);
   EXPECT_EQ(made_by(3.25, 2.5, "blue"), 2U);
 }
 
-// Knows nothing yet.
+// A studio with empty caches.
 class FreshStudio : public StudioTest {
  public:
   using StudioTest::ask, StudioTest::load;
@@ -156,7 +156,7 @@ class FreshStudio : public StudioTest {
   void TestBody() override {}
 };
 
-// A change of colours alone uses the known ends of rays, and gives the bytes of a studio that knows none.
+// A change of colours alone uses the known ends of rays, and gives the bytes of a studio with empty caches.
 TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
   const std::string camera = R"("width": 90, "height": 60, "samples": 2, "target": [0, 0, 0], "height_mm": 12)";
   const auto script = [](const std::string& from, const std::string& to) {
@@ -191,7 +191,7 @@ TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
   FreshStudio fresh;
   const std::string block = R"(, "design": ")" + fresh.load("cube(4, green);") + '"';
   EXPECT_EQ(fresh.ask("render", camera + face + block).second, again);
-  // Another camera sees other ends, and so does light that goes through.
+  // Another camera, or translucent materials, need other rays.
   const size_t made = studio.counts().made;
   render(red, R"(, "azimuth": 10)");
   EXPECT_EQ(studio.counts().made, made + 1);
@@ -249,8 +249,8 @@ TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
   EXPECT_EQ(ports("sphere"), "");
 }
 
-// The slice through the middle of the design, here a square of 8 mm: numbers in the colours of the palette, mixtures in
-// those of their materials.
+// The thumbnail is a slice through the middle of the design, here a square of 8 mm. Numbers have the colours of the
+// palette, mixtures those of their materials.
 TEST_F(StudioTest, ThumbnailsOfValuesShowThemOverASlice) {
   const std::string script =
       "warm = 2 * formula(\"x\") + 3;\nhue = mix(red, blue, formula(\"0.5 + x / 8\"));\n"
@@ -282,7 +282,7 @@ TEST_F(StudioTest, ThumbnailsOfValuesShowThemOverASlice) {
   ASSERT_LT(left, 8U);
   EXPECT_LT(differs(least_to_greatest.colour(left, 16), palette.front()), 24);
   EXPECT_LT(differs(least_to_greatest.colour(right, 16), palette.back()), 24);
-  // What varies along x alone has columns of one colour.
+  // Values that vary along x alone have columns of one colour.
   EXPECT_EQ(least_to_greatest.colour(12, 10), least_to_greatest.colour(12, 22));
   EXPECT_GT(red_to_blue.colour(left, 16)[0], red_to_blue.colour(right, 16)[0]);
   EXPECT_LT(red_to_blue.colour(left, 16)[2], red_to_blue.colour(right, 16)[2]);

@@ -1,4 +1,4 @@
-// Grids of a design's materials and attributes for the page's volume view.
+// Makes grids of a design's materials and attributes for the page's volume view.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,10 +17,10 @@ namespace ombre::studio {
 namespace {
 
 constexpr size_t channels = 4;        // of a texture
-constexpr size_t most_materials = 8;  // that are shown: two textures
+constexpr size_t most_materials = 8;  // greatest number of materials shown, in two textures
 
-// One byte a material and texel, four materials a texture: what WebGL takes as RGBA. A texel is the mean of 2 x 2 x 2
-// voxels, so that surfaces, and the light on them, are smooth.
+// Textures of materials, with a byte for each material and texel and four materials in each texture, which WebGL takes
+// as RGBA. A texel is the mean of 2 x 2 x 2 voxels, so that surfaces, and the light on them, are smooth.
 class Textures {
  public:
   explicit Textures(const compile::GridJob& job) : materials_(std::min(job.grids.size(), most_materials)) {
@@ -59,12 +59,12 @@ class Textures {
 
   std::array<int64_t, 3> count_{};
   size_t materials_;
-  std::vector<uint16_t> sums_;  // of 8 voxels
+  std::vector<uint16_t> sums_;  // sums over 8 voxels
 };
 
-// Two bytes a texel, what WebGL takes as RG: the share of it that is inside, behind the attribute's value there times
-// that share. A graphics processor may then take the mean of texels, which outside of the design have no value. A texel
-// is the mean of 2 x 2 x 2 voxels.
+// A texture of an attribute with two bytes for each texel, which WebGL takes as RG: the attribute's value times the
+// share inside, and the share inside. A graphics processor may then interpolate texels, although those outside of the
+// design have no value. A texel is the mean of 2 x 2 x 2 voxels.
 class ValueTexture {
  public:
   ValueTexture(const std::array<int64_t, 3>& voxels, const Interval& range) : range_(range) {
@@ -72,7 +72,7 @@ class ValueTexture {
     sums_.resize(2 * static_cast<size_t>(count_[0] * count_[1] * count_[2]), 0);
   }
 
-  // A tile of the value, and of the mark of what is inside.
+  // Adds a tile of the value, and of the flag for inside.
   void add(const voxel::FieldTile& tile) {
     const float *value = tile.output(0), *inside = tile.output(1);
     const int64_t next = tile.is_uniform ? 0 : 1;
@@ -101,7 +101,7 @@ class ValueTexture {
 
   Interval range_;
   std::array<int64_t, 3> count_{};
-  std::vector<float> sums_;  // of 8 voxels
+  std::vector<float> sums_;  // sums over 8 voxels
 };
 
 DataMembers describe_texels(const std::array<int64_t, 3>& texels, const voxel::Lattice& lattice) {
@@ -110,7 +110,7 @@ DataMembers describe_texels(const std::array<int64_t, 3>& texels, const voxel::L
   return {{"count", std::move(count)}, {"pitch_mm", 2 * lattice.pitch[0].mm()}, {"origin_mm", list_of(lattice.origin)}};
 }
 
-// Of one number, such as "stiffness" or "fibre.x".
+// Throws RequestError unless the name is that of a single number, such as "stiffness" or "fibre.x".
 void check_is_number(const design::Design& design, const std::string& attribute) {
   const std::vector<std::string> all = compile::all_attribute_parts(design);
   if (std::ranges::find(all, attribute) != all.end()) return;

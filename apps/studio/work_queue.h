@@ -1,4 +1,4 @@
-// Requests at work: a few at a time, each of which may be cancelled.
+// Runs requests, a few at a time, each of which may be cancelled.
 #pragma once
 
 #include <condition_variable>
@@ -15,20 +15,20 @@
 
 namespace ombre::studio {
 
-// Thread-safe. Work is started in the order in which it came; what was cancelled before runs as well, with its flag
-// set, so that it can say so. The destructor cancels all and waits.
+// A thread-safe queue that starts work in the order in which it came. Work that was cancelled before its start runs as
+// well, with its flag set, so that it can report that. The destructor cancels all work and waits.
 class WorkQueue {
  public:
   using Work = std::function<void(const StopFlag& stop)>;
-  static constexpr size_t most_waiting = 256;  // of one owner
+  static constexpr size_t most_waiting = 256;  // for each owner
 
   explicit WorkQueue(int workers);
   ~WorkQueue();
   WorkQueue(const WorkQueue&) = delete;
   WorkQueue& operator=(const WorkQueue&) = delete;
 
-  // Cancels what the owner has in the same lane, unless that has no name. False, and nothing is added, when the owner
-  // has too much waiting.
+  // Adds work, and cancels the owner's work in the same lane, unless the lane is empty. Returns false, and adds
+  // nothing, if too much of the owner's work waits.
   bool add(const void* owner, double id, const std::string& lane, Work work);
   void cancel(const void* owner, double id);
   void cancel_lane(const void* owner, const std::string& lane);

@@ -69,7 +69,7 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Appends what is there. False at the end.
+// Appends the available output. Returns false at the end.
 bool read_some(int from, std::string& to) {
   std::array<char, 65536> block{};
   const ssize_t count = ::read(from, block.data(), block.size());

@@ -20,7 +20,7 @@ TEST(ChildProcess, GivesWhatAProgramSays) {
 
 TEST(ChildProcess, PassesOnNoFiles) {
   const StopFlag none;
-  // 3 is what `ls` itself has opened.
+  // Descriptor 3 is the folder that `ls` itself has opened.
   EXPECT_EQ(run_program({"sh", "-c", "ls /proc/self/fd | tr '\\n' ' '"}, none, 1000).out, "0 1 2 3 ");
 }
 

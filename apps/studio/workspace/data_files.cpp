@@ -29,7 +29,7 @@ std::string_view name_of(DataKind kind) {
 }
 
 bool is_dicom_folder(const fs::path& folder) {
-  constexpr int most_entries = 64;  // a folder of DICOM files shows it soon
+  constexpr int most_entries = 64;  // number of entries after which the search for .dcm files ends
   std::error_code error;
   int seen = 0;
   for (const fs::directory_iterator end; const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {

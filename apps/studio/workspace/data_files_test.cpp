@@ -1,4 +1,4 @@
-// Scans, results and tables that lie beside designs.
+// Tests scans, results and tables that lie beside designs.
 #include <cstring>
 #include <filesystem>
 
@@ -15,9 +15,10 @@ constexpr const char* scan =
     "space directions: (0.5,0,0) (0,1,0) (0,0,2)\nspace origin: (10,20,30)\n\n"
     "0 1 2 10 11 12 100 101 102 110 111 112\n";
 
-// The scan is a solid from its level on; a design that reads it names it.
+// The scan becomes a solid from its level on; a design that reads it names it.
 
-// A beam under load: the colours span its stresses, which ombre info lists, and it is moved by its displacement.
+// The file is a beam under load. Colours span its stresses, which ombre info lists, and it is moved by its
+// displacement.
 
 TEST_F(StudioTest, ShowsPlanesOfAScan) {
   folder.write("a.nrrd", scan);

@@ -73,7 +73,8 @@ bool Guard::knows_token(const RequestHead& head) const {
   return false;
 }
 
-// Lax: a link, or the file that led the browser here, opens the page; requests that pages of others make have none.
+// Returns the cookie with SameSite=Lax: a link, or the file that led the browser here, opens the page, while requests
+// from pages of other sites carry no cookie.
 std::string Guard::cookie() const {
   return cookie_name() + "=" + token_ + "; HttpOnly; SameSite=Lax; Path=/; Max-Age=31536000";
 }

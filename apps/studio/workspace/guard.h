@@ -1,4 +1,4 @@
-// Who may talk to the studio: the page that has the token, from this machine's own names.
+// Decides who may talk to the studio: a page that has the token, under this machine's own names.
 #pragma once
 
 #include <cstdint>
@@ -9,31 +9,31 @@
 
 namespace ombre::studio {
 
-// 32 random hexadecimal digits, from the system. Throws Error.
+// Returns 32 random hexadecimal digits, from the system. Throws Error.
 std::string random_token();
 
-// The parts of a request's head that decide whether it is let in; empty where a header is missing.
+// The parts of a request's head that decide whether it is let in; empty if a header is missing.
 struct RequestHead {
   std::string method, target, host, origin, cookie, authorization;
 };
 
 struct Refusal {
-  unsigned status = 403;  // of HTTP
-  std::string text;       // for the person who reads it
+  unsigned status = 403;  // HTTP status
+  std::string text;       // message for people
 };
 
 class Guard {
  public:
   Guard(std::string token, uint16_t port) : token_(std::move(token)), port_(port) {}
 
-  // Nothing when the request is let in. Checked in this order:
-  //   Host    a name of this machine (127.0.0.1, localhost, [::1]), with any port, since a tunnel may have another:
-  //           names that others make point here (DNS rebinding) are refused
-  //   Origin  absent, or the page's own: http:// and the same host
-  //   token   in the cookie, in the address (?token=) or as "Authorization: Bearer"
+  // Returns nothing when the request is let in. Three things are checked in this order:
+  // - Host is a name of this machine (127.0.0.1, localhost, [::1]). Any port will do, since a tunnel may have another.
+  //   Foreign names that point here (DNS rebinding) are refused.
+  // - Origin is absent, or the page's own: http:// and the same host.
+  // - The token is in the cookie, in the address (?token=) or in "Authorization: Bearer".
   std::optional<Refusal> refuse(const RequestHead& head) const;
 
-  // Whether this is GET /?token=..., whose answer sets the cookie.
+  // True for GET /?token=..., whose answer sets the cookie.
   bool brings_token(std::string_view target) const;
   std::string cookie() const;  // the value of Set-Cookie
 
@@ -46,7 +46,7 @@ class Guard {
   uint16_t port_;
 };
 
-// "/a/b" of "/a/b?c=d"; the value of a key there, empty when it is absent.
+// path_of returns "/a/b" of "/a/b?c=d". The other function returns the value of a key there; empty if it is absent.
 std::string_view path_of(std::string_view target);
 std::string_view query_value(std::string_view target, std::string_view key);
 

@@ -38,7 +38,7 @@ TEST(Guard, NeedsTheTokenInOneOfThreePlaces) {
   EXPECT_FALSE(is_let_in(request));
   request.cookie = "other=1; ombre_studio_8080=" + token;
   EXPECT_TRUE(is_let_in(request));
-  request.cookie = "ombre_studio_8081=" + token;  // of a studio at another port
+  request.cookie = "ombre_studio_8081=" + token;  // the cookie of a studio at another port
   EXPECT_FALSE(is_let_in(request));
   request.authorization = "Bearer " + token;
   EXPECT_TRUE(is_let_in(request));

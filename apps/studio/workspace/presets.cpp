@@ -35,8 +35,8 @@ bool is_of_presets(Data& file) {
   return std::ranges::all_of(*sets->members(), [](const auto& set) { return set.second.members() != nullptr; });
 }
 
-// Reads the whole content of the file, so that what others wrote there stays. Where there is no file, the list of
-// presets is empty.
+// Reads the whole content of the file, so that members of other programs stay. If there is no file, the list of presets
+// is empty.
 Data read_presets(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) return DataMembers{{presets_member, DataMembers{}}, {version_member, known_version}};
@@ -60,7 +60,7 @@ void write_presets(const fs::path& path, const Data& file) {
   exporting::write_file(path.string(), text, exporting::Durability::flushed);
 }
 
-// Writes values as OpenSCAD does: texts have no quotes, and lists a space behind each comma.
+// Writes values as OpenSCAD does: texts have no quotes, and lists a space after each comma.
 std::string text_of(const Data& value) {
   if (value.string()) return *value.string();
   if (!value.list()) return print_json_line(value);

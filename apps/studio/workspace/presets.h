@@ -1,5 +1,5 @@
-// Presets: values of a script's variables under a name. They lie beside the script, in the form that OpenSCAD gives
-// its parameter sets: {"parameterSets": {NAME: {VARIABLE: "VALUE"}}, "fileFormatVersion": "1"}.
+// Reads and writes presets: values of a script's variables under a name. They lie beside the script, in the form that
+// OpenSCAD gives its parameter sets: {"parameterSets": {NAME: {VARIABLE: "VALUE"}}, "fileFormatVersion": "1"}.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,20 @@
 
 namespace ombre::studio {
 
-// Thread-safe. Files of another format are errors, and stay as they are.
+// The presets of a workspace. Thread-safe. Files of another format are errors, and stay as they are.
 class Presets {
  public:
-  static constexpr size_t most = 500;             // of one script
+  static constexpr size_t most = 500;             // for each script
   static constexpr size_t longest_name = 100;     // bytes
-  static constexpr size_t most_bytes = 1U << 20;  // of a file
+  static constexpr size_t most_bytes = 1U << 20;  // for each file
 
   explicit Presets(const Workspace& workspace) : workspace_(workspace) {}
 
-  // [{"name", "values": {VARIABLE: "VALUE"}}] of a design, in the order of its file; none where there is no file.
-  // They throw RequestError, and Error for a file that can be neither read nor written.
+  // These functions return [{"name", "values": {VARIABLE: "VALUE"}}] of a design, in the order of its file; an empty
+  // list without a file. They throw RequestError, and Error for a file that can be neither read nor written.
   DataList list(const std::string& design);
-  // Values are numbers, texts, truth values and lists of numbers. A name that is there is replaced if `replaces`.
+  // Saves a preset. Values are numbers, texts, truth values and lists of numbers. An existing name is replaced if
+  // `replaces` is set.
   DataList save(const std::string& design, const std::string& name, const DataMembers& values, bool replaces);
   DataList remove(const std::string& design, const std::string& name);
 

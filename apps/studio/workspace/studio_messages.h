@@ -1,5 +1,4 @@
-// What page and server say to each other: JSON objects, and bytes behind some of the answers
-// (docs/reference/studio-api.md).
+// Messages between page and server: JSON objects, some of them followed by bytes (docs/reference/studio-api.md).
 #pragma once
 
 #include <optional>
@@ -13,7 +12,7 @@
 
 namespace ombre::studio {
 
-// A request that cannot be done, for a reason that a person can mend.
+// An error in a request that a person can correct.
 class RequestError : public std::runtime_error {
  public:
   RequestError(std::string code, const std::string& message) : std::runtime_error(message), code_(std::move(code)) {}
@@ -23,7 +22,7 @@ class RequestError : public std::runtime_error {
   std::string code_;
 };
 
-// One request of a client: {"id": 7, "do": "render", ...}.
+// A request of a client: {"id": 7, "do": "render", ...}.
 struct Request {
   double id = 0;
   std::string what;
@@ -43,16 +42,16 @@ struct Request {
   std::vector<double> numbers(std::string_view name, size_t count) const;
 };
 
-// Reads the text of a frame; throws RequestError for what is no request.
+// Reads the text of a frame; throws RequestError if it is no request.
 Request parse_request(const std::string& text);
 
-// An answer has members, and some answers have bytes behind them (a picture, a grid).
+// An answer has members; some answers also have bytes (a picture, a grid).
 struct Answer {
   DataMembers members;
   std::string bytes;
 };
 
-// A frame holds text; or, with bytes, 4 bytes that say how long the JSON is (lowest first), the JSON, then the bytes.
+// A frame holds text; or, with bytes, 4 bytes with the length of the JSON (lowest first), the JSON, then the bytes.
 struct Frame {
   std::string data;
   bool is_binary = false;
@@ -61,7 +60,7 @@ Frame frame_of(double id, const Answer& answer);
 Frame frame_of_error(double id, const std::string& code, const std::string& message);
 Frame frame_of_event(const std::string& event, DataMembers members);
 
-// Turns places in a text, in bytes, into those that the page counts, in units of UTF-16.
+// Converts places in a text from bytes to units of UTF-16, which the page counts.
 class PageOffsets {
  public:
   explicit PageOffsets(std::string_view text);
@@ -70,11 +69,11 @@ class PageOffsets {
  private:
   static constexpr size_t block = 256;
   std::string_view text_;
-  std::vector<size_t> units_before_;  // how many units stand before each block of bytes
+  std::vector<size_t> units_before_;  // number of units before each block of bytes
 };
 
-// Returns a list of {"severity", "message", "hint", "file", "line", "column", "from", "to"}; the last two are there
-// where the diagnostic is about the text of `source`.
+// Returns a list of {"severity", "message", "hint", "file", "line", "column", "from", "to"}; the last two are present
+// if the diagnostic is about the text of `source`.
 DataList describe(const Diagnostics& diagnostics, const SourcePtr& source);
 
 }  // namespace ombre::studio

@@ -186,7 +186,7 @@ std::vector<Workspace::Change> Workspace::changes() {
     try {
       const FileText disk = read(name);
       if (disk.version != seen.version) found.push_back({name, disk.version});
-    } catch (const std::exception&) {  // it is being written, or no text any more: looked at again the next time
+    } catch (const std::exception&) {  // being written, or no text any more: checked again later
       continue;
     }
   }

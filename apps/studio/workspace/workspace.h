@@ -1,4 +1,4 @@
-// The folder that the studio shows: its files are listed, read and saved, and nothing outside of it.
+// The folder of the studio: lists, reads and saves its files, and nothing outside of it.
 #pragma once
 
 #include <filesystem>
@@ -14,18 +14,18 @@
 
 namespace ombre::studio {
 
-// Holds the text of a file, and a hash of it, by which changes by others are noticed.
+// The text of a file, and a hash of it, by which changes by others are noticed.
 struct FileText {
   std::string text, version;
 };
 
-// The disk has another version than the one that was to be replaced.
+// A save failed since the disk has another version than the one to be replaced.
 struct SaveConflict {
   std::optional<FileText> disk;  // nothing: the file is gone
 };
 
-// Names are paths relative to the folder, with '/'. Throws RequestError for names that lead out of it, by "..", as
-// absolute paths or through links, and for hidden ones. Thread-safe.
+// The files of a folder. Names are paths relative to it, with '/'. Throws RequestError for names that lead out of it,
+// by "..", as absolute paths or through links, and for hidden ones. Thread-safe.
 class Workspace {
  public:
   static constexpr size_t most_files = 2000;
@@ -35,9 +35,9 @@ class Workspace {
   explicit Workspace(const std::filesystem::path& folder);
 
   const std::filesystem::path& root() const { return root_; }
-  // Lists designs and scripts, sorted; it leaves out presets, hidden folders and links to folders.
+  // Lists designs and scripts, sorted, without presets, hidden folders and links to folders.
   std::vector<std::string> list() const;
-  // Lists scans, results and tables likewise; a folder of DICOM files is one scan.
+  // Lists scans, results and tables in the same way; a folder of DICOM files is one scan.
   struct DataFile {
     std::string name;
     DataKind kind = DataKind::none;
@@ -46,18 +46,18 @@ class Workspace {
   // Lists the files whose names have one of these endings (".stl", in small letters), sorted.
   std::vector<std::string> list_ending_in(const std::vector<std::string>& endings) const;
   std::filesystem::path path(const std::string& name) const;
-  // Returns the name of the file at this path; it is empty where the file is not in the folder.
+  // Returns the name of the file at this path; empty if the file is not in the folder.
   std::string name_of(const std::filesystem::path& file) const;
   // Throws Error when the file cannot be read, and RequestError when it is too large or no text.
   FileText read(const std::string& name);
-  // Replaces the given version of the file; it is empty for a file that must not be there yet. Returns the new version,
-  // or what is there instead. The file that is there stays whole whatever happens. Throws Error.
+  // Replaces the given version of the file; an empty version means that the file must not exist yet. Returns the new
+  // version, or the conflicting content. The old file stays whole whatever happens. Throws Error.
   std::variant<std::string, SaveConflict> save(const std::string& name, const std::string& text,
                                                const std::string& version);
 
   // Lists the files that were read or saved here and have changed on the disk since the last call.
   struct Change {
-    std::string name, version;  // empty: it is gone
+    std::string name, version;  // an empty version: the file is gone
   };
   std::vector<Change> changes();
 
@@ -77,7 +77,7 @@ class Workspace {
   std::map<std::string, Seen> seen_;
 };
 
-// Returns whether a name ends as those of designs do.
+// True if a name ends as those of designs do.
 bool is_design_name(const std::string& name);
 
 }  // namespace ombre::studio

@@ -68,7 +68,7 @@ TEST(Workspace, SavesWhatItHasSeenAlone) {
   EXPECT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "three", "")));
 }
 
-// The device /dev/full refuses all that is written to it, as a full disk does.
+// The device /dev/full refuses everything that is written to it, as a full disk does.
 TEST(Workspace, KeepsTheOldFileWhereTheDiskIsFull) {
   if (!fs::exists("/dev/full")) GTEST_SKIP();
   const TestFolder folder;
@@ -98,7 +98,7 @@ TEST(Workspace, NoticesChangesByOthers) {
   const std::string version = workspace.read("a.vcad").version;
   EXPECT_TRUE(workspace.changes().empty());
   ASSERT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "two", version)));
-  EXPECT_TRUE(workspace.changes().empty());  // its own
+  EXPECT_TRUE(workspace.changes().empty());  // its own change is not reported
 
   folder.write("a.vcad", "three!");
   const auto changes = workspace.changes();
