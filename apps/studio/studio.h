@@ -35,8 +35,8 @@ struct StudioOptions {
   std::vector<std::string> command;  // words that start Ombre's command line; empty: no designs in Python
   std::string first_file;            // file that a page opens at first; empty: none
   double most_seconds = 60;          // time limit of an answer
-  std::function<bool(const std::string& folder)> open_folder =
-      nullptr;  // shows the folder to a person; empty: no display
+  // Shows the folder to a person; empty without a display.
+  std::function<bool(const std::string& folder)> open_folder = nullptr;
 };
 
 // The studio. Thread-safe.

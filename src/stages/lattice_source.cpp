@@ -159,8 +159,7 @@ CellIndex LatticeSource::cell_of(Vec3 p) const {
     const auto a = static_cast<size_t>(axis);
     const double lo = static_cast<double>(frame_.cells.lo[a]) - 2, hi = static_cast<double>(frame_.cells.hi[a]) + 1;
     const double cells = std::floor((p[axis] - frame_.lattice.origin[axis]) / cell_mm_[axis]);
-    cell[a] =
-        static_cast<int64_t>(cells >= lo ? std::min(cells, hi) : lo);  // values that are not a number go to the end
+    cell[a] = static_cast<int64_t>(cells >= lo ? std::min(cells, hi) : lo);  // NaN goes to lo
   }
   return cell;
 }
