@@ -1,4 +1,4 @@
-// Studies of topology: where a share of a design's material should be.
+// Studies of topology, which ask where a share of a design's material should be.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,10 @@ namespace ombre::compile {
 
 struct TopologyStudy {
   ModelChoice model;
-  std::optional<fea::Load> goal;      // a force of 1 N along the displacement that is changed, at its place
-  bool is_greatest = false;           // shall it become greatest?
-  optimise::TopologyOptions options;  // without a radius in the study, 1.5 bricks; 0 until the bricks are known
+  std::optional<fea::Load> goal;  // a force of 1 N along the goal's displacement, at its place
+  bool is_greatest = false;       // true if the displacement is maximised
+  optimise::TopologyOptions
+      options;  // without a radius in the study it is 1.5 bricks, and 0 until the bricks are known
 };
 
 // {"topology": {"volume_fraction": 0.5, "radius": 2.4, "penalty": 3, "steps": 200, "move": 0.2,
