@@ -91,7 +91,7 @@ struct Study {
 //            {"on": "ymax", "film_w_m2k": 10, "ambient_c": 20}]}
 // {"physics": "electric", "materials": {"soft": {"conductivity_s_m": 100}},
 //  "supports": [{"on": "zmin", "potential_v": 0}], "loads": [{"on": "zmax", "current_a": 0.1}]}
-// Nothing, and diagnostics with places, when it is wrong.
+// Returns nothing, and adds diagnostics with places, when it is wrong.
 std::optional<Study> read_study(const Data& data, Diagnostics& diagnostics);
 
 // Reads properties as a materials file has them beside a colour: "modulus_mpa" and so on. Returns nothing if there is
