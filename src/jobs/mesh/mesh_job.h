@@ -50,8 +50,7 @@ struct MeshedDesign {
   std::vector<BeamBody> beams;       // only if beams were requested; not counted among the bodies
   std::vector<surface::Body> clips;  // solids that clip the beams
   double tolerance_mm = 0, cell_mm = 0;
-  bool is_coarser = false;  // the tolerance is larger than a thousandth of the longest side, since nobody chose one and
-                            // there would be many cells
+  bool is_coarser = false;  // the default tolerance was increased, since there would be many cells
   surface::ContourReport report;
   MaterialsInside materials;  // set if nobody chose regions
   bool is_by_bands = false;   // bodies are bands of a mixture
