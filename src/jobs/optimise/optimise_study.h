@@ -27,10 +27,9 @@ struct Measure {
     mass,          // g
     share,         // share of a material in the volume, 0 to 1
     displacement,  // the greatest, mm, or its greatest size along an axis; if `in` is given, only of nodes in the box
-    stress,  // the greatest von Mises stress in bricks, MPa; if `in` is given, only of those with their middle in the
-             // box
-    compliance,  // the work of the loads, N mm: displacements times forces
-    echo,        // a number that the script prints: echo(cost = 3)
+    stress,        // the greatest von Mises stress in bricks, MPa; if `in` is given, only of those in the box
+    compliance,    // the work of the loads, N mm: displacements times forces
+    echo,          // a number that the script prints: echo(cost = 3)
   };
   Kind kind = Kind::volume;
   std::string name;         // name of the material, or of the printed number
@@ -69,8 +68,8 @@ struct OptimiseStudy {
 //  "objectives": [{"minimise": "mass"}],
 //  "constraints": [{"measure": "displacement", "axis": "z", "at_most": 0.5}],
 //  "fea": "pull.json", "cell": 1, "method": "cobyla", "evaluations": 100}
-// "fea" is a study of `ombre fea`, or the name of its file, beside this one. Nothing, and diagnostics with places, when
-// it is wrong. Throws Error for a file that cannot be read.
+// "fea" is a study of `ombre fea`, or the name of its file, beside this one. Returns nothing, and adds
+// diagnostics with places, when it is wrong. Throws Error for a file that cannot be read.
 std::optional<OptimiseStudy> read_optimise_study(const Data& data, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile
