@@ -39,9 +39,9 @@ struct SceneOptions {
   std::optional<Box> box;                // only the inside of this box is shown
   std::map<MaterialId, double> opacity;  // 0 to 1, instead of the materials' own
   std::optional<ValueColours> value;     // if given, materials without an opacity here are opaque
-  std::optional<Divided>
-      numbers;      // if given, red is the part's or material's number over most_numbers, and everything is opaque
-  int threads = 1;  // for tables of many parts; 0: all cores
+  // If given, red is the part's or material's number over most_numbers, and everything is opaque.
+  std::optional<Divided> numbers;
+  int threads = 1;                            // for tables of many parts; 0: all cores
   design::SubDesignMemory* memory = nullptr;  // keeps such tables for other scenes; null: they are not kept
 };
 

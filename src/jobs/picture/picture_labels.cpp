@@ -42,8 +42,7 @@ std::vector<render::ColourBar::Tick> ticks_of(Interval range) {
   constexpr double most_steps = 6;
   const double width = range.hi - range.lo;
   double step = render::round_length(width / most_steps);
-  if (width / step > most_steps)
-    step = render::round_length(2.5 * step);  // the next step: 1, 2 or 5 times a power of 10
+  if (width / step > most_steps) step = render::round_length(2.5 * step);  // the next step
   std::vector<render::ColourBar::Tick> ticks;
   for (double n = std::ceil(range.lo / step - 1e-9); n * step <= range.hi + 1e-9 * width; ++n)
     ticks.push_back({(n * step - range.lo) / width, format_rounded(n * step, 6)});
