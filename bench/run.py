@@ -8,7 +8,7 @@
     ./dev bench --scaling               what threads gain, beside copies of the program that share nothing
     ./dev bench --simulation            solving, asking results, tetrahedra; --large: also 10^7 bricks
 
-docs/developer/performance.md explains rows and columns. Nothing is asserted: figures are for this machine, now.
+bench/README.md explains rows and columns, docs/developer/performance.md what limits them. Nothing is asserted: figures are for this machine, now.
 """
 import argparse
 import json

@@ -4,7 +4,7 @@
     python3 bench/studio.py build/release/apps/ombre/ombre
     python3 bench/studio.py build/release/apps/ombre/ombre --edits 30 --only 'gear|knob'
 
-docs/developer/performance.md explains the columns. Nothing is asserted: figures are for this machine, now.
+bench/README.md explains the columns. Nothing is asserted: figures are for this machine, now.
 """
 import argparse
 import base64

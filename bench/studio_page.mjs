@@ -3,7 +3,7 @@
 //     node bench/studio_page.mjs build/release/apps/ombre/ombre chromium [EDITS]
 //
 // Each edit moves a slider and waits for the picture and the layer. Figures are bytes of JavaScript's heap after its garbage
-// was collected, and nodes of the document. docs/developer/performance.md has them.
+// was collected, and nodes of the document. bench/results/studio.jsonl has them.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";

@@ -1,4 +1,4 @@
-// What options accept, and what is said of the rest.
+// Checks of options' values, and their messages.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -10,9 +10,9 @@
 namespace ombre::cli {
 
 CLI::Validator within(const options::Limits& limits);
-// Numbers, ends included.
+// Accepts numbers from `least` to `greatest`, ends included.
 CLI::Validator between(double least, double greatest);
-// Whole numbers.
+// Accepts integers from `least` to `greatest`, ends included.
 CLI::Validator whole_between(int least, int greatest);
 CLI::Validator one_of(const std::vector<std::string>& names);
 

@@ -1,4 +1,4 @@
-// The command line: commands, and what happens when one of them fails.
+// Runs the command line, and reports why a command fails.
 #include "ombre/command_line.h"
 
 #include <CLI/App.hpp>
@@ -41,7 +41,7 @@ struct JobCommand {
   CLI::App* app = nullptr;
   const jobs::JobKind* kind = nullptr;
   std::shared_ptr<void> job;
-  std::shared_ptr<std::string> saved;  // the file that the job is to be saved in; empty: it is run
+  std::shared_ptr<std::string> saved;  // file that the job is saved in; empty: the job is run
 };
 
 JobCommand add_job(CLI::App& program, const jobs::JobKind& kind, OutputOptions& output) {
@@ -54,7 +54,7 @@ JobCommand add_job(CLI::App& program, const jobs::JobKind& kind, OutputOptions& 
   return command;
 }
 
-// The options that were given, as their texts.
+// Returns the options that were given, as texts.
 DataMembers given_options(const CLI::App& app, const jobs::JobKind& kind) {
   DataMembers given;
   for (const options::Option& option : kind.options) {
@@ -82,7 +82,7 @@ DataList described_options(const CLI::App& app, const jobs::JobKind* kind) {
                           {"is_list", option->get_items_expected_max() > 1}};
     const auto row = kind ? std::ranges::find(kind->options, option->get_name(), &options::Option::name)
                           : std::vector<options::Option>::const_iterator();
-    if (kind && row != kind->options.end()) {  // what only the options of jobs say of their values
+    if (kind && row != kind->options.end()) {  // only options of jobs have a kind of value
       described.emplace_back("kind", row->kind);
       described.emplace_back("choices", DataList(row->choices.begin(), row->choices.end()));
     }
@@ -103,7 +103,7 @@ class CommandLine {
     job_->add_option("file", saved_job_, "The saved job")->required()->type_name("FILE");
     add_output_options(*job_, output_);
     job_->footer("Examples:\n  ombre mesh part.vcad --tolerance 0.01 --save-job part.json\n  ombre job part.json\n");
-    // Only for those who ask what there is: Python runs it before it comes here (python_designs.h).
+    // This entry only serves help: Python runs the command before it comes here (python_designs.h).
     program_.add_subcommand("run",
                             "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");
   }
@@ -122,7 +122,7 @@ class CommandLine {
   int run(int argc, const char* const* argv) {
     if (argc > 2 && std::string_view(argv[1]) == "completion" && std::string_view(argv[2]) == "words")
       return complete({argv + 3, argv + argc});
-    // Before the options are known, as wrong ones are reported in the same way.
+    // --json is looked for before the options are read, so that wrong options are reported as events, too.
     if (!host_.on_event && std::find(argv, argv + argc, std::string_view("--json")) != argv + argc)
       console_.set_voice(Voice::programs);
     if (argc > 1)
@@ -198,7 +198,8 @@ class CommandLine {
     return code;
   }
 
-  // Prints a word and what it is on each line, which the scripts of `ombre completion` read.
+  // Prints the words that may come next, each with its description, one on a line. The scripts of `ombre completion`
+  // read them.
   int complete(const std::vector<std::string>& words) const {
     std::string text;
     for (const Completion& c : completions(program_, words))

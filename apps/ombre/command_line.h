@@ -1,4 +1,4 @@
-// The command line: commands, and what happens when one of them fails.
+// Runs the command line, and reports why a command fails.
 #pragma once
 
 #include "base/text/data.h"
@@ -7,11 +7,11 @@
 
 namespace ombre::cli {
 
-// [{"name", "help", "options": [{"name", "help", "type", "is_flag", "is_list", "kind", "choices"}]}]; arguments without
-// dashes are options whose names have none. Only the options of jobs say the last two.
+// Returns [{"name", "help", "options": [{"name", "help", "type", "is_flag", "is_list", "kind", "choices"}]}]. Names of
+// positional arguments have no dashes. Only options of jobs have "kind" and "choices".
 Data describe_commands();
 
-// Runs a whole command and returns its exit code. Throws nothing; nor may what `host` holds.
+// Runs a whole command and returns its exit code. Throws nothing; nor may the functions in `host`.
 int run(int argc, const char* const* argv, const Host& host = {});
 
 }  // namespace ombre::cli

@@ -28,7 +28,7 @@ void add_options(CLI::App& app, const std::vector<options::Option>& options, voi
     if (option.limits) made->check(within(*option.limits));
     if (option.is_required) made->required();
   }
-  // Once all are there: they may need those behind them.
+  // Conditions are added once all options exist, since an option may need a later one.
   for (const options::Option& option : options) {
     CLI::Option* made = app.get_option(option.name());
     for (const std::string& name : option.needs) made->needs(app.get_option(name));

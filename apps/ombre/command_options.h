@@ -1,4 +1,4 @@
-// Options of jobs (options/option.h) on the command line.
+// Adds options of jobs (options/option.h) to the command line.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -8,8 +8,8 @@
 
 namespace ombre::cli {
 
-// Adds the options to a command; each sets its member of the job at this address, which must live as long as the
-// command. What does not fit is a CLI::ParseError or an options::WrongValue while the arguments are read.
+// Adds the options to a command; each sets its member of the job at this address, which must outlive the command. A
+// wrong value throws CLI::ParseError or options::WrongValue while the arguments are read.
 void add_options(CLI::App& app, const std::vector<options::Option>& options, void* job);
 
 template <class Job>

@@ -8,19 +8,19 @@
 
 namespace ombre::cli {
 
-// What a command gets once its arguments are read.
+// The objects that a command works with after its arguments were read.
 struct CommandSession {
   Console& console;
   const StopFlag& stop;
-  sources::SourceCache& cache;  // of the files that designs name
+  sources::SourceCache& cache;  // cache of the files that designs name
 };
 
 struct Command {
   CLI::App* app = nullptr;
-  std::function<int(CommandSession&)> run;  // returns an exit code
+  std::function<int(CommandSession&)> run;  // runs the command and returns an exit code
 };
 
-// How much a command says; options that all commands have.
+// Options that all commands have for their output.
 struct OutputOptions {
   bool quiet = false, json = false;
 };

@@ -1,4 +1,4 @@
-// ombre commands: the commands there are, with their options.
+// `ombre commands` lists the commands with their options.
 #include <memory>
 
 #include "base/text/text.h"
@@ -9,7 +9,7 @@
 namespace ombre::cli {
 namespace {
 
-// Text for a cell of a table, in one line.
+// Returns the text for a cell of a table, in one line.
 std::string cell(const std::string& text) {
   std::string line;
   for (const char c : text) {

@@ -8,7 +8,7 @@
 namespace ombre::cli {
 namespace {
 
-// Nothing where the printers and materials that come with Ombre are not found.
+// Returns nothing if the printers and materials that come with Ombre are not found.
 std::vector<Completion> printers() {
   std::vector<Completion> found;
   try {
@@ -25,7 +25,7 @@ std::vector<Completion> nodes() {
   return found;
 }
 
-// An option's type lists the values that it accepts: "MODE:{blue,white}" (checks.h).
+// Returns the values that an option accepts, from its type, such as "MODE:{blue,white}" (checks.h).
 std::vector<Completion> choices(const CLI::Option& option) {
   const std::string name = option.get_name(), type = option.get_type_name();
   if (name == "printer" || name == "--printer") return printers();
@@ -55,7 +55,7 @@ std::vector<Completion> options(const CLI::App& command) {
   return found;
 }
 
-// The argument without dashes that comes after `count` others; a list takes all further ones.
+// Returns the positional argument that comes after `count` others; a list takes all further ones.
 const CLI::Option* argument(const CLI::App& command, size_t count) {
   const CLI::Option* last = nullptr;
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_positional(); })) {
@@ -68,7 +68,7 @@ const CLI::Option* argument(const CLI::App& command, size_t count) {
 
 std::vector<Completion> within_command(const CLI::App& command, const std::vector<std::string>& words) {
   size_t arguments = 0;
-  const CLI::Option* open = nullptr;  // waits for its value
+  const CLI::Option* open = nullptr;  // the option that waits for its value
   for (size_t n = 1; n + 1 < words.size(); ++n) {
     const CLI::Option* option = words[n].starts_with('-') ? command.get_option_no_throw(words[n]) : nullptr;
     if (!open && !words[n].starts_with('-')) ++arguments;

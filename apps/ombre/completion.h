@@ -1,4 +1,4 @@
-// Words that may come next on a command line, for the shells' completion.
+// Finds words that may come next on a command line, for the completion of shells.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -11,11 +11,11 @@ struct Completion {
   std::string word, description;
 };
 
-// Words that complete the last of `words`, which follow the program's name. Empty where names of files are possible,
-// too.
+// Returns words that complete the last of `words`, which follow the program's name. Returns none if names of files are
+// possible, too.
 std::vector<Completion> completions(const CLI::App& program, const std::vector<std::string>& words);
 
-// The script that has a shell ask `ombre completion words ...` for completions. Empty for a shell that is not known.
+// Returns the script with which a shell asks `ombre completion words ...`; empty for an unknown shell.
 std::string completion_script(const std::string& shell);
 std::vector<std::string> completion_shells();
 

@@ -1,4 +1,4 @@
-// ombre completion: scripts for shells, which complete commands, options and their values by them.
+// `ombre completion` prints scripts for shells that complete commands, options and their values.
 #include <memory>
 
 #include "base/text/text.h"

@@ -1,4 +1,4 @@
-// The shells' side of completion: each hands the words typed so far to `ombre completion words`.
+// Scripts for shells; each passes the words typed so far to `ombre completion words`.
 #include <map>
 
 #include "base/text/text.h"

@@ -12,7 +12,7 @@
 namespace ombre::cli {
 namespace {
 
-// The lines that `ombre completion words ...` prints: words and, after a tab, what they are.
+// Returns the lines that `ombre completion words ...` prints: a word and, after a tab, its description.
 std::vector<std::string> lines_for(std::vector<const char*> words) {
   words.insert(words.begin(), {"ombre", "completion", "words"});
   testing::internal::CaptureStdout();

@@ -1,4 +1,4 @@
-// What the user sees: data on stdout, everything for people on stderr, or events for programs.
+// Output: data on stdout, messages for people on stderr, or events for programs.
 #include "ombre/console.h"
 
 #include <unistd.h>
@@ -20,7 +20,7 @@ void put(std::FILE* stream, const std::string& text) {
   std::fflush(stream);
 }
 
-// Data that does not arrive is a failure; a remark for people that nobody reads is not.
+// Writes data to stdout, and throws Error if that fails. Failures of remarks for people are ignored.
 void put_data(const std::string& text) {
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;

@@ -1,4 +1,4 @@
-// What the user sees: data on stdout, everything for people on stderr, or events for programs.
+// Output: data on stdout, messages for people on stderr, or events for programs.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 namespace ombre::cli {
 
 enum class Voice {
-  people,    // words and a progress bar on stderr
-  quiet,     // errors alone
+  people,    // messages and a progress bar on stderr
+  quiet,     // errors alone on stderr
   programs,  // one JSON object a line on stdout
 };
 
@@ -21,19 +21,19 @@ class Console final : public jobs::Events {
   Voice voice() const { return voice_; }
 
   bool wants_data() const override { return voice_ == Voice::programs; }
-  // On stdout, whatever the voice.
+  // Prints to stdout, whatever the voice.
   void print(const std::string& text) const override { data_.print(text); }
   bool prints_among_events() const override { return wants_data(); }
-  // Nothing for people.
+  // Prints an event for programs; people see nothing.
   void event(const std::string& name, DataMembers members) const override;
-  // Without line end.
+  // Prints a text without a line end.
   void say(const Phrase& text) const override;
   void warn(const Phrase& message, Code code = Code::design) const override;
   void error(Code code, const Phrase& message, const CodeValues& values = {}) const override;
   void diagnose(const Diagnostics& diagnostics) const override;
   std::unique_ptr<jobs::ShownProgress> progress(jobs::Counted counted) const override;
 
-  // Whether stderr is a terminal that a line can be redrawn on.
+  // True if stderr is a terminal on which a line can be redrawn.
   bool is_terminal() const;
   bool has_colour() const;
 

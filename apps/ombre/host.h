@@ -1,4 +1,4 @@
-// Programs that run commands inside of themselves.
+// Functions of a program that runs commands inside of itself.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@
 
 namespace ombre::cli {
 
-// A program that runs commands inside of itself, such as Python, sets here what it does in its own way. Members that
-// are empty leave the way of the command line.
+// Functions by which a program that runs commands inside of itself, such as Python, replaces those of the command line.
+// Empty members change nothing.
 struct Host {
-  jobs::DesignLoader load;                           // reads designs
-  std::function<void(const DataMembers&)> on_event;  // takes what --json would print
-  std::function<void(const std::string&)> on_data;   // takes what else would go to stdout
-  sources::SourceCache* cache = nullptr;             // of the files that designs name; null: one for each command
-  FrontEnd front_end = FrontEnd::command_line;       // in whose words messages are
-  const StopFlag* stop = nullptr;                    // asks a command to stop, in place of Ctrl-C
+  jobs::DesignLoader load;                           // loads designs
+  std::function<void(const DataMembers&)> on_event;  // receives the events that --json would print
+  std::function<void(const std::string&)> on_data;   // receives other output that would go to stdout
+  sources::SourceCache* cache = nullptr;             // cache of the files that designs name; null: one for each command
+  FrontEnd front_end = FrontEnd::command_line;       // whose spelling messages have
+  const StopFlag* stop = nullptr;                    // stops a command, as Ctrl-C does
 };
 
 }  // namespace ombre::cli

@@ -1,4 +1,4 @@
-// Ctrl-C: the first asks a job to stop where it can be resumed, the second ends the program.
+// Handles Ctrl-C: the first asks a job to stop where it can be resumed, the second ends the program.
 #include "ombre/interrupt.h"
 
 #include <unistd.h>
@@ -17,7 +17,7 @@ std::atomic<StopFlag*> current_flag{nullptr};
 std::atomic<bool> quits_at_once{false};
 static_assert(std::atomic<StopFlag*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-// Only what a signal handler may do.
+// Only calls functions that are allowed in a signal handler.
 void on_signal(int) {
   StopFlag* flag = current_flag.load();
   if (!flag || flag->requested() || quits_at_once) ::_exit(jobs::interrupted);

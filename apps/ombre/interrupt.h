@@ -1,11 +1,11 @@
-// Ctrl-C: the first asks a job to stop where it can be resumed, the second ends the program.
+// Handles Ctrl-C: the first asks a job to stop where it can be resumed, the second ends the program.
 #pragma once
 
 #include "base/system/progress.h"
 
 namespace ombre::cli {
 
-// While one exists, SIGINT and SIGTERM set its flag. At most one at a time.
+// A guard under which SIGINT and SIGTERM set its flag. At most one may exist at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -21,8 +21,8 @@ class InterruptGuard {
   void (*terminate_before_)(int);
 };
 
-// While one exists, the first signal ends the program at once: nothing has been written yet, and what is under way, in
-// libraries of others, cannot be asked to stop.
+// A guard under which the first signal ends the program at once. It is for times when nothing has been written yet, and
+// work in other libraries cannot be asked to stop.
 class QuitAtOnce {
  public:
   QuitAtOnce();

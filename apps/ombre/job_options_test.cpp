@@ -1,4 +1,4 @@
-// Options of jobs: what their rows say is what the command line, its help and its completion say.
+// Tests that the command line, its help and its completion follow the rows of the options of jobs.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -37,7 +37,7 @@ Printed printed_by(const std::vector<std::string>& words) {
   return {std::move(out), testing::internal::GetCapturedStderr()};
 }
 
-// Helps are wrapped, so that only their beginnings are sure to be in one piece.
+// Returns the beginning of a help, since helps are wrapped and only that is sure to be in one piece.
 std::string beginning(const std::string& help) {
   return help.substr(0, std::min(help.find_first_of(",;:(\n"), size_t{20}));
 }
@@ -74,7 +74,7 @@ TEST(JobOptions, AreCompletedWithTheirWords) {
     }
 }
 
-// Only what every command has comes from elsewhere.
+// Options that every command has do not come from jobs.
 TEST(JobOptions, AreAllThatTheirCommandsHave) {
   size_t jobs = 0;
   const Data commands = describe_commands();

@@ -1,4 +1,4 @@
-// The program `ombre`, and how it asks for memory.
+// The program `ombre`, and its use of memory.
 #include <malloc.h>
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace {
 
-// Larger blocks are the system's again as soon as they are not needed.
+// Greatest block that the allocator keeps; larger ones go back to the system as soon as they are freed.
 constexpr int most_kept_bytes = 32 << 20;
 
 }  // namespace
 
-// Sanitizers have their own.
+// Sanitizers have an allocator of their own.
 #ifndef OMBRE_SANITIZED
-// Those come in large pages, too: meshes of millions of triangles take up to a quarter less time.
+// Large blocks come in large pages; meshes of millions of triangles take up to a quarter less time by this.
 void* operator new(std::size_t bytes) {
   if (bytes >= most_kept_bytes) return ombre::large_memory(bytes);
   void* const memory = std::malloc(std::max<std::size_t>(bytes, 1));
@@ -31,7 +31,7 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 #endif
 
 int main(int argc, char** argv) {
-  // Slabs come and go by the megabyte: handing their pages back each time costs more than filling them.
+  // Slabs come and go by the megabyte, and returning their pages each time costs more than filling them.
   mallopt(M_MMAP_THRESHOLD, most_kept_bytes);
   mallopt(M_TRIM_THRESHOLD, 8 * most_kept_bytes);
   if (ombre::cli::needs_python(argc, argv)) return ombre::cli::become_python(argc, argv);

@@ -1,4 +1,4 @@
-// Progress of a long job: a bar on a terminal, a line now and then elsewhere, or events.
+// Shows the progress of a long job: a bar on a terminal, a line now and then elsewhere, or events.
 #include "ombre/progress_line.h"
 
 #include <algorithm>

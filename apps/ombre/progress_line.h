@@ -1,4 +1,4 @@
-// Progress of a long job for people: a bar on a terminal, a line now and then elsewhere.
+// Shows the progress of a long job to people: a bar on a terminal, a line now and then elsewhere.
 #pragma once
 
 #include <mutex>
@@ -8,13 +8,13 @@
 
 namespace ombre::cli {
 
-// "[=====>    ]  45%  123 M voxels/s  0:34 left"
+// Returns a bar such as "[=====>    ]  45%  123 M voxels/s  0:34 left".
 std::string progress_bar(const jobs::Pace& pace);
-std::string progress_text(const jobs::Pace& pace);  // the same without the bar
+std::string progress_text(const jobs::Pace& pace);  // returns the text without the bar
 
 class ProgressLine final : public jobs::ShownProgress {
  public:
-  // Lines, unless stderr is a terminal on which a bar can be drawn again and again.
+  // Prints lines, unless stderr is a terminal on which a bar can be redrawn.
   ProgressLine(bool is_terminal, jobs::Counted counted);
   ~ProgressLine() override { clear(); }
   ProgressLine(const ProgressLine&) = delete;

@@ -24,7 +24,8 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-// The compiled part must be there: a build folder links the Python files before it is built.
+// True if the folder has the package with its compiled part; a build folder links the Python files before that is
+// built.
 bool holds_package(const fs::path& folder) {
   std::error_code ignored;
   const fs::directory_iterator files(folder / "ombre", ignored);
@@ -32,7 +33,7 @@ bool holds_package(const fs::path& folder) {
                      [](const auto& file) { return file.path().filename().string().starts_with("_core."); });
 }
 
-// The package that was built or installed with this program; empty when it is Python's own.
+// Returns the folder of the package that was built or installed with this program; empty if Python finds it itself.
 std::string package_folder() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
@@ -70,7 +71,7 @@ int become_python(int argc, char** argv) {
   const std::string folder = package_folder();
   if (!folder.empty()) put_first_on_path(folder);
   std::string python = interpreter();
-  // Says what to do where the package is missing, in place of Python's own words.
+  // Replaces Python's own message by a remedy if the package is missing.
   std::string program =
       "import sys\n"
       "try:\n"

@@ -1,4 +1,4 @@
-// ombre studio: the page in the browser.
+// `ombre studio` opens the page in the browser.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -44,8 +44,8 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-// Returns the token that the environment sets, so that a page finds a server again that was started anew; empty for a
-// random one. Throws options::WrongValue.
+// Returns the token that the environment sets, so that a page finds a restarted server again; empty for a random one.
+// Throws options::WrongValue.
 std::string chosen_token() {
   std::string token = environment("OMBRE_STUDIO_TOKEN");
   constexpr size_t shortest = 32;
@@ -57,7 +57,7 @@ std::string chosen_token() {
 
 bool has_display() { return !environment("DISPLAY").empty() || !environment("WAYLAND_DISPLAY").empty(); }
 
-// The words that start this command line again: by itself, or by Python where that runs it.
+// Returns the words that start this command line again, through Python if that runs it.
 std::vector<std::string> own_command() {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
@@ -67,7 +67,7 @@ std::vector<std::string> own_command() {
 }
 
 // A file that leads the browser to the page. The address has the token, which other users of this machine would see in
-// the arguments of a program; the file is for this user alone.
+// the arguments of a program; only this user can read the file.
 class Signpost {
  public:
   explicit Signpost(const std::string& url) {
@@ -105,8 +105,8 @@ void tell_address(const studio::Address& address, const Console& console) {
   console.event("studio", {{"url", address.url()}, {"port", static_cast<double>(address.port)}});
 }
 
-// The design of a bundle, in the folder beside it with its name: that of an earlier call if it is there, with all that
-// was changed since. Throws options::WrongValue and Error.
+// Unpacks a bundle into the folder beside it with its name, and returns its design. If an earlier call has unpacked it,
+// that folder is used, with all changes made since. Throws options::WrongValue and Error.
 std::filesystem::path opened_bundle(const std::filesystem::path& bundle, const Console& console) {
   const std::filesystem::path folder = std::filesystem::path(bundle).replace_extension();
   if (const auto known = compile::find_unpacked(folder)) {
@@ -157,7 +157,7 @@ int run_studio(const StudioArguments& a, CommandSession& session) {
     tell_address(address, session.console);
     if (a.no_browser || session.console.voice() != Voice::people || !has_display()) return;
     signpost.emplace(address.url());
-    studio::start_program({"xdg-open", signpost->path()});  // where it fails, the address is printed anyway
+    studio::start_program({"xdg-open", signpost->path()});  // the address is printed anyway if this fails
   });
   return jobs::done;
 }

@@ -1,4 +1,4 @@
-// What to say when the arguments do not fit.
+// Explains arguments that do not fit.
 #include "ombre/suggest.h"
 
 #include <algorithm>
@@ -23,11 +23,11 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-// "--zoom X", "FOLDER"
+// Returns an option with its value as in a help: "--zoom X", "FOLDER".
 std::string with_value(const CLI::App& command, const std::string& name) {
   const CLI::Option* option = command.get_option_no_throw(name);
   if (!option) return name;
-  // What the option accepts follows (checks.h).
+  // The values that the option accepts follow the colon (checks.h).
   const std::string type = option->get_type_name();
   const size_t accepted =
       std::min(type.find(":{"), type.find(" to ") == std::string::npos ? type.npos : type.find(':'));
@@ -40,7 +40,7 @@ const CLI::App& chosen_command(const CLI::App& program) {
   return chosen.empty() ? program : *chosen.front();
 }
 
-// "--zoom: 1 required X:0.01 to 1000 missing" and the like, so that people see what to write.
+// Rewrites texts such as "--zoom: 1 required X:0.01 to 1000 missing" so that people see what to write.
 std::string in_other_words(const CLI::App& command, const CLI::ParseError& error) {
   const std::string text = error.what();
   const auto before = [&](const char* words) { return text.substr(0, text.find(words)); };
@@ -75,11 +75,11 @@ std::string unknown_command(const CLI::App& program, const std::string& argument
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& command = chosen_command(program);
   const std::string help = "; see ombre " + (&command == &program ? "" : command.get_name() + ' ') + "--help";
-  // CLI11 lists what was left over, of the program and of the command.
+  // CLI11 lists the arguments that were left over, of the program and of the command.
   const std::vector<std::string> left_over = program.remaining(true);
   const auto first_option =
       std::find_if(left_over.begin(), left_over.end(), [](const std::string& s) { return s.starts_with('-'); });
-  // A required option may be there with a slip in its name.
+  // A missing required option may have been given with a slip in its name.
   const bool is_slip = dynamic_cast<const CLI::RequiredError*>(&error) && first_option != left_over.end();
   const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) && !left_over.empty();
   if (!is_slip && !is_extra) {

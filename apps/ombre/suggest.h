@@ -1,4 +1,4 @@
-// What to say when the arguments do not fit.
+// Explains arguments that do not fit.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -6,10 +6,10 @@
 
 namespace ombre::cli {
 
-// One or two lines for a mistake that CLI11 found: what is wrong and what was probably meant.
+// Returns one or two lines about a mistake that CLI11 found: what is wrong and what was probably meant.
 std::string explain(const CLI::App& program, const CLI::ParseError& error);
 
-// For a first argument that names no command; empty when it names one or is an option.
+// Explains a first argument that names no command; empty if it names one or is an option.
 std::string unknown_command(const CLI::App& program, const std::string& argument);
 
 }  // namespace ombre::cli

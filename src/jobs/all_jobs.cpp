@@ -4,7 +4,7 @@
 
 namespace ombre::jobs {
 
-// Each by the room of its kind.
+// The functions below are defined in the rooms of their kinds.
 JobKind slice_kind();
 JobKind layer_kind();
 JobKind render_kind();

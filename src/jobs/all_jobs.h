@@ -1,4 +1,4 @@
-// Every kind of job there is.
+// The list of all kinds of jobs.
 #pragma once
 
 #include <string_view>
@@ -8,9 +8,9 @@
 
 namespace ombre::jobs {
 
-// In the order of the help.
+// Returns all kinds, in the order of the help.
 const std::vector<JobKind>& all_jobs();
-// Null where there is none.
+// Returns null if there is no such kind.
 const JobKind* find_job(std::string_view name);
 
 }  // namespace ombre::jobs

@@ -1,11 +1,11 @@
-// Arrays of copies, against unions of the same copies written out.
+// Tests arrays of copies against unions of the same copies written out.
 #include "jobs/slice/plan.h"
 #include "jobs/test_job_solids.h"
 
 namespace ombre::compile {
 namespace {
 
-// A child beside its origin, one that is no ball in its box, and one with overlapping parts and an attribute.
+// The children: one beside its origin, one that is no ball in its box, and one with overlapping parts and an attribute.
 const char* const children[] = {
     "translate(0.3, 0.1, 0) sphere(0.9, \"red\");",
     "rotate(20, 40, 10) rectprism((2.5, 0.6, 0.4), \"red\");",
@@ -15,7 +15,7 @@ const char* const children[] = {
 };
 
 struct Pair {
-  std::string array, written_out;  // before the child
+  std::string array, written_out;  // code before the child
   Vec3 first, last;                // the copies' places span the box between these
 };
 
@@ -28,7 +28,7 @@ std::vector<Pair> pairs(const std::string& materials) {
        all + "for (i = [0 : 29]) translate(3*i, i, -0.5*i) ",
        {0, 0, 0},
        {87, 29, -14.5}},
-      // Copies that overlap, backwards.
+      // The copies overlap and go backwards.
       {"array_linear(40, (-0.7, 0, 0), " + rule + ") ",
        all + "for (i = [0 : 39]) translate(-0.7*i, 0, 0) ",
        {-27.3, 0, 0},
@@ -45,7 +45,7 @@ std::vector<Pair> pairs(const std::string& materials) {
        all + "for (i = [0 : 19]) rotate(axis=z, deg=18*i) translate(12, 0, 0) ",
        {-12, -12, 0},
        {12, 12, 0}},
-      // Overlapping copies, all round and not.
+      // The copies overlap, all round and not.
       {"array_polar(40, (1, 1, 0), radius=6, around=(1, 2, 3), " + rule + ") ",
        all +
            "for (i = [0 : 39]) rotate(axis=(1, 1, 0), deg=9*i, around=(1, 2, 3)) translate(6/sqrt(2), -6/sqrt(2), 0) ",
@@ -77,7 +77,7 @@ void expect_equal(const std::string& array_text, const std::string& union_text, 
   RandomPoints shares({{0, 0, 0}, {1, 1, 1}}), around(Box::centered({2.5, 2.5, 2.5}));
   size_t found = 0;
   for (int n = 0; n < 6000; ++n) {
-    // In turn anywhere, and along the diagonal, on which rows lie.
+    // Points lie anywhere and along the diagonal, on which rows lie, in turn.
     Vec3 share = shares.next();
     if (n % 2) share = {share.x, share.x, share.x};
     const Vec3 way = last - first, p = first + Vec3{share.x * way.x, share.y * way.y, share.z * way.z} + around.next();
@@ -111,7 +111,7 @@ TEST(Arrays, AreUnionsOfTheirCopies) { expect_equal("first"); }
 TEST(Arrays, MixWhereCopiesOverlap) { expect_equal("mix"); }
 TEST(Arrays, LetTheLastCopyWin) { expect_equal("last"); }
 
-// Between the copies the distance is that to the nearest one, whatever lies between: these need all.
+// Between the copies the distance is that to the nearest one, which can be any of them.
 TEST(Arrays, AreExactBetweenTheirCopies) {
   const char* const ball = "sphere(0.5, \"red\");";
   const TestSolid array(std::string("array_grid((50, 40, 30), (7, 9, 5)) ") + ball);
@@ -138,7 +138,7 @@ TEST(Arrays, FarAwayDistancesAreBounds) {
 
 TEST(Arrays, AskNoMoreWhereThereAreMoreCopies) {
   for (const std::string child : {"sphere(1.4, \"red\");", "cube(4, \"red\");"}) {
-    // Some numbers in the program are no longer equal.
+    // Programs may differ by this many constants, since some numbers are no longer equal.
     constexpr size_t constants = 4;
     const auto size = [&](const std::string& array) { return TestSolid(array + child).inside_size(); };
     EXPECT_LE(size("array_linear(9000, (3, 0, 0)) "), size("array_linear(50, (3, 0, 0)) ") + constants);
@@ -148,7 +148,7 @@ TEST(Arrays, AskNoMoreWhereThereAreMoreCopies) {
   }
 }
 
-// What copies of copies would ask is counted before it is written out.
+// The copies that copies of copies would ask are counted before they are written out.
 TEST(Arrays, SayWhenCopiesOfCopiesAreTooMany) {
   Diagnostics diagnostics;
   std::string text = "cube(1, \"red\");";
@@ -159,7 +159,7 @@ TEST(Arrays, SayWhenCopiesOfCopiesAreTooMany) {
   EXPECT_NE(to_text(diagnostics).find("the design repeats its parts too often"), std::string::npos);
 }
 
-// A union of so many solids becomes a table; arrays that repeat little go into it.
+// A union of this many solids becomes a table; arrays that repeat little go into it.
 TEST(Arrays, GoIntoUnionsOfManySolids) {
   std::string arrays, written_out;
   for (int n = 0; n < 40; ++n) {
@@ -176,7 +176,7 @@ TEST(Arrays, GoIntoUnionsOfManySolids) {
   }
 }
 
-// Everywhere, also outside, there is a composition: the nearest copy's.
+// The composition is defined everywhere, also outside: it is that of the nearest copy.
 TEST(Arrays, GiveTheCompositionOfTheNearestCopyOutside) {
   const TestSolid row("array_linear(30, (4, 0, 0)) fgrade([\"1 + x\", \"1 - x\"], [\"red\", \"blue\"]) sphere(1);",
                       design::Demand::everywhere);
@@ -198,7 +198,7 @@ TEST(Arrays, HaveBoundsOfTheirCopies) {
   expect_box("array_grid((3, 2, 1), (5, 4, 9), centred=true) cube(2, \"red\");", {-6, -3, -1}, {6, 3, 1});
   expect_box("array_polar(4, radius=6) cube(2, \"red\");", {-7, -7, -1}, {7, 7, 1});
   expect_box("array_mirror(x, (1, 0, 0)) translate(4, 0, 0) cube(2, \"red\");", {-3, -1, -1}, {5, 1, 1});
-  // Within a box only the copies that meet it count.
+  // Only the copies that meet a box count for the bounds within it.
   const Box part = TestSolid("array_linear(9, (10, 0, 0)) cube(2, \"red\");").node().bounds({{12, -5, -5}, {38, 5, 5}});
   EXPECT_NEAR(part.lo.x, 19, 1e-6);
   EXPECT_NEAR(part.hi.x, 31, 1e-6);

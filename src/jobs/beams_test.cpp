@@ -1,4 +1,4 @@
-// Designs with struts, written as beams and read again.
+// Tests designs with struts that are written as beams and read again.
 #include <filesystem>
 
 #include "formats/containers/file.h"
@@ -45,7 +45,8 @@ class Beams : public testing::Test {
     return kept;
   }
 
-  // The design and what was written of it give the same voxels, but for those within `away_mm` of the border.
+  // Compares the voxels of a design with those of the file that was written of it, except within `away_mm` of the
+  // border.
   void expect_same_voxels(const std::string& text, bool by_material, double tolerance_mm, double away_mm) {
     write(text, by_material, tolerance_mm);
     const std::string root = "root((-6, -6, -6), (6, 6, 6), (0.0937, 0.0937, 0.0937)) ";
@@ -92,7 +93,7 @@ class Beams : public testing::Test {
   bool skip_ = false;
 };
 
-// Coordinates of some millimetres, as floats, and what computing with them adds.
+// Rounding of coordinates of some millimetres to floats, and of computations with them; mm.
 constexpr double float_rounding = 2e-6;
 
 }  // namespace

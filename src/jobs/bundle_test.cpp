@@ -31,7 +31,7 @@ class Bundle : public testing::Test {
     write(file("project/designs/part.vcad"), script);
     return write_bundle(file("project/designs/part.vcad"), file("part.ombre"), {}, diagnostics_);
   }
-  // What is said of an archive with these entries.
+  // Returns the message about an archive with these entries.
   std::string refusal(const std::vector<std::pair<std::string, std::string>>& entries) {
     std::vector<formats::ZipEntry> zip;
     for (const auto& [name, bytes] : entries) {
@@ -78,7 +78,7 @@ TEST_F(Bundle, HoldsTheFilesThatADesignReads) {
   fs::rename(file("elsewhere"), file("project"));
   const std::string first = formats::read_file(file("part.ombre"));
   ASSERT_TRUE(bundle(script));
-  EXPECT_EQ(formats::read_file(file("part.ombre")), first);  // same input, same bytes
+  EXPECT_EQ(formats::read_file(file("part.ombre")), first);  // the same input gives the same bytes
 }
 
 TEST_F(Bundle, HoldsTheMaterials) {
@@ -120,11 +120,11 @@ TEST_F(Bundle, RefusesNamesThatLeadOutOfIt) {
     EXPECT_NE(refusal({note, design, {name, "x"}}).find("leads out of it"), std::string::npos) << name;
 }
 
-// A link that points out of the folder, as zip archives of Unix may have.
+// The archive has a link that points out of the folder, as zip archives of Unix may have.
 TEST_F(Bundle, RefusesLinks) {
   refusal({{"bundle.json", R"({"design": "a.vcad"})"}, {"a.vcad", "/etc/passwd"}});
   std::string bytes = formats::read_file(file("made.ombre"));
-  // In the archive's directory: the system that made the entry, and above the low half the mode of its file.
+  // An entry of the archive's directory has the system that made it, and above the low half the mode of its file.
   const size_t entry = bytes.rfind("PK\x01\x02");
   bytes[entry + 5] = 3;
   bytes[entry + 40] = '\xFF';

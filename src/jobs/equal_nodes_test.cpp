@@ -1,4 +1,4 @@
-// What a script makes again and again is one node.
+// Tests that equal nodes that a script makes again and again become one node.
 #include "jobs/test_designs.h"
 
 namespace ombre::compile {

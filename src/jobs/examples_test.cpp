@@ -1,4 +1,4 @@
-// Every example in float batches, beside the reference.
+// Tests every example in float batches against the reference.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -20,7 +20,7 @@ std::vector<std::string> examples() {
   return names;
 }
 
-// About a million voxels of the example, whatever its size.
+// Slices an example into about a million voxels, whatever its size.
 std::vector<MaterialId> slice_example(const LoadedPtr& loaded, voxel::Evaluator evaluator, voxel::Dither dither) {
   PlanOptions options;
   options.evaluator = evaluator;

@@ -5,7 +5,7 @@
 namespace ombre::compile {
 namespace {
 
-// 0.1 mm has no exact double: faces at 0.3 or 0.7 are where rounding could slip by a voxel.
+// 0.1 mm has no exact double, so at faces such as 0.3 or 0.7 rounding could slip by a voxel.
 const voxel::Lattice lattice{{0, -1, -0.5}, {Pitch{1, 10}, Pitch{1, 5}, Pitch{1, 10}}, {10, 10, 10}};
 
 }  // namespace
@@ -28,7 +28,7 @@ TEST(Layer, WindowsHoldTheVoxelsThatTheyTouch) {
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->lo, (std::array<int64_t, 2>{0, 0}));
   EXPECT_EQ(whole->hi, (std::array<int64_t, 2>{10, 10}));
-  // 0.3 ... 0.7 are faces along x, -0.6 and 0.2 along y.
+  // There are faces at 0.3 ... 0.7 along x, and at -0.6 and 0.2 along y.
   const auto exact = window_over(lattice, 0.3, -0.6, 0.7, 0.2);
   ASSERT_TRUE(exact);
   EXPECT_EQ(exact->lo, (std::array<int64_t, 2>{3, 2}));

@@ -1,4 +1,4 @@
-// Unions of many parts are tables; their voxels are those of the same parts written out.
+// Tests that unions of many parts, which are tables, have the voxels of the same parts written out.
 #include <algorithm>
 #include <random>
 #include <span>
@@ -11,7 +11,7 @@
 namespace ombre::compile {
 namespace {
 
-// Struts and balls of several materials, some graded, that overlap.
+// Returns struts and balls of several materials, some graded, that overlap.
 std::vector<std::string> some_parts(int count) {
   std::mt19937 random(5);
   const auto number = [&](double lo, double hi) {
@@ -52,7 +52,7 @@ std::string flat(const std::vector<std::string>& parts, const std::string& optio
   return text + "}";
 }
 
-// Two by two, too few for tables; of no use where inputs of a union count as one.
+// Joins the parts two by two, too few for tables. This does not help if inputs of a union count as one.
 std::string in_pairs(std::span<const std::string> parts, const std::string& options) {
   if (parts.size() == 1) return parts[0] + "\n";
   const size_t half = parts.size() / 2;
@@ -88,7 +88,7 @@ void expect_one_result(const std::string& body) {
   EXPECT_LT(differences(batch, slice_as(body, reference)), batch.ids.size() / 100'000) << body;
 }
 
-// How many parts the tables of a design hold, by table.
+// Returns the number of parts in each table of a design.
 std::vector<size_t> tables_of(const std::string& body, const std::string& where = box) {
   Diagnostics diagnostics;
   const auto built = build_flat_program(load_text(where + "{" + body + "}", diagnostics)->design, diagnostics);
@@ -111,13 +111,13 @@ TEST(ManyParts, AreATableWhereItPays) {
   const std::string third = "strut((3, 3, -3), (2, -2, 3), 0.12, \"red\");";
   EXPECT_EQ(tables_of("union() {" + struts + third + "}"), std::vector<size_t>{3});
   EXPECT_EQ(tables_of("union() {" + struts + "}"), std::vector<size_t>{});
-  // Close together; dozens are one all the same.
+  // Parts that lie close together become a table only if there are dozens.
   EXPECT_EQ(tables_of(flat(std::vector<std::string>(31, "sphere(3, \"red\");"))), std::vector<size_t>{});
   EXPECT_EQ(tables_of(flat(std::vector<std::string>(32, "sphere(3, \"red\");"))), std::vector<size_t>{32});
-  // Parts of long programs.
+  // The parts have long programs.
   const std::string hull = "hull([for (n = [0:99]) let (p = rands(-1, 1, 3, n)) p / norm(p) * 0.5]);";
   EXPECT_EQ(tables_of("union() {" + struts + "translate(3, -3, -3) " + hull + "}"), std::vector<size_t>{});
-  // Lattices keep their own.
+  // Lattices keep tables of their own.
   const std::string lattice =
       "lattice(edges=[for (n = [0:299]) let (p = rands(-3, -2, 6, n)) [[p[0], p[1], p[2]], [p[3], p[4], p[5]]]], "
       "radius=0.01);";
@@ -134,7 +134,7 @@ TEST(ManyParts, AreTheSameInTablesAndWrittenOut) {
   expect_one_result(flat(parts, "materials=\"last\""));
 }
 
-// A value is evaluated where its part is, by each part's own frame.
+// A value is evaluated in the frame of its part.
 TEST(ManyParts, MayHaveValues) {
   const std::string part =
       " sphere(0.4 + 0.3*noise(size=0.8), mix(\"red\", mix(\"blue\", \"cyan\", 0.5), noise(size=1.1, seed=3)));";
@@ -147,7 +147,7 @@ TEST(ManyParts, MayHaveValues) {
   expect_one_result(flat(parts, "blend=0.2"));
 }
 
-// Parts that have influence beyond their surfaces.
+// The parts have influence beyond their surfaces.
 TEST(ManyParts, AreJoinedSmoothly) {
   const auto parts = some_parts(120);
   for (const std::string rule : {"mix", "first", "last", "blend"})
@@ -179,7 +179,7 @@ TEST(ManyParts, FirstAndLastDoNotDependOnGroups) {
     EXPECT_EQ(differences(slice_as(flat(parts, rule), {}), slice_as(in_pairs(parts, rule), {})), 0u) << rule;
 }
 
-// A mesh before, after or amid the parts of the table.
+// A mesh stands before, after or amid the parts of the table.
 TEST(ManyParts, FirstAndLastKeepTheOrderBesideMeshes) {
   const std::string mesh = "scale(0.2, 0.2, 0.4) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\", \"green\");";
   for (const size_t at : {size_t{0}, size_t{50}, size_t{70}}) {
@@ -206,7 +206,8 @@ TEST(ManyParts, TakeMeshesAlong) {
   expect_one_result(flat(parts));
 }
 
-// More than go into one task: first red ones alone, then all kinds, with one that has no row and one that can fail.
+// Returns more parts than go into one task: first red ones alone, then all kinds, with one that has no row and one that
+// can fail.
 std::vector<std::string> parts_of_several_tasks() {
   std::vector<std::string> parts;
   for (const std::string& part : some_parts(1600))
@@ -233,7 +234,7 @@ TEST(ManyParts, OfSeveralTasksAreOneTable) {
   }
 }
 
-// So many that they are read ahead, too.
+// There are so many parts that they are read ahead, too.
 TEST(ManyParts, DoNotDependOnThreads) {
   const std::string text = coarse + ("{" + flat(some_parts(2600)) + "}");
   PlanOptions one, several;
@@ -252,7 +253,7 @@ TEST(ManyParts, TellOfFailedChecks) {
   ASSERT_EQ(plan->request.check_texts.size(), 1u);
   uint64_t hits = 0;
   for (const auto& layer : plan->producer(0, plan->request.lattice.count[2], nullptr)) hits += layer.checks[0].count;
-  // The ball of radius 1.
+  // The ball has radius 1.
   const double voxel = 0.05 * 0.06 * 0.07;
   EXPECT_NEAR(static_cast<double>(hits) * voxel, 4.18879, 0.05);
 }

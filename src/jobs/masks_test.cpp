@@ -46,7 +46,7 @@ TEST_F(Slice, LayersThatLackAFileAreRedone) {
   write(folder() + "/slice_00030_red.png.part", "half");
   EXPECT_EQ(run(request, options(FolderUse::resume)).layers_written, 2);
   expect_same(reference, contents(folder()));
-  // Ended between the two files of a layer: no line names them.
+  // The run ended between the two files of a layer, so no line of the journal names them.
   const std::string& journal = reference.at("journal.jsonl");
   write(folder() + "/journal.jsonl", journal.substr(0, journal.find("\n", journal.size() / 2) + 1));
   run(request, options(FolderUse::resume));

@@ -1,4 +1,4 @@
-// Meshes of designs against mathematics.
+// Tests meshes of designs against mathematics.
 #include "jobs/mesh/mesh_job.h"
 
 #include <algorithm>
@@ -31,9 +31,10 @@ MeshRequest cells_of(double cell_mm, double tolerance_mm) {
   return request;
 }
 
-// Every edge has two triangles, which run along it in opposite directions, and around every vertex there is one fan.
+// Checks that every edge has two triangles, which run along it in opposite directions, and that around every vertex
+// there is one fan.
 void expect_manifold(const surface::Body& body) {
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> third;  // behind a directed edge
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> third;  // the third vertex of the triangle at a directed edge
   std::vector<size_t> triangles_at(body.vertices.size());
   for (const Triangle& t : body.triangles)
     for (size_t n = 0; n < 3; ++n) {
@@ -88,7 +89,7 @@ double distance(Vec3 p, const surface::Body& body) {
   return nearest;
 }
 
-// To a cylinder around the origin; negative inside.
+// Returns the distance to a cylinder around the origin, negative inside.
 double distance_to_cylinder(Vec3 p, Vec3 axis, double radius, double half_length) {
   const double along = dot(p, axis), beyond = std::abs(along) - half_length;
   const double beside = length(p - along * axis) - radius;
@@ -118,8 +119,8 @@ TEST(Mesh, OfASphereStaysWithinTheTolerance) {
   }
 }
 
-// Halving cells divides the error of the area by four at least. Volumes are fitted by a rule that is exact for
-// quadratics, and what is left falls with the fourth power: by eight at least.
+// Halving cells divides the error of the area at least by four. Volumes are fitted by a rule that is exact for
+// quadratics, so their error falls with the fourth power: at least by eight.
 TEST(Mesh, ConvergesWithTheCells) {
   double volume_error = 5e-4, area_error = 1e300;
   for (const double cell : {0.8, 0.4, 0.2}) {
@@ -193,7 +194,7 @@ TEST(Mesh, OfTwoBlocksThatTouchHasTwelveTrianglesEach) {
     }
 }
 
-// The blue block is far smaller than the samples that tell mixtures.
+// The blue block is far smaller than the spacing of the samples for mixtures.
 TEST(Mesh, OfSeveralMaterialsHasABodyForEach) {
   MeshRequest request = cells_of(0.02, 0.01);
   request.usual = UsualRegions::separate;
@@ -213,7 +214,7 @@ TEST(Mesh, OfSeveralMaterialsHasABodyForEach) {
 TEST(Mesh, OfMixturesHasBodiesByBands) {
   MeshRequest request = cells_of(0.5, 0.1);
   request.usual = UsualRegions::separate;
-  // A fraction rises evenly over 20 mm: four bands of 250 mm3.
+  // A fraction rises evenly over 20 mm, so there are four bands of 250 mm3.
   const MeshedDesign two =
       mesh_text(R"(fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) rectprism(20, 10, 5);)", request);
   EXPECT_TRUE(two.is_by_bands && two.materials.are_mixed);
@@ -229,7 +230,7 @@ TEST(Mesh, OfMixturesHasBodiesByBands) {
       std::ranges::any_of(three.bodies, [](const RegionBody& b) { return std::abs(b.volume_mm3 - 64) < 1e-3; }));
 }
 
-// Cells are 0.4 times the radius long; what two cylinders across each other share is Steinmetz's solid.
+// Cells are 0.4 times the radius long. The intersection of two crossing cylinders is Steinmetz's solid.
 TEST(Mesh, KeepsTheVolumeOfStrutsOfFewCells) {
   const double r = 0.7, long_mm = 6;
   const double alone = pi * r * r * long_mm, shared = 16.0 / 3 * r * r * r;
@@ -258,7 +259,7 @@ TEST(Mesh, OfATiltedBoxHasItsEdgesAndCorners) {
   }
 }
 
-// Faces on round coordinates, cells of a round size.
+// Faces have round coordinates, and cells a round size.
 TEST(Mesh, OfACubeIsTheCube) {
   const MeshedDesign made = mesh_text("cube(20);", cells_of(0.5, 0.05));
   EXPECT_NEAR(made.bodies.at(0).volume_mm3, 8000, 1e-6);
@@ -266,19 +267,19 @@ TEST(Mesh, OfACubeIsTheCube) {
   EXPECT_EQ(made.bodies[0].body.triangles.size(), 12u);
 }
 
-// A cylinder cut askew: the rim of the cut lies on both surfaces.
+// A cylinder is cut askew: the rim of the cut lies on both surfaces.
 TEST(Mesh, OfACutCylinderHasASharpRim) {
   const MeshedDesign made =
       mesh_text("intersection() { cylinder(4, 20); rotate(30, 0, 0) rectprism(40, 40, 6); }", cells_of(0.1, 0.01));
   const surface::Body& body = made.bodies.at(0).body;
   expect_manifold(body);
-  // The prism's height along the axis times the circle.
+  // The volume is the prism's height along the axis times the circle.
   const double height = 6 / std::cos(pi / 6);
   EXPECT_NEAR(made.bodies[0].volume_mm3, pi * 16 * height, 1e-3 * pi * 16 * height);
   EXPECT_NEAR(made.bodies[0].area_mm2, 2 * pi * 4 * height + 2 * pi * 16 / std::cos(pi / 6), 0.3);
 }
 
-// Two cylinders that cross at 16 degrees: cells of the grid cannot follow the valley between them down to its ground.
+// Two cylinders cross at 16 degrees: cells of the grid cannot follow the valley between them down to its ground.
 TEST(Mesh, OfANarrowValleyStaysWithinTheTolerance) {
   const double tolerance = 0.04, radius = 2, half_length = 20, angle = pi * 8 / 180;
   const std::string text = "union() { rotate(0, 8, 0) cylinder(2, 40); rotate(0, -8, 0) cylinder(2, 40); }";
@@ -327,8 +328,8 @@ TEST(Mesh, HasPocketsThatNoCornerOfACellSees) {
       EXPECT_LE(distance(middle + radius * way, body), tolerance) << middle.x;
 }
 
-// Most of them lie between the corners of cells, and all cells have to be cut.
-// A plate that no corner of a cell lies in is missing beside a cube, and so is a slit of that width in a block.
+// Most thin parts lie between the corners of cells, and all cells have to be cut. A plate that contains no corner of a
+// cell is missing beside a cube, and so is a slit of that width in a block.
 TEST(Mesh, TellsWhatIsTooThinForItsCells) {
   const MeshRequest request = cells_of(0.8, 0.2);
   const std::string cube = "translate(0, 0, 20) cube(10);";
@@ -352,7 +353,7 @@ TEST(Mesh, OfSheetsThinnerThanCellsHasThemAll) {
   EXPECT_NEAR(made.bodies[0].area_mm2, 4 * 2 * (2 * 2 + 0.25 * 2 + 0.25 * 2), 1e-3 * 40);
 }
 
-// What is inside becomes what is outside when all turns about the middle.
+// Inside and outside are congruent by a rotation about the middle.
 TEST(Mesh, OfAGyroidFinerThanCellsIsHalfTheCube) {
   const MeshedDesign made = mesh_text(
       "intersection() { cube(3); function(\"sin(12*x)*cos(12*y) + sin(12*y)*cos(12*z) + sin(12*z)*cos(12*x)\"); }",
@@ -370,7 +371,8 @@ TEST(Mesh, OfAGyroidHalvesItsCells) {
       cells_of(0.1, 0.01));
   expect_manifold(made.bodies.at(0).body);
   EXPECT_NEAR(made.bodies[0].volume_mm3, 256, 1e-4 * 256);
-  // Area of the gyroid in a cell of length 1: 3.0915 (Schnering and Nesper 1991); half of each face of the cube.
+  // The area of the gyroid in a cell of length 1 is 3.0915 (Schnering and Nesper 1991); half of each face of the cube
+  // is added.
   EXPECT_NEAR(made.bodies[0].area_mm2, 3.0915 * 16 * 8 + 6 * 32, 1e-3 * 587);
 }
 
@@ -384,7 +386,7 @@ TEST(Mesh, OfBandsSharesTheirBorders) {
         mesh_text("fgrade([\"x/10+0.5\", \"0.5-x/10\"], [\"red\", \"blue\"]) sphere(5);", request);
     ASSERT_EQ(made.bodies.size(), 4u);
     for (const RegionBody& body : made.bodies) expect_manifold(body.body);
-    // A cap of height h: pi h^2 (3 r - h) / 3
+    // A cap of height h has the volume pi h^2 (3 r - h) / 3.
     const double cap = pi * 2.5 * 2.5 * 12.5 / 3;
     EXPECT_NEAR(made.bodies[0].volume_mm3, cap, 0.5);
     EXPECT_NEAR(made.bodies[3].volume_mm3, cap, 0.5);
@@ -408,7 +410,7 @@ TEST(Mesh, OfRegionsAddsUpToTheWhole) {
   EXPECT_NEAR(volume(mesh_text(text, request)), whole, 2e-4 * whole);
 }
 
-// Materials that jump at a slanted plane: the border is found without a value that goes through zero there.
+// Materials jump at a slanted plane: the border is found without a value that goes through zero there.
 TEST(Mesh, OfMaterialsMeetsWhereTheyJump) {
   MeshRequest request = cells_of(0.3, 0.02);
   request.by_material = true;
@@ -425,7 +427,7 @@ TEST(Mesh, OfMaterialsMeetsWhereTheyJump) {
   EXPECT_NEAR(volume(made), 1000, 1e-3);
 }
 
-// Cubes that share an edge, and cubes that share a corner.
+// Cubes share an edge, or a corner.
 TEST(Mesh, OfSolidsThatTouchIsManifold) {
   for (const char* text :
        {"union() { cube(4); translate(4, 4, 0) cube(4); }", "union() { cube(4); translate(4, 4, 4) cube(4); }"}) {
@@ -463,7 +465,7 @@ TEST(Mesh, OfManyPartsKeepsThem) {
   EXPECT_NEAR(volume(made), 100 * 4 * pi / 3, 100 * 4 * pi * 0.02);
 }
 
-// Boxes whose sides make long decimals.
+// The sides of the boxes make long decimals.
 TEST(Mesh, OfPartsOfAnySize) {
   for (const char* side : {"7e-13", "1e-4", "0.0123456789", "1234.56789", "76543.21"}) {
     const MeshedDesign made = mesh_text("cube(" + std::string(side) + ");");
@@ -472,15 +474,15 @@ TEST(Mesh, OfPartsOfAnySize) {
   }
 }
 
-// Within a tolerance larger than the parts, whole surfaces hang together up to the largest cell.
+// The tolerance is larger than the parts, so whole surfaces are joined up to the largest cell.
 TEST(Mesh, OfPartsSmallerThanTheToleranceEnds) {
   const MeshedDesign made = mesh_text("union() { sphere(0.3); translate(20, 0, 0) sphere(0.3); }", cells_of(0.2, 5));
   EXPECT_EQ(made.bodies.size(), 1u);
   expect_manifold(made.bodies[0].body);
 }
 
-// Of two balls of radius 3 whose middles are 4 apart the first has the lens between them, whose caps are 1 high. What
-// stands in no part at the top level comes first.
+// The middles of two balls of radius 3 are 4 apart, and the first has the lens between them, whose caps are 1 high.
+// Solids in no part at the top level come first.
 TEST(Mesh, ByPartsHasABodyForEachName) {
   MeshRequest request = cells_of(0.2, 0.01);
   request.by_part = true;

@@ -13,7 +13,7 @@
 namespace ombre::compile {
 namespace {
 
-// A small disk mounted on a folder, where this is allowed.
+// A small disk that is mounted on a folder, if this is allowed.
 class SmallDisk {
  public:
   explicit SmallDisk(const std::string& folder)
@@ -32,7 +32,7 @@ class SmallDisk {
   bool mounted_;
 };
 
-// Asks to stop once `after` slabs have begun.
+// Returns a producer that asks to stop once `after` slabs have begun.
 LayerProducer stopping(const LayerProducer& producer, StopFlag& stop, int after) {
   auto begun = std::make_shared<std::atomic<int>>(0);
   return [=, &stop](int64_t begin, int64_t end, const StopFlag*) {
@@ -134,7 +134,7 @@ TEST_F(Slice, KilledRunsResumeToTheSameBytes) {
       ::kill(child, SIGKILL);
       int status = 0;
       ::waitpid(child, &status, 0);
-      if (round % 2) continue;  // then the next run resumes what this one left
+      if (round % 2) continue;  // then the next run resumes this one
       run(request, options(FolderUse::resume, 1));
       expect_same(reference, contents(folder()));
     }

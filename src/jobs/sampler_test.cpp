@@ -1,4 +1,4 @@
-// Designs at many points at once, against mathematics.
+// Tests designs at many points at once, against mathematics.
 #include "questions/sampler.h"
 
 #include <random>
@@ -14,7 +14,7 @@ double between(std::mt19937& random, double lo, double hi) {
 
 }  // namespace
 
-// So many parts are a table, of which blocks of points ask a few rows.
+// There are so many parts that they are a table, of which blocks of points ask a few rows.
 TEST(Sampler, FindsPointsInVeryManyBalls) {
   constexpr double radius = 0.5;
   std::mt19937 random(3);
@@ -27,7 +27,7 @@ TEST(Sampler, FindsPointsInVeryManyBalls) {
             std::to_string(centre.z) + ") sphere(0.5);\n";
   }
   for (Vec3& point : points) point = place();
-  // Many at one place, one far away and one that is no point.
+  // Many points lie at one place, one is far away, and one is not a number.
   for (size_t n = 0; n < 600; ++n) points[n] = centres[0] + Vec3{0, 0, n % 2 == 0 ? 0.25 : 100};
   points[700] = {1e5, 0, 0};
   points[701] = {std::nan(""), 0, 0};

@@ -1,4 +1,4 @@
-// Jobs as files: what kind they are, and their options.
+// Saves jobs as files, with their kind and options, and runs them.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ struct SavedJob {
   DataMembers options;  // as options::read_members takes them
 };
 
-// JSON. Relative paths stay relative: to the working folder of whoever runs it.
+// Returns the job as JSON. Relative paths stay relative; they begin in the working folder of whoever runs it.
 std::string saved_text(const SavedJob& job, const std::string& program);
-// Nothing, and diagnostics, where the text is no job, or has a kind that is not known.
+// Reads a job. Returns nothing, and adds diagnostics, if the text is no job, or its kind is unknown.
 std::optional<SavedJob> read_saved_job(const SourcePtr& source, Diagnostics& diagnostics);
 
-// Runs it. Returns an exit code. Throws as the kind's jobs do.
+// Runs the job and returns an exit code. Throws as the kind's jobs do.
 int run_saved_job(const SavedJob& job, Session& session);
 
 }  // namespace ombre::jobs

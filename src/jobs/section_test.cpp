@@ -1,4 +1,4 @@
-// Sections seen flat, against geometry.
+// Tests sections seen flat, against geometry.
 #include <cmath>
 
 #include "jobs/picture/picture.h"
@@ -46,7 +46,7 @@ TEST(Sections, OfASphereAreDiscs) {
   }
 }
 
-// x or y to the right, y or z upwards.
+// x or y goes to the right, y or z upwards.
 TEST(Sections, LieAsTheDesignDoes) {
   const std::string design =
       R"(union() { cube(10, "red"); translate(8, 0, 3) cube(4, "blue"); translate(0, -8, 0) cube(4, "blue");
@@ -95,7 +95,7 @@ TEST(Sections, OfMeshesAndOfWhatIsCut) {
   };
   const double whole = covered(one);
   EXPECT_NEAR(covered(slice(gear, {2, 3}, request)) / whole, 1, 1e-3);
-  // Cuts leave the half of a disc, and move it to the middle of the picture.
+  // Cuts leave half of a disc, and move it to the middle of the picture.
   request.cuts = {{{0, '>', 0}}};
   const Picture half = slice("sphere(10, \"red\");", {2, 0}, request);
   EXPECT_NEAR(covered(half) / (50 * 3.14159265358979), 1, 0.004);

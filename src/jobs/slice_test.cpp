@@ -106,7 +106,7 @@ TEST_F(Slice, ProgressGrowsToTheTotal) {
   } recorder;
   const SliceRequest request = ball_request();
   slice(request, ball(request), options(), &recorder);
-  ASSERT_EQ(recorder.seen.size(), 6U);  // once for what was there before, once for each slab
+  ASSERT_EQ(recorder.seen.size(), 6U);  // once for existing layers, once for each slab
   EXPECT_EQ(recorder.seen.front().first, 0U);
   for (size_t i = 1; i < recorder.seen.size(); ++i) EXPECT_GT(recorder.seen[i].first, recorder.seen[i - 1].first);
   EXPECT_EQ(recorder.seen.back(), (std::pair{request.lattice.voxels(), request.lattice.voxels()}));
@@ -122,7 +122,7 @@ TEST_F(Slice, MemoryBoundsWhatIsInFlight) {
     EXPECT_LE(size_work(request, some).memory_bytes, memory);
   }
   some.threads = 1;
-  size_t before = 0;  // what is kept for error diffusion, and larger images, take memory
+  size_t before = 0;  // error diffusion and larger images take more memory
   for (const auto& [dither, format] : {std::pair{voxel::Dither::stochastic, ImageFormat::indexed},
                                        std::pair{voxel::Dither::diffusion, ImageFormat::indexed},
                                        std::pair{voxel::Dither::diffusion, ImageFormat::rgba}}) {
@@ -145,7 +145,7 @@ TEST_F(Slice, EstimatesWriteNothing) {
   EXPECT_FALSE(fs::exists(folder()));
 }
 
-// A layer that would take forever is left when the time is over.
+// A layer that would take forever is stopped when the time is over.
 TEST_F(Slice, EstimatesEndInTime) {
   SliceRequest request = ball_request();
   request.lattice.count[2] = 4000;
@@ -163,7 +163,7 @@ TEST_F(Slice, EstimatesEndInTime) {
   EXPECT_THROW(estimate_slice(request, slow, one, &stop), Cancelled);
 }
 
-// A slab of such layers takes 16 s, so a look of four seconds sees none of them whole.
+// A slab of such layers takes 16 s, so none is whole after the four seconds of an estimate.
 TEST_F(Slice, EstimatesOfSlowLayersComeFromTheirRows) {
   SliceRequest request = ball_request();
   request.lattice.pitch[1] = Pitch{1, 500};
@@ -198,7 +198,7 @@ TEST_F(Slice, ContactSheetsKeepTrueProportions) {
   exporting::write_file(sheet, contact_sheet(folder(), 6));
   const formats::PngImage image = formats::decode_png(formats::read_file(sheet), sheet);
   EXPECT_LE(image.width, 1600U);
-  // The ball's pixels are twice as high as wide. Its widest tile shows it as wide as high.
+  // The ball's pixels are twice as high as wide. The contact sheet shows its widest layer as wide as high.
   const formats::Rgba red{255, 0, 0, 255}, blue{0, 0, 255, 255};
   uint32_t widest = 0, tallest = 0;
   for (uint32_t row = 0; row < image.height; ++row) {

@@ -1,4 +1,4 @@
-// Stages of each kind against plain computations over the whole lattice.
+// Tests stages of each kind against plain computations over the whole lattice.
 #include "design/stage.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using design::StageChannel;
 using design::StageValues;
 using Cell = std::array<int64_t, 3>;
 
-// Two test_balls that do not touch and a small one, given by centre and radius; mm.
+// A ball by its centre and radius, mm. Two of the test balls do not touch; one is small.
 struct Ball {
   Vec3 centre;
   double radius = 0;
@@ -41,7 +41,7 @@ design::StageRead shape_of(const design::NodePtr& solid) {
   return read;
 }
 
-// Each reads the shape of a solid and gives one channel.
+// A stage that reads the shape of a solid and gives one channel.
 template <class Kind>
 class OneChannel : public Kind {
  public:
@@ -59,7 +59,7 @@ class OneChannel : public Kind {
   Interval range_;
 };
 
-// How many cells are inside in a box around each, whose sides may be even.
+// Counts the cells inside in a box around each cell; the sides of the box may be even.
 class BoxCount final : public OneChannel<design::HaloStage> {
  public:
   BoxCount(const design::NodePtr& solid, const Cell& size) : OneChannel(solid, {0, 1e6}), size_(size) {}
@@ -85,7 +85,7 @@ class BoxCount final : public OneChannel<design::HaloStage> {
   Cell size_;
 };
 
-// How many cells of its column are inside, from the top down to each.
+// Counts the cells inside in each column, from the top down to each cell.
 class SumFromTop final : public OneChannel<design::SweepStage> {
  public:
   explicit SumFromTop(const design::NodePtr& solid) : OneChannel(solid, {0, 1e6}) {}
@@ -114,7 +114,7 @@ class SumFromTop final : public OneChannel<design::SweepStage> {
   };
 };
 
-// How many cells the connected part has to which each cell belongs.
+// Returns for each cell the number of cells of the connected part to which it belongs.
 std::vector<float> sizes_of_parts(const std::vector<float>& inside, const IndexBox& box) {
   const StageValues frame(box, 0);
   std::vector<float> sizes(inside.size(), 0.0f);
@@ -173,7 +173,7 @@ class Stages : public testing::Test {
             design::StageLattice{lattice_.origin, lattice_.pitch}};
   }
 
-  // Of all of the lattice's voxels, read in boxes of this size by so many threads.
+  // Returns the values of all of the lattice's voxels, read in boxes of this size by `threads` threads.
   std::vector<float> values(JobStages& stages, const design::StagePtr& stage, const Cell& piece, int threads) const {
     const program::SourceField source = stages.source(stage, place());
     StageLoan loan;
@@ -187,7 +187,7 @@ class Stages : public testing::Test {
     Cell count;
     for (size_t a = 0; a < 3; ++a) count[a] = (lattice_.count[a] + piece[a] - 1) / piece[a];
     run_parallel(static_cast<size_t>(count[0] * count[1] * count[2]), threads, [&](size_t number) {
-      // The last come first, which no order of layers does.
+      // The last boxes come first, an order in which no job reads layers.
       const int64_t n = count[0] * count[1] * count[2] - 1 - static_cast<int64_t>(number);
       const Cell lo{n % count[0] * piece[0], n / count[0] % count[1] * piece[1], n / (count[0] * count[1]) * piece[2]};
       const IndexBox box = intersect({lo, {lo[0] + piece[0], lo[1] + piece[1], lo[2] + piece[2]}}, all.box());
@@ -203,7 +203,7 @@ class Stages : public testing::Test {
     return all.channel(0);
   }
 
-  // All ways to take it apart give what the plain computation says.
+  // Checks that all sizes of boxes and numbers of threads give the expected values.
   void expect_values(const design::StagePtr& stage, const std::vector<float>& expected) const {
     for (const int threads : {1, 3})
       for (const Cell& piece : {Cell{160, 80, 42}, Cell{160, 80, 5}, Cell{33, 17, 8}}) {
@@ -270,7 +270,7 @@ TEST_F(Stages, ThatSweepKeepAStateForEachColumn) {
 TEST_F(Stages, OfTheWholeSeeAllCells) {
   const auto inside = over_voxels([&](int64_t i, int64_t j, int64_t k) { return is_inside(i, j, k) ? 1.0f : 0.0f; });
   const auto expected = sizes_of_parts(inside, {{0, 0, 0}, lattice_.count});
-  // The test_balls have as many cells as their volumes say, to some of those at the surface.
+  // The test balls have as many cells as their volumes say, up to some of those at the surface.
   const double cell = 0.1 * 0.125 * 0.2, volume = 4.0 / 3 * 3.141592653589793 * 3.7 * 3.7 * 3.7;
   EXPECT_NEAR(*std::ranges::max_element(expected), volume / cell, 0.005 * volume / cell);
   expect_values(std::make_shared<PartSize>(solid()), expected);
@@ -340,7 +340,7 @@ std::vector<MaterialId> sliced(const std::string& text, int threads, size_t memo
 // Two cubes of 32 voxels along x, the first red and the second blue.
 const std::string step_text = "{ translate(-1.6, 0, 0) cube(3.2, \"red\"); translate(1.6, 0, 0) cube(3.2, \"blue\"); }";
 
-// Fractions of a material in a box of voxels, x fastest.
+// Returns the fractions of a material in a box of voxels, x fastest.
 std::vector<float> fractions_in(const std::string& text, const std::string& material, const IndexBox& box) {
   Diagnostics diagnostics;
   const LoadedPtr loaded = load_text(text, diagnostics);
@@ -364,7 +364,7 @@ std::vector<float> fractions_in(const std::string& text, const std::string& mate
   return values.channel(0);
 }
 
-// Of red, along x in the middle.
+// Returns the fractions of red along x in the middle.
 std::vector<float> reds(const std::string& text) { return fractions_in(text, "red", {{0, 16, 16}, {64, 17, 17}}); }
 
 TEST(Blend, OfAStepIsTheLinearRamp) {
@@ -407,7 +407,7 @@ TEST(Blend, OfABlendIsOneAfterTheOther) {
   for (size_t i = 0; i < 64; ++i) ASSERT_NEAR(red[i], expected[i], 1e-6) << i;
 }
 
-// Squares of 20 x 20 voxels around the origin.
+// Returns squares of 20 x 20 voxels around the origin.
 std::string squares(const std::array<std::string, 4>& colours) {
   std::string text;
   for (size_t n = 0; n < 4; ++n)

@@ -1,4 +1,4 @@
-// What an edit makes again, and what it does not.
+// Tests what an edit computes again, and what it does not.
 #include "load/sub_design_cache.h"
 
 #include "jobs/picture/picture.h"
@@ -7,7 +7,7 @@
 namespace ombre::compile {
 namespace {
 
-// Pictures of one design after the other, as they come from edits.
+// Draws pictures of one design after the other, as they come from edits.
 class Edits : public testing::Test {
  protected:
   std::vector<uint8_t> picture(const std::string& text, design::SubDesignMemory* memory, double azimuth = 30) {
@@ -19,7 +19,7 @@ class Edits : public testing::Test {
     request.height = 45;
     request.samples = 1;
     request.view.azimuth_deg = azimuth;
-    request.view.height_mm = 60;  // the pixels stay as they are
+    request.view.height_mm = 60;  // keeps the pixels as they are
     request.view.target = Vec3{0, 0, 0};
     request.memory = memory;
     std::vector<uint8_t> pixels;
@@ -27,7 +27,7 @@ class Edits : public testing::Test {
     EXPECT_TRUE(take_pictures(*loaded, request, StopFlag(), take, diagnostics)) << to_text(diagnostics);
     return pixels;
   }
-  // How many things a picture makes that are not kept yet.
+  // Returns the number of results that a picture computes since they are not kept yet.
   size_t made_by(const std::string& text, double azimuth = 30) {
     const size_t before = memory.counts().made;
     picture(text, &memory, azimuth);
@@ -38,7 +38,7 @@ class Edits : public testing::Test {
   SubDesignCache memory{cache};
 };
 
-// Of a picture whose rays meet another shape, or come from another place: where they end.
+// Number of results for the ends of rays, which are new if the shape or the camera has changed.
 constexpr size_t the_rays = 1;
 
 std::string balls_and_block(int size, const std::string& material) {
@@ -46,7 +46,7 @@ std::string balls_and_block(int size, const std::string& material) {
          material + "); translate(12, 0, 0) cylinder(radius=" + std::to_string(size) + ", height=9, \"blue\"); }";
 }
 
-// A stage of one ball, of a material, beside another ball.
+// Returns a stage of a ball of a material, beside another ball.
 std::string with_stage(const std::string& stage, double radius, const std::string& material, double beside) {
   return "union() { " + stage + " material(\"" + material + "\") sphere(" + std::to_string(radius) +
          "); translate(15, 0, 0) sphere(" + std::to_string(beside) + ", \"red\"); }";
@@ -68,7 +68,7 @@ TEST_F(Edits, ShowWhatIsThereNow) {
     const std::vector<uint8_t> kept = picture(text, &memory), fresh = picture(text, nullptr);
     size_t different = 0;
     for (size_t n = 0; n < fresh.size(); ++n) different += std::abs(int{kept[n]} - int{fresh[n]}) > 2;
-    EXPECT_LT(different, fresh.size() / 200) << text;  // where a ray grazes an edge, rounding may decide
+    EXPECT_LT(different, fresh.size() / 200) << text;  // rounding may decide if a ray grazes an edge
   }
 }
 

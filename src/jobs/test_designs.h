@@ -1,4 +1,4 @@
-// Designs for tests: from text to layers in memory.
+// Makes layers in memory from the text of a design, for tests.
 #pragma once
 
 #include <gtest/gtest.h>

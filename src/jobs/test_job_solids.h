@@ -1,4 +1,4 @@
-// Designs for tests, evaluated at points in double precision.
+// Evaluates designs at points in double precision, for tests.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ class TestSolid {
   struct Answer {
     bool inside = false, interior = false;
     double distance = 0;
-    std::map<std::string, double> fractions;  // those that are not 0
+    std::map<std::string, double> fractions;  // fractions that are not 0
     std::map<std::string, double> attributes;
   };
 
@@ -47,7 +47,7 @@ class TestSolid {
   }
 
   const design::Node& node() const { return *solid_; }
-  size_t inside_size() const { return inside_size_; }  // instructions of the program that says what is inside
+  size_t inside_size() const { return inside_size_; }  // instructions of the program for membership
 
   Answer at(Vec3 p) const {
     evaluate_point(program_, p, values_);

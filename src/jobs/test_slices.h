@@ -1,4 +1,4 @@
-// Small jobs in folders of their own, for tests.
+// Runs small jobs in folders of their own, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace ombre::compile {
 namespace fs = std::filesystem;
 using Contents = std::map<std::string, std::string>;
 
-// A folder of its own for each test.
+// A test with a folder of its own.
 class Slice : public testing::Test {
  protected:
   Slice() {
@@ -56,7 +56,7 @@ inline SliceRequest ball_request() {
   return request;
 }
 
-// A ball, one material in each half, whose lowest and highest layers are empty. Voxels near its
+// Returns a layer of a ball with one material in each half, whose lowest and highest layers are empty. Voxels near its
 // centre fail the check.
 inline voxel::LayerResult ball_layer(const SliceRequest& request, int64_t k, bool with_checks) {
   voxel::LayerResult result;
@@ -85,7 +85,7 @@ inline LayerProducer ball(const SliceRequest& request, bool with_checks = true) 
   };
 }
 
-// The rows of the ball's layers that lie in a box, over the whole width.
+// Returns the rows of the ball's layers that lie in a box, over the whole width.
 inline RegionProducer ball_rows(const SliceRequest& request) {
   return [request](const voxel::TileBox& box, const StopFlag*) {
     std::vector<voxel::LayerResult> layers;
@@ -117,7 +117,7 @@ inline SliceReport run(const SliceRequest& request, const SliceOptions& options)
   return slice(request, ball(request), options);
 }
 
-// What an uninterrupted run on one thread leaves.
+// Returns the files of an uninterrupted run on one thread.
 inline Contents expected(const SliceRequest& request, const fs::path& root) {
   SliceOptions options;
   options.folder = (root / "expected").string();
@@ -145,7 +145,7 @@ inline void expect_same(const Contents& a, const Contents& b) {
   EXPECT_EQ(a.size(), b.size());
 }
 
-// Masks: a file for each of two materials.
+// Returns a request of masks: a file for each of two materials.
 inline SliceRequest mask_request() {
   SliceRequest request = ball_request();
   voxel::Printer printer;

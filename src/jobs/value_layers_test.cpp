@@ -52,7 +52,7 @@ TEST(ValueLayers, ShadesAreLinearBetweenTheEndsOfTheRange) {
   });
 }
 
-// Each layer's image holds them too, with its rows from the greatest y down.
+// Each layer's image holds the shades, too, with its rows from the greatest y down.
 TEST(ValueLayers, ShadesOfSixteenBitsAreFiner) {
   const Plan plan = planned("attribute(\"dose\", \"5 + y\") { cube(6); }", {"dose", Interval(2, 8), 16});
   const voxel::Lattice& lattice = plan.request.lattice;
@@ -67,7 +67,7 @@ TEST(ValueLayers, ShadesOfSixteenBitsAreFiner) {
   for (int64_t j = 0; j < lattice.count[1]; ++j)
     for (int64_t i = 0; i < lattice.count[0]; ++i) {
       const int shade = image.pixels[static_cast<size_t>((lattice.count[1] - 1 - j) * lattice.count[0] + i)];
-      ASSERT_NEAR(shade, 65535 * (lattice.center(i, j, 0).y + 3) / 6, 0.51);  // of floats too
+      ASSERT_NEAR(shade, 65535 * (lattice.center(i, j, 0).y + 3) / 6, 0.51);  // with the rounding of floats
     }
   EXPECT_EQ(layers[0].material_counts[0], 0u);
 }
@@ -82,7 +82,7 @@ TEST(ValueLayers, SolidsWithoutTheAttributeHaveItsDefault) {
 
 TEST(ValueLayers, TheRangeIsThatOfTheValues) {
   const Plan plan = planned("attribute(\"dose\", \"5 + z\", unit=\"J\") { cube(6); }", {"dose", std::nullopt});
-  // Of samples, some 48 along the part.
+  // The range is that of about 48 samples along the part.
   EXPECT_NEAR(plan.request.shades->range.lo, 2, 0.1);
   EXPECT_NEAR(plan.request.shades->range.hi, 8, 0.1);
   EXPECT_EQ(plan.request.shades->unit, "J");
@@ -95,7 +95,7 @@ TEST(ValueLayers, FractionsGoFromNoneToAll) {
           [](Vec3 p, int shade) { ASSERT_NEAR(shade, 255 * (0.5 + p.x / 12), 0.501) << p.x; });
 }
 
-// What is no number is black.
+// Values that are not a number are black.
 TEST(ValueLayers, ValuesThatAreNoNumbersAreBlack) {
   for_all(planned("attribute(\"dose\", \"sqrt(z)\") { cube(6); }", {"dose", Interval(0, 1)}), [](Vec3 p, int shade) {
     if (p.z < 0 && shade != 0) FAIL() << shade;

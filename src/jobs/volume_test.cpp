@@ -1,4 +1,4 @@
-// Volumes as solids: whole voxels, and the right side.
+// Tests volumes as solids: whole voxels, and left and right.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<int64_t, 3> label_counts{9, 5, 6};
 
-// Labels 0 to 2 without order.
+// Returns labels 0 to 2 in an irregular pattern.
 int label_at(int64_t i, int64_t j, int64_t k) { return static_cast<int>((i * 7 + j * 13 + k * k * 5 + i * j) % 3); }
 
 std::string volume_file(const std::string& name, const std::string& header, const std::string& numbers) {
@@ -33,7 +33,7 @@ std::string labels_file() {
                      numbers);
 }
 
-// One voxel of six by two by two, at the end of the first axis, which points to -x.
+// Returns a file of six by two by two voxels with one voxel set, at the end of the first axis, which points to -x.
 std::string one_voxel_file(const std::string& space) {
   std::string numbers(2 * 24, '0');
   for (size_t n = 1; n < numbers.size(); n += 2) numbers[n] = ' ';
@@ -96,7 +96,7 @@ TEST(Volume, LeftStaysLeft) {
   fs::remove(path);
 }
 
-// Of a left-handed space nothing is turned without a word.
+// A left-handed space is an error, since it would be mirrored.
 TEST(Volume, LeftHandedSpacesAskForAnother) {
   const std::string path = one_voxel_file("left-anterior-superior");
   Diagnostics diagnostics;
@@ -108,7 +108,7 @@ TEST(Volume, LeftHandedSpacesAskForAnother) {
 }
 
 TEST(Volume, LevelsCutAtTheirPlace) {
-  // 0, 10, 20, ... along x, every 2 mm from 1 mm on.
+  // The numbers are 0, 10, 20, ... along x, every 2 mm from 1 mm on.
   const std::string path = volume_file(
       "ombre_ramp.nrrd", "type: float\nsizes: 5 1 1\nspacings: 2 1 1\nspace: 3D-right-handed", "0 10 20 30 40");
   const std::string solid = "volume_solid(\"" + path + "\", level=25, origin=(1, 0, 0)";
@@ -116,7 +116,7 @@ TEST(Volume, LevelsCutAtTheirPlace) {
   EXPECT_FALSE(is_inside_at(solid + ");", {5.99, 0, 0}));
   EXPECT_FALSE(is_inside_at(solid + ", above=false);", {6.01, 0, 0}));
   EXPECT_TRUE(is_inside_at(solid + ", above=false);", {5.99, 0, 0}));
-  // The grid ends half a voxel behind its last centre.
+  // The grid ends half a voxel beyond its last centre.
   EXPECT_TRUE(is_inside_at(solid + ");", {9.99, 0.49, 0}));
   EXPECT_FALSE(is_inside_at(solid + ");", {10.01, 0, 0}));
   EXPECT_FALSE(is_inside_at(solid + ");", {9.99, 0.51, 0}));

@@ -1,4 +1,4 @@
-// Designs against mathematics: volumes, fractions, transforms.
+// Tests volumes, fractions and transforms of designs against mathematics.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -15,14 +15,14 @@ namespace {
 using std::numbers::pi;
 
 std::string boxed(double half, double pitch, const std::string& body) {
-  // Off centre, so that no symmetry of the lattice helps or harms.
+  // The box is off centre, so that no symmetry of the lattice helps or harms.
   const std::string h = std::to_string(half), p = std::to_string(pitch);
   return "root((-" + h + "-0.0137, -" + h + "-0.0311, -" + h + "-0.0223), (" + h + ", " + h + ", " + h + "), (" + p +
          ", " + p + ", " + p + ")) {" + body + "}";
 }
 
-// Counting centres errs like a sum of independent errors of the surface's voxels: for an area A and
-// pitch h about 0.3 h^2 sqrt(A) (the deviation of a uniform fraction of each voxel).
+// Checks a volume. Counting centres has the error of a sum of independent errors of the surface's voxels: for an area A
+// and pitch h about 0.3 h^2 sqrt(A), by the deviation of a uniform fraction of each voxel.
 void expect_volume(const std::string& body, double half, double volume, double area) {
   for (const double h : {0.4, 0.2, 0.1}) {
     const Voxels voxels = slice_text(boxed(half, h, body));
@@ -50,8 +50,8 @@ TEST(Volumes, RoundStrut) {
                 pi * 1.21 * std::sqrt(29) + 4 * pi / 3 * 1.331, 2 * pi * 1.1 * (std::sqrt(29) + 2.2));
 }
 
-// The gyroid's two sides are congruent, so the level 0 halves a cell. Area of the gyroid in a cell of
-// length 1: 3.0915 (Schnering and Nesper 1991).
+// The gyroid's two sides are congruent, so the level 0 halves a cell. The area of the gyroid in a cell of length 1 is
+// 3.0915 (Schnering and Nesper 1991).
 TEST(Volumes, GyroidHalvesItsCells) {
   const double side = 8;
   const std::string body =
@@ -60,7 +60,7 @@ TEST(Volumes, GyroidHalvesItsCells) {
   expect_volume(body, 5, side * side * side / 2, 3.0915 * 16 * 8 + 6 * 32);
 }
 
-// Mesh volume by the divergence theorem, computed here from the same file's triangles: an icosahedron of known volume.
+// The file is an icosahedron, whose volume is known; the divergence theorem gives it from the file's triangles.
 TEST(Volumes, MeshUnderAnAffineMap) {
   const double phi = std::numbers::phi;
   const double v[12][3] = {{-1, phi, 0},  {1, phi, 0},  {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi},  {0, 1, phi},
@@ -75,7 +75,7 @@ TEST(Volumes, MeshUnderAnAffineMap) {
   for (const auto& p : v) file << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
   for (const auto& t : f) file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
   file.close();
-  // Edge 2: volume 5/12 (3 + sqrt 5) a^3, area 5 sqrt 3 a^2.
+  // An icosahedron of edge a = 2 has the volume 5/12 (3 + sqrt 5) a^3 and the area 5 sqrt 3 a^2.
   const double volume = 5.0 / 12 * (3 + std::sqrt(5.0)) * 8, area = 5 * std::sqrt(3.0) * 4;
   expect_volume("rotate(10, 20, 30) { scale(2, -1.5, 1) { mesh(\"" + path + "\"); } }", 5, volume * 3, area * 2.6);
   std::remove(path.c_str());
@@ -93,7 +93,7 @@ TEST(Transforms, RotatedAndRotatedBackIsThePlainDesign) {
 }
 
 TEST(Fractions, FollowTheGrade) {
-  // 2023 paper, Eqs 2 and 3.
+  // Eqs 2 and 3 of the 2023 paper.
   const Voxels voxels = slice_text(
       "root((-5, -5, -5), (5, 5, 5), (0.1, 0.1, 0.1)) { fgrade([\"1/(1 + e^x)\", \"-1/(1 + e^x) + 1\"], [\"red\", "
       "\"blue\"], \"prob\") { cube(10); } }");
@@ -120,7 +120,7 @@ TEST(Fractions, OfSeveralMaterialsAreIndependentOfTheNeighbours) {
     for (const MaterialId id : voxels.ids) count += id == voxels.id(a);
     EXPECT_NEAR(count / n, share_a, 4 * std::sqrt(share_a * (1 - share_a) / n));
     for (const auto& [b, share_b] : shares) {
-      // Pairs of neighbours along each axis: their joint share is the product.
+      // The joint share of pairs of neighbours along each axis is the product of their shares.
       for (int axis = 0; axis < 3; ++axis) {
         double pairs = 0, total = 0;
         for (int64_t k = 0; k < 99; ++k)
@@ -223,7 +223,7 @@ TEST(Lattices, CoverTheTray) {
       EXPECT_NEAR(voxels, std::round(voxels), 1e-6);
     }
   }
-  // The design's own place, to the nearest voxel; or the middle.
+  // The part lies at the design's own place, to the nearest voxel, or in the middle.
   EXPECT_NEAR(tray->request.lattice.origin.x, 0, 0.0212);
   EXPECT_NEAR(center->request.lattice.box().center().x, 20, 0.0424);
   EXPECT_NEAR(center->request.lattice.box().center().y, 30, 0.0848);

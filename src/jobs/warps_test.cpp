@@ -1,4 +1,4 @@
-// Offsets, arrays, warps and maps: what their distances promise, and patterns laid along surfaces.
+// Tests offsets, arrays, warps and maps: their distances, and patterns laid along surfaces.
 #include "jobs/test_job_solids.h"
 
 namespace ombre::compile {
@@ -19,7 +19,8 @@ std::vector<Sample> samples(const TestSolid& solid, const Box& box, int count) {
   return list;
 }
 
-// Between points of which one is inside lies the surface: |g| is no more than the way there.
+// Checks that |g| is at most the distance between two points of which one is inside, since the surface lies between
+// them.
 void expect_bounds_of_the_distance(const std::string& text) {
   SCOPED_TRACE(text);
   const TestSolid solid(text);
@@ -68,7 +69,7 @@ TEST(Distances, AreNeverMoreThanTheWayToTheSurface) {
     expect_bounds_of_the_distance(text);
 }
 
-// Each is evaluated at the point that its formula gives, worked out here once more.
+// Each point is compared with the one that the node's formula gives, computed here again.
 TEST(Warps, AskAtTheirPoints) {
   const std::string child = "translate(2, 1, 0.5) rectprism(6, 3, 4, \"red\");";
   const TestSolid plain(child), twist("twist(15) " + child), taper("taper(0.5, -2, 3) " + child),
@@ -120,7 +121,7 @@ TEST(Warps, FindTheirBounds) {
               1e-3);
   expect_near("remap(radius=10) rectprism(5, 6, 2, \"red\");", {9 * std::cos(0.25), -11 * std::sin(0.25), -3},
               {11, 11 * std::sin(0.25), 3}, 1e-6);
-  // Found by halves, so coarser.
+  // These bounds are found by bisection, so they are coarser.
   expect_near("warp(\"x - 2*sin(z)\", \"y\", \"z\") cylinder(3, 20, \"red\");", {-5, -3, -10}, {5, 3, 10}, 3);
 }
 
@@ -146,7 +147,7 @@ TEST(ConformalMap, MovesAPatternOntoAPlane) {
   const TestSolid moved("translate(0, 0, 10) " + pattern);
   for (const Sample& sample : samples(moved, {{-5, -5, 5}, {5, 5, 15}}, 5000))
     EXPECT_NEAR(mapped.at(sample.p).distance, sample.answer.distance, 1e-9);
-  // A plane at any angle, with the reference direction along its normal.
+  // The plane has any angle, and the reference direction is its normal.
   const TestSolid tilted("conformal_map(ref_dir=(0, 1, 1)) { half_space((0, 1, 1)); " + pattern + " }");
   const TestSolid turned("rotate(axis=x, deg=-45) " + pattern);
   for (const Sample& sample : samples(turned, Box::centered({5, 5, 5}), 5000))

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* note_name = "bundle.json";
-constexpr uint64_t any_ratio = 1100;  // deflate packs at most 1032 to 1; how much a bundle holds is bounded by itself
+constexpr uint64_t any_ratio = 1100;  // deflate packs at most 1032 to 1; the size of a bundle is bounded elsewhere
 
 bool is_within(const fs::path& file, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
@@ -34,14 +34,14 @@ fs::path common_folder(const fs::path& a, const fs::path& b) {
   return common;
 }
 
-// The materials that every Ombre has.
+// True for the materials files that come with Ombre.
 bool is_of_ombre(const fs::path& file) {
   return is_within(file, fs::weakly_canonical(fs::path(data_folder()) / "materials"));
 }
 
 bool is_of_system(const fs::path& file) { return is_within(file, "/usr") || is_of_ombre(file); }
 
-// A path in the bundle that leads nowhere else, on any system.
+// True for a path that cannot lead out of the bundle, on any system.
 bool is_sound(const std::string& name) {
   constexpr size_t longest = 1000;
   if (name.empty() || name.size() > longest || name.front() == '/') return false;
@@ -115,7 +115,7 @@ class Packer {
     return std::nullopt;
   }
 
-  // The bundle reads its own files and no others.
+  // True if a bundle's design reads only files of the bundle.
   bool opens_by_itself(const std::string& bundle) {
     const TemporaryFolder folder;
     const auto unpacked = unpack_bundle(bundle, formats::read_file(bundle), folder.path() / "bundle", diagnostics_);
@@ -148,7 +148,7 @@ class Packer {
   BundleContents contents_;
 };
 
-// The paths that a note names; nothing, and a diagnostic, where it is none.
+// Reads the paths in a bundle's note. Returns nothing, and adds a diagnostic, if the text is no note.
 std::optional<UnpackedBundle> read_note(const std::string& name, const std::string& text, const fs::path& folder,
                                         Diagnostics& diagnostics) {
   const auto wrong = [&](const std::string& problem) {
@@ -221,7 +221,7 @@ std::optional<UnpackedBundle> find_unpacked(const fs::path& folder) {
 
 LoadedPtr load_bundle(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
   const auto folder = std::make_shared<const TemporaryFolder>();
-  // Messages show the name of the bundle in the paths of its files.
+  // In messages, paths of its files begin with the name of the bundle.
   const fs::path inside = folder->path() / fs::path(path).filename();
   const auto unpacked = unpack_bundle(path, formats::read_file(path), inside, diagnostics);
   if (!unpacked) return nullptr;

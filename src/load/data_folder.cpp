@@ -1,4 +1,4 @@
-// Where the printer profiles and materials that come with Ombre lie.
+// Finds the printer profiles and materials that come with Ombre.
 #include "load/data_folder.h"
 
 #include <cstdlib>

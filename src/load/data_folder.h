@@ -1,12 +1,12 @@
-// Where the printer profiles and materials that come with Ombre lie.
+// Finds the printer profiles and materials that come with Ombre.
 #pragma once
 
 #include <string>
 
 namespace ombre::compile {
 
-// The folder that holds printers/ and materials/: $OMBRE_DATA where it is set, else share/ombre in a folder above the
-// program or the Python package, else the source tree that they were built in. Throws Error when there is none.
+// Returns the folder that holds printers/ and materials/: $OMBRE_DATA if it is set, else share/ombre in a folder above
+// the program or the Python package, else the source tree that they were built in. Throws Error when there is none.
 std::string data_folder();
 
 }  // namespace ombre::compile

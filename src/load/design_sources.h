@@ -1,4 +1,4 @@
-// The loader that answers requests of a design's nodes.
+// A loader that answers the requests of a design's nodes.
 #pragma once
 
 #include "load/support_stage.h"

@@ -1,4 +1,4 @@
-// The files that a design consists of.
+// Lists the files that a design consists of.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@
 
 namespace ombre::compile {
 
-// A file's whole path, without links in its folders: a link to a file stays where the design sees it.
+// Returns a file's absolute path, in which links of folders are resolved. A file that is a link itself stays one.
 std::filesystem::path whole_path(const std::filesystem::path& file);
 
-// The files that loading a design reads, by their whole paths: itself, what it includes, meshes, pictures, tables and
-// materials. Nothing, and diagnostics, when the design is wrong.
+// Returns the absolute paths of the files that loading a design reads: the design, its includes, meshes, pictures,
+// tables and materials. Returns nothing, and adds diagnostics, when the design is wrong.
 std::optional<std::set<std::filesystem::path>> files_read(const std::string& path, const LoadOptions& options,
                                                           Diagnostics& diagnostics);
 

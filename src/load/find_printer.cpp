@@ -1,4 +1,4 @@
-// Printer profiles by name or by path.
+// Finds printer profiles by name or by path.
 #include "load/find_printer.h"
 
 #include <algorithm>

@@ -29,7 +29,7 @@ SourcePtr read_source(const std::string& path, sources::SourceCache& cache) {
 
 bool ends_with(const std::string& path, std::string_view ending) { return to_lower(path).ends_with(ending); }
 
-// "name=value": numbers, true, false and JSON lists as such, everything else as a text.
+// Parses "name=value". Numbers, true, false and JSON lists keep their type; every other value is a text.
 std::optional<lang::Definition> parse_definition(const std::string& text, Diagnostics& diagnostics) {
   const size_t equals = text.find('=');
   const SourcePtr source = make_source("-D", text);
@@ -75,7 +75,7 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   return vocabulary.finish(std::move(top_level), {source, 0, 0}, diagnostics);
 }
 
-// A definition's value as `-D` gives it to an OpenSCAD script.
+// Returns a definition's values as `-D` gives them to an OpenSCAD script.
 DataMembers script_values(const std::vector<std::string>& definitions, Diagnostics& diagnostics) {
   DataMembers values;
   for (const std::string& text : definitions)
@@ -86,7 +86,7 @@ DataMembers script_values(const std::vector<std::string>& definitions, Diagnosti
 
 std::string file_name(const SourcePtr& source) { return std::filesystem::path(source->name()).filename().string(); }
 
-// A node for the solids of a script, or of one of its parts.
+// Makes a node for the solids of a script, or of one of its parts.
 NodePtr scad_node(const SourcePtr& source, const std::string& part, const DataMembers& values, const Reader& reader) {
   const design::NodeType& type = *nodes::registry().find("scad");
   const auto parameter = [&](const char* name) { return &type.parameters[static_cast<size_t>(type.parameter(name))]; };
@@ -96,7 +96,8 @@ NodePtr scad_node(const SourcePtr& source, const std::string& part, const DataMe
   return design::make_node(type, arguments, {}, reader);
 }
 
-// How a design's job runs a script: definitions have the values that other designs give to variables.
+// Returns the options with which a design's job runs a script. Definitions become values of its variables, as in other
+// languages.
 std::optional<openscad::Options> script_options(const LoadOptions& options, sources::SourceCache& cache,
                                                 Diagnostics& diagnostics) {
   openscad::Options run;
@@ -143,7 +144,7 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
   const auto solids = loader.source(request, reader);
   if (!solids) return std::nullopt;
   design::Design design{*materials, {}, {}};
-  Diagnostics repeated;  // what the script says was reported with the first request
+  Diagnostics repeated;  // discarded: the messages of the script were reported with the first request
   const Reader again{*materials, repeated, &loader, whole, "scad", ""};
   for (const std::string& name : solids->part_names) {
     const bool is_all = solids->part_names.size() == 1;

@@ -10,14 +10,14 @@
 
 namespace ombre::compile {
 
-// Null, and diagnostics, when the design is wrong. Throws Error for files that cannot be read.
+// Loads a design. Returns null, and adds diagnostics, when it is wrong. Throws Error for files that cannot be read.
 LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics);
 
-// The same of a design that is no file. `path` is the one that it would have: its ending says the language, and
-// relative paths in the design begin in its folder.
+// Loads a design from a text instead of a file. The ending of `path` says the language, and relative paths in the
+// design begin in its folder.
 LoadedPtr load_text(std::string text, const std::string& path, const LoadOptions& options, Diagnostics& diagnostics);
 
-// The materials file at `path`, or the default set when it is empty.
+// Loads the materials file at `path`, or the default set if it is empty.
 std::optional<design::MaterialTable> load_materials(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

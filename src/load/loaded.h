@@ -1,4 +1,4 @@
-// A design in memory, and how it is asked for.
+// A design in memory, and the options of loading it.
 #pragma once
 
 #include <functional>
@@ -15,11 +15,11 @@ namespace ombre::compile {
 struct LoadOptions {
   std::string materials;                                   // path of a materials file; empty: the default set
   std::vector<std::string> definitions;                    // "name=value", set before the script runs
-  std::vector<std::string> needed = {};                    // variables that a script must have
-  std::function<void(const std::string&)> echo = nullptr;  // where the script's echo goes; may be empty
+  std::vector<std::string> needed = {};                    // names of variables that a script must have
+  std::function<void(const std::string&)> echo = nullptr;  // receives the script's echo; may be empty
   const StopFlag* stop = nullptr;
   int threads = 0;                        // 0: all cores
-  sources::SourceCache* cache = nullptr;  // of the running program; null: one that lasts as long as the call
+  sources::SourceCache* cache = nullptr;  // cache of the running program; null: one that lasts as long as the call
 };
 
 // A design that was read and checked.

@@ -1,4 +1,4 @@
-// Node types as data, for programs.
+// Describes node types as data, for programs.
 #pragma once
 
 #include "base/text/data.h"
@@ -6,7 +6,7 @@
 
 namespace ombre::compile {
 
-// "name", "category", "sentence", "parameters", "inputs", "gives", "outputs", "example".
+// Returns the members "name", "category", "sentence", "parameters", "inputs", "gives", "outputs", "example".
 DataMembers describe_node(const design::NodeType& type);
 
 }  // namespace ombre::compile

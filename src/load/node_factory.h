@@ -1,4 +1,4 @@
-// Nodes made one by one by a program, as the calls of a .vcad file make them.
+// Makes single nodes for a program, as the calls of a .vcad file make them.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace ombre::compile {
 
-// Thread-safe, but for what the materials' owner does.
+// A thread-safe factory; the owner of the materials must guard changes to them.
 class NodeFactory {
  public:
   NodeFactory(design::MaterialTable materials, std::shared_ptr<sources::SourceCache> cache)
@@ -20,8 +20,8 @@ class NodeFactory {
 
   const design::MaterialTable& materials() const { return materials_; }
 
-  // An argument has a name, or an empty one when it is given by position. Null, and diagnostics, when the call is
-  // wrong. Throws Error for files that cannot be read.
+  // Makes a node. An argument has a name, or an empty one if it is given by position. Returns null, and adds
+  // diagnostics, when the call is wrong. Throws Error for files that cannot be read.
   using Arguments = std::vector<std::pair<std::string, Data>>;
   design::NodePtr make(std::string_view type, Arguments arguments, std::vector<design::NodePtr> inputs,
                        const SourceRange& where, Diagnostics& diagnostics);

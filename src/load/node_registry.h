@@ -1,4 +1,4 @@
-// The node types that designs are made of, for those who may not look into nodes/.
+// Gives the registry of node types to rooms that may not include nodes/.
 #pragma once
 
 #include "design/registry.h"

@@ -8,7 +8,7 @@ std::shared_ptr<const void> SubDesignCache::find(const Hash& key) {
   const sources::CacheEntryPtr entry = cache_.find(key);
   if (!entry) return nullptr;
   ++found_;
-  return {entry, entry->value.get()};  // the entry is known as long as somebody uses it
+  return {entry, entry->value.get()};  // the pointer keeps the entry alive
 }
 
 void SubDesignCache::keep(const Hash& key, std::shared_ptr<const void> made, size_t bytes) {

@@ -1,4 +1,4 @@
-// The memory of sub-designs of a running program, in a cache of sources.
+// A running program's memory of sub-designs, in a cache of sources.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@
 
 namespace ombre::compile {
 
-// The cache must live as long. Its limit holds for what is kept here.
+// `cache` must outlive this object; its limit holds for the values kept here.
 class SubDesignCache final : public design::SubDesignMemory {
  public:
   explicit SubDesignCache(sources::SourceCache& cache) : cache_(cache) {}

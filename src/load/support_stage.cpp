@@ -15,12 +15,12 @@
 namespace ombre::compile {
 namespace {
 
-// Angles so close to the limit are at it.
+// Tolerance in degrees within which an angle counts as the limit.
 constexpr double angle_slack_deg = 0.01;
-constexpr int halvings = 12;            // on the way to a surface between two layers
-constexpr double gradient_step = 1e-3;  // of a cell
+constexpr int halvings = 12;            // steps of the bisection for a surface between two layers
+constexpr double gradient_step = 1e-3;  // step of numeric gradients, as a share of a cell
 
-// Which surfaces over a gap support themselves.
+// Decides which surfaces over a gap support themselves.
 class Overhangs {
  public:
   Overhangs(const design::Design& design, double angle_deg, Vec3 cell, const design::StageWork& work)
@@ -35,8 +35,8 @@ class Overhangs {
     if (!sampler_) throw error_of(diagnostics);
   }
 
-  // True for those of the cells, given by their centres, whose lower face hangs over too far. They are inside, and the
-  // next below are not.
+  // Returns true for the cells, given by their centres, whose lower face hangs over too far. The cells are inside, and
+  // those below them are not.
   std::vector<bool> find(const std::vector<Vec3>& cells) const {
     const std::vector<Vec3> surface = surface_below(cells);
     std::array<std::vector<double>, 3> gradient;
@@ -45,7 +45,7 @@ class Overhangs {
     for (size_t n = 0; n < cells.size(); ++n) {
       const Vec3 normal{gradient[0][n], gradient[1][n], gradient[2][n]};
       const double size = length(normal);
-      // Where there is no slope, nobody knows.
+      // A surface without a slope counts as hanging over.
       hangs.push_back(!(size > 0) || !std::isfinite(size) || -normal.z > steepest_ * size);
     }
     return hangs;
@@ -91,7 +91,7 @@ class Overhangs {
   std::optional<Sampler> sampler_;
 };
 
-// Takes a solid's layers from the top down, and lets columns fall from what hangs over.
+// A sweep that takes a solid's layers from the top down, and lets columns fall from overhanging cells.
 class SupportSweep final : public design::SweepStage::Sweep {
  public:
   SupportSweep(const voxel::Lattice& lattice, const IndexBox& cells, std::optional<Overhangs> overhangs)
@@ -108,18 +108,18 @@ class SupportSweep final : public design::SweepStage::Sweep {
     if (is_empty_ && std::ranges::find(here_, 1) == here_.end()) return;
     is_empty_ = false;
     const int64_t k = layer.box().lo[2];
-    // The cells that hang are a column's top: the surface runs somewhere through them.
+    // The column begins with the overhanging cell itself, since the surface runs somewhere through it.
     for (const size_t c : overhanging(k)) top_[c] = static_cast<int32_t>(k + 2);
     for (size_t c = 0; c < here_.size(); ++c) {
       if (!here_[c]) continue;
       lowest_ = static_cast<int32_t>(k);
-      // So is, in the same way, the cell on which it stands.
+      // The column ends with the cell on which it stands, for the same reason.
       if (top_[c] != none) add(c, static_cast<int32_t>(k), made);
       top_[c] = none;
     }
   }
 
-  // Adds what stands on the build plate.
+  // Adds the columns that stand on the build plate.
   void finish(design::ColumnRuns& made) override {
     for (size_t c = 0; c < top_.size(); ++c)
       if (top_[c] != none && top_[c] > lowest_ + 1) add(c, lowest_, made);
@@ -134,7 +134,7 @@ class SupportSweep final : public design::SweepStage::Sweep {
     made.add(0, column_i(c), column_j(c), bottom, top_[c], 1);
   }
 
-  // Columns in which the part begins above layer k, and does not support itself there.
+  // Returns the columns in which the part begins above layer k, and does not support itself there.
   std::vector<size_t> overhanging(int64_t k) const {
     std::vector<size_t> columns;
     for (size_t c = 0; c < here_.size(); ++c)
@@ -152,9 +152,9 @@ class SupportSweep final : public design::SweepStage::Sweep {
   voxel::Lattice lattice_;
   IndexBox cells_;
   std::optional<Overhangs> overhangs_;
-  std::vector<uint8_t> above_, here_;  // 1 in the part
-  std::vector<int32_t> top_;           // of the open stack in each column
-  int32_t lowest_ = 0;                 // layer with a part
+  std::vector<uint8_t> above_, here_;  // 1 where a cell is inside
+  std::vector<int32_t> top_;           // top of the open support in each column
+  int32_t lowest_ = 0;                 // lowest layer with a cell inside
   bool is_empty_ = true;
 };
 

@@ -1,4 +1,4 @@
-// A design as it lies on the tray.
+// Turns a design to its orientation on the tray.
 #pragma once
 
 #include "base/text/diagnostic.h"
@@ -6,9 +6,9 @@
 
 namespace ombre::compile {
 
-// The design turned about x, then y, then z, by these degrees, around the origin: what rotate(angles, order="xyz")
-// around all of it would make. Of a box that is sampled the box around it counts. Null, and diagnostics, where it
-// cannot be.
+// Returns the design turned by these degrees about x, then y, then z, around the origin, as rotate(angles, order="xyz")
+// would turn it. A sampled box becomes the box around its turned corners. Returns null, and adds diagnostics, if it
+// cannot be turned.
 LoadedPtr turned(const LoadedPtr& loaded, Vec3 degrees, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -17,7 +17,7 @@ LoadedPtr load(const std::string& text) {
   return loaded;
 }
 
-// What lies from 0 to 1, 2 and 3 is turned about x by 90 degrees (y becomes z), and then about z (x becomes y).
+// A box from 0 to 1, 2 and 3 is turned about x by 90 degrees (y becomes z), and then about z (x becomes y).
 TEST(Turned, TurnsAboutXFirst) {
   Diagnostics diagnostics;
   const auto part = load("translate(0.5, 1, 1.5) rectprism((1, 2, 3), red);");

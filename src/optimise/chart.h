@@ -1,4 +1,4 @@
-// Charts of points as SVG.
+// Draws charts of points as SVG.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ struct ChartPoint {
 struct Chart {
   std::string title, x_label, y_label;
   std::vector<ChartPoint> points;
-  bool joins_best = false;  // a line through the best points, in their order
+  bool joins_best = false;  // draws a line through the best points, in their order
 };
 
-// 640 by 440 pixels, with axes and round numbers on them.
+// Returns a picture of 640 by 440 pixels, with axes and round numbers on them.
 std::string chart_svg(const Chart& chart);
 
 }  // namespace ombre::optimise

@@ -1,4 +1,5 @@
-// Means of values over neighbouring bricks, with weights that fall with the distance (Bruns and Tortorelli, 2001).
+// A filter that takes means of values over neighbouring bricks, with weights that fall with the distance (Bruns and
+// Tortorelli, 2001).
 #pragma once
 
 #include <vector>
@@ -9,12 +10,12 @@ namespace ombre::optimise {
 
 class DensityFilter {
  public:
-  // The bricks must live as long.
+  // `bricks` must outlive the filter.
   DensityFilter(const fea::Bricks& bricks, double radius_mm, int threads);
 
-  // The mean around each brick.
+  // Returns the mean around each brick.
   fea::Vector apply(const fea::Vector& values) const;
-  // The gradient by the values of what has this gradient by their means.
+  // Returns the gradient by the unfiltered values of a function, given its gradient by the filtered ones.
   fea::Vector apply_transposed(const fea::Vector& gradient) const;
 
  private:
@@ -29,9 +30,9 @@ class DensityFilter {
   const fea::Bricks& bricks_;
   int threads_;
   fea::Cell low_{}, count_{};
-  std::vector<int32_t> brick_at_;  // in a grid around all bricks; -1: none
+  std::vector<int32_t> brick_at_;  // number of the brick in each cell of a grid around all bricks; -1: none
   std::vector<Neighbour> neighbours_;
-  fea::Vector weights_;  // their sum for each brick
+  fea::Vector weights_;  // sum of the weights of each brick
 };
 
 }  // namespace ombre::optimise

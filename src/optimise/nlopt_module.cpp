@@ -9,11 +9,11 @@
 namespace ombre::optimise {
 namespace {
 
-constexpr double first_step = 0.25;  // of coordinates from 0 to 1
-// The value of a point that could not be measured, in units of that of the first point.
+constexpr double first_step = 0.25;  // of coordinates, which go from 0 to 1
+// Value of a point that could not be measured, as a multiple of the first point's value.
 constexpr double penalty = 10;
 
-// NLopt asks for objective and constraints by separate calls, which share the outcome of a point.
+// Shares the outcome of a point between NLopt's separate calls for objective and constraints.
 class Values {
  public:
   Values(const Problem& problem, nlopt_opt optimiser) : problem_(problem), optimiser_(optimiser) {}
@@ -27,7 +27,7 @@ class Values {
     const Outcome& outcome = at(x);
     for (size_t n = 0; n < problem_.constraints; ++n) result[n] = outcome.failed ? 1 : outcome.excesses[n];
   }
-  // Makes violations worsen the objective, for methods without constraints.
+  // Adds violations to the objective, for methods without constraints.
   void add_violations() { adds_violations_ = true; }
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
@@ -41,7 +41,7 @@ class Values {
       outcome_ = problem_.evaluate({point}).front();
       point_ = point;
       learn();
-    } catch (...) {  // not through NLopt's frames, which are C
+    } catch (...) {  // exceptions must not pass through NLopt's frames, which are C
       thrown_ = std::current_exception();
       outcome_.failed = true;
       nlopt_force_stop(optimiser_);
@@ -98,7 +98,7 @@ void run_nlopt(const Problem& problem, const SearchOptions& options) {
   }
   Point x = problem.start;
   double value = 0;
-  // The status says why it stopped; the evaluations say the rest.
+  // The return value is ignored: the evaluations hold the result, and the status only says why it stopped.
   nlopt_optimize(optimiser.get(), x.data(), &value);
   values.rethrow();
 }

@@ -12,11 +12,12 @@
 namespace ombre::optimise {
 namespace {
 
-// Points whose constraints do not hold are worse than all others, the more the farther they are from it (Deb, 2000).
+// Value of points that violate constraints, to which the violation is added, so that they are worse than all others
+// (Deb, 2000).
 constexpr double infeasible = 1e12;
 constexpr double unknown_violation = 1e6;
 
-// The problem as pagmo calls it. It copies it; the problem itself stays where it is.
+// The problem in the form that pagmo calls. pagmo copies the adapter, not the problem.
 struct Adapter {
   const Problem* problem = nullptr;
 
@@ -42,7 +43,7 @@ struct Adapter {
   pagmo::vector_double::size_type get_nobj() const { return problem ? problem->objectives : 1; }
 
   template <class Archive>
-  void serialize(Archive&, unsigned) {}  // pagmo asks for it; nothing is stored
+  void serialize(Archive&, unsigned) {}  // pagmo requires it; nothing is stored
 
  private:
   pagmo::vector_double fitness_of(const Outcome& outcome) const {
@@ -53,7 +54,7 @@ struct Adapter {
 };
 
 void run_pagmo(const Problem& problem, const SearchOptions& options) {
-  // NSGA-II pairs points twice.
+  // NSGA-II pairs points twice, so populations are multiples of four.
   const size_t population_size = std::max<size_t>(8, (options.population + 3) / 4 * 4);
   const auto generations = static_cast<unsigned>(
       options.evaluations > population_size ? (options.evaluations - population_size) / population_size : 0);
@@ -61,7 +62,7 @@ void run_pagmo(const Problem& problem, const SearchOptions& options) {
   population.push_back(problem.start);
   if (generations == 0) return;
   if (options.method == "cmaes") {
-    // Its sums end at differences of 1e-6 in values and coordinates.
+    // CMA-ES ends at differences of 1e-6 in values and coordinates.
     pagmo::algorithm(pagmo::cmaes(generations, -1, -1, -1, -1, 0.3, 1e-6, 1e-6, false, true, options.seed))
         .evolve(population);
     return;

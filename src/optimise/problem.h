@@ -1,4 +1,4 @@
-// Problems whose functions are only known by their values.
+// Problems whose functions are known only by their values.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace ombre::optimise {
 
 // The answer of a problem at a point.
 struct Outcome {
-  bool failed = false;             // nothing is known about the point
-  std::vector<double> objectives;  // the less, the better
-  std::vector<double> excesses;    // of constraints, which hold where the excess is at most 0
+  bool failed = false;             // true if the point could not be measured
+  std::vector<double> objectives;  // smaller is better
+  std::vector<double> excesses;    // excesses of constraints; a constraint holds if its excess is at most 0
 
-  // How far the constraints are from holding: 0 where all of them do.
+  // Returns the sum of violations: 0 if all constraints hold.
   double violation() const {
     double sum = 0;
     for (const double excess : excesses) sum += std::max(excess, 0.0);
@@ -23,22 +23,22 @@ struct Outcome {
   }
 };
 
-// A point has a coordinate from 0 to 1 for each variable.
+// A point, with a coordinate from 0 to 1 for each variable.
 using Point = std::vector<double>;
 
 struct Problem {
   Point start;
   size_t objectives = 1, constraints = 0;
-  // The outcomes of several points, in their order. May throw; then the search ends with that exception.
+  // Returns the outcomes of several points, in their order. An exception ends the search.
   std::function<std::vector<Outcome>(const std::vector<Point>&)> evaluate;
 };
 
 struct SearchOptions {
   std::string method = "cobyla";
-  size_t evaluations = 200;  // at most
-  size_t population = 24;    // of nsga2 and cmaes
-  uint32_t seed = 0;         // of nsga2 and cmaes
-  double tolerance = 1e-4;   // of coordinates, at which cobyla and bobyqa end
+  size_t evaluations = 200;  // greatest number of evaluations
+  size_t population = 24;    // for nsga2 and cmaes
+  uint32_t seed = 0;         // for nsga2 and cmaes
+  double tolerance = 1e-4;   // change of coordinates at which cobyla and bobyqa end
 };
 
 }  // namespace ombre::optimise

@@ -5,7 +5,7 @@
 namespace ombre::optimise {
 namespace {
 
-// Slack of constraints, in units of a limit: displacements are known to about ten times the residual of 1e-6.
+// Slack of constraints, as a share of the limit: displacements are known to about ten times the residual of 1e-6.
 constexpr double slack = 1e-5;
 
 bool beats(const Outcome& a, const Outcome& b) {

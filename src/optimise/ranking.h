@@ -1,4 +1,4 @@
-// Ranks points: which of many are best.
+// Finds the best of many points.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@ namespace ombre::optimise {
 
 bool is_feasible(const Outcome& outcome);
 
-// The points whose constraints hold and that no other one beats in all objectives, by the first objective; of equal
-// ones the first.
+// Returns the points whose constraints hold and that no other one beats in all objectives, sorted by the first
+// objective; of equal points the first.
 std::vector<size_t> front_of(const std::vector<Outcome>& outcomes);
 
 }  // namespace ombre::optimise

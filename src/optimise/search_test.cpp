@@ -1,4 +1,4 @@
-// Searches on functions whose best points mathematics gives.
+// Tests searches on functions whose best points are known.
 #include "optimise/search.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ Record search_with(const std::string& method, size_t evaluations, size_t objecti
   return record;
 }
 
-// Nearest to (0.9, 0.4): where x + y <= 1, at (0.75, 0.25).
+// The square of the distance to (0.9, 0.4); under the constraint x + y <= 1 the nearest point is (0.75, 0.25).
 Outcome nearest(const Point& p) {
   return {false, {std::pow(p[0] - 0.9, 2) + std::pow(p[1] - 0.4, 2)}, {p[0] + p[1] - 1}};
 }
@@ -78,7 +78,7 @@ TEST(Search, CmaesFindsTheBestPointOnAConstraint) {
   EXPECT_NEAR(record.best()[1], 0.25, 1e-2);
 }
 
-// Schaffer's problem: x^2 against (x - 2)^2; the front is x from 0 to 2, where sqrt(f1) + sqrt(f2) = 2.
+// Schaffer's problem is x^2 against (x - 2)^2; its front is x from 0 to 2, where sqrt(f1) + sqrt(f2) = 2.
 TEST(Search, Nsga2FindsAFront) {
   if (!has("nsga2")) GTEST_SKIP();
   const auto schaffer = [](const Point& p) {
@@ -92,12 +92,12 @@ TEST(Search, Nsga2FindsAFront) {
     const auto& f = record.outcomes[n].objectives;
     EXPECT_NEAR(std::sqrt(f[0]) + std::sqrt(f[1]), 2, 1e-6);
   }
-  // It reaches both ends.
+  // The front reaches both ends.
   EXPECT_LT(record.outcomes[front.front()].objectives[0], 0.05);
   EXPECT_LT(record.outcomes[front.back()].objectives[1], 0.05);
 }
 
-// The nearest point, in the form that a method takes.
+// Searches for the nearest point, with the constraint in the form that the method takes.
 Record nearest_by(const Method& method, size_t evaluations, const std::function<Outcome(const Point&)>& function) {
   const size_t objectives = method.many_objectives ? 2 : 1, constraints = method.takes_constraints ? 1 : 0;
   return search_with(method.name, evaluations, objectives, constraints, {0.2, 0.2}, [&](const Point& p) {

@@ -15,10 +15,10 @@ namespace {
 using fea::Vector;
 
 constexpr size_t most_iterations = 20'000;
-constexpr double least_cost = 1e-30;  // of a density that no step moves
+constexpr double least_cost = 1e-30;  // cost of a density that no step moves
 constexpr double damped_power = 0.3;
 
-// Displacements under loads that stay the same, for moduli that change a little from one solution to the next.
+// Solves for displacements under constant loads, for moduli that change a little from one solution to the next.
 class Equilibrium {
  public:
   Equilibrium(const fea::Model& model, const fea::Conditions& conditions, const TopologyOptions& options,
@@ -41,7 +41,7 @@ class Equilibrium {
                 "the supports hold the displacement that the topology is to change: choose it elsewhere");
   }
 
-  // Where each brick has this share of its modulus.
+  // Solves with this share of each brick's modulus.
   void solve(const Vector& shares) {
     std::vector<fea::Moduli> moduli(shares.size());
     for (size_t n = 0; n < shares.size(); ++n) {
@@ -57,8 +57,9 @@ class Equilibrium {
   double compliance() const { return fea::dot(loads_, x_, options_.threads); }  // N mm
   double displacement() const { return options_.goal ? fea::dot(unit_, x_, options_.threads) : 0; }
 
-  // Twice the strain energy of each brick, if it had its full modulus; with a goal, that of the displacements with the
-  // adjoint ones. Minus the derivative by the share of the modulus of the compliance, or of the goal.
+  // Returns twice the strain energy that each brick would have with its full modulus; with a goal, the product of
+  // displacements and adjoint displacements. This is minus the derivative of the compliance, or of the goal, by the
+  // share of the modulus.
   Vector energies() const {
     Vector result(model_.bricks.count());
     fea::for_pieces(result.size(), options_.threads, [&](size_t begin, size_t end) {
@@ -94,7 +95,7 @@ class Equilibrium {
     return sum;
   }
 
-  // Conjugate gradients from the last displacements.
+  // Runs conjugate gradients from the last displacements.
   void run_gradients(const fea::BrickOperator& stiffness, fea::Multigrid& multigrid, const Vector& loads,
                      Vector& x) const {
     const int threads = options_.threads;
@@ -135,11 +136,11 @@ class Equilibrium {
   const StopFlag* stop_;
   std::vector<uint8_t> free_;
   Vector loads_, x_;
-  Vector unit_, adjoint_;  // of the goal
+  Vector unit_, adjoint_;  // forces of the goal, and the displacements under them
   fea::BrickStiffness stiffness_;
 };
 
-// Draws densities towards 0 and 1: tanh about a half, from 0 to 1. Steepness 0 leaves them.
+// Moves densities towards 0 and 1 by tanh about a half. Steepness 0 leaves them as they are.
 struct Projection {
   double steepness = 0;
 
@@ -155,7 +156,7 @@ struct Projection {
   }
 };
 
-// The share of its modulus that a brick of this density has, and its derivative.
+// Returns the share of its modulus that a brick of this density has, and its derivative.
 double share_of_density(const TopologyOptions& options, double density) {
   return options.least + std::pow(density, options.penalty) * (1 - options.least);
 }
@@ -183,7 +184,7 @@ class TopologySearch {
   Topology run(const std::function<void(const TopologyStep&)>& report) {
     Topology topology;
     find_density(design_);
-    size_t since = 0;  // steps with this projection
+    size_t since = 0;  // number of steps with this projection
     for (size_t number = 1; number <= options_.steps; ++number) {
       equilibrium_.solve(shares_of_densities(options_, density_));
       TopologyStep step{number, equilibrium_.compliance(), equilibrium_.displacement(), mean(density_), 0, greyness()};
@@ -224,7 +225,7 @@ class TopologySearch {
     for (double& density : density_) density = projection_(density);
   }
 
-  // A step by optimality criteria, with the multiplier that keeps the volume. Returns the greatest change.
+  // Takes a step by optimality criteria, with the multiplier that keeps the volume. Returns the greatest change.
   double move() {
     const Vector energies = equilibrium_.energies();
     const double sign = options_.goal && options_.goal->is_greatest ? -1 : 1;
@@ -236,7 +237,7 @@ class TopologySearch {
     gain = filter_.apply_transposed(gain);
     cost = filter_.apply_transposed(cost);
     for (double& here : cost) here = std::max(here, least_cost);
-    // The volume stays the same, so a gain for all of it alike changes nothing: none is below 0 with it.
+    // The volume is constant, so adding one number to all gains changes nothing. The shift leaves no gain below 0.
     double shift = 0;
     for (size_t n = 0; n < count_; ++n) shift = std::max(shift, -gain[n] / cost[n]);
     for (size_t n = 0; n < count_; ++n) gain[n] += shift * cost[n];

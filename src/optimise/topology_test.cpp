@@ -64,17 +64,17 @@ TEST(Topology, ProjectionLeavesLittleGrey) {
   EXPECT_LT(sharp.steps.back().compliance, 0.5 * sharp.steps.front().compliance);
 }
 
-// Where all material is to be used, there is nothing to find: each density is 1.
+// If the volume fraction is 1, each density is 1.
 TEST(Topology, OfAllTheMaterialIsTheSolid) {
   TopologyOptions options;
   options.volume_fraction = 1;
   for (const float density : Bracket().find(options).density) EXPECT_NEAR(density, 1, 1e-5);
 }
 
-// The load's point and direction: the displacement there is the compliance, for a load of 1 N.
+// A goal at the point and in the direction of the load: the displacement there is the compliance, for a load of 1 N.
 TopologyGoal goal_of_load(const Bracket& bracket) { return {bracket.conditions.forces, false}; }
 
-// Downwards and along the bracket, at its upper far corner.
+// A goal downwards and along the bracket, at its upper far corner.
 TopologyGoal goal_of_corner(const Bracket& bracket) {
   TopologyGoal goal;
   for (uint32_t n = 0; n < bracket.model.bricks.node_count(); ++n)
@@ -123,7 +123,7 @@ TEST(Topology, LeastDisplacementAtTheLoadIsLeastCompliance) {
               1e-9 * stillest.steps.back().compliance);
 }
 
-// Far from the load and along the bracket, where an even density moves by less.
+// The goal lies far from the load and along the bracket, where the displacement for equal densities is smaller.
 TEST(Topology, GreatestDisplacementGrowsAndLeastFalls) {
   const Bracket bracket;
   TopologyOptions options;

@@ -1,4 +1,4 @@
-// The attributes of a design, with the values that they have in it.
+// Surveys a design: its attributes, with the values that they have in it.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@ namespace ombre::compile {
 
 struct SurveyedAttribute {
   design::AttributeDeclaration declaration;
-  // Each of its numbers with the range found by samples on a coarse lattice; no range where no sample lies inside, or
-  // none is a number.
+  // Each number of the attribute with its range, found by samples on a coarse lattice. The range is missing if no
+  // sample lies inside or no value is a number.
   std::vector<std::pair<std::string, std::optional<Interval>>> ranges;
 };
 
-// Nothing, and diagnostics, when the design has no bounds or is too large.
+// Returns nothing, and adds diagnostics, when the design has no bounds or is too large.
 std::optional<std::vector<SurveyedAttribute>> survey_attributes(const design::Design& of, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -10,7 +10,8 @@
 namespace ombre::compile {
 namespace {
 
-// Meshes and CAD solids may lie anywhere; designs end at a limit. True, and a diagnostic, where a solid ends beyond it.
+// Returns true, and adds a diagnostic, if a solid lies beyond the limit of designs. Meshes and CAD solids may lie
+// anywhere.
 bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
   constexpr double wide_mm = 1e12;
   const Box bounds = solid.bounds(Box::centered({wide_mm, wide_mm, wide_mm}));
@@ -43,7 +44,7 @@ bool report_beyond_limit(const design::Node& solid, Diagnostics& diagnostics) {
 
 namespace {
 
-// The outputs say where there is material, and which.
+// Adds outputs that say where there is material, and which.
 program::Outputs add_materials(Question& question, Built& built) {
   program::Outputs outputs{{"inside", question.inside()}};
   const design::Composition composition = question.composition();
@@ -92,7 +93,7 @@ void leave_out_impossible(Built& built, const Box& box, int threads) {
   voxel::MaterialProgram& m = built.materials;
   std::vector<bool> possible = possible_outputs(m.program, box, threads);
   const auto first = possible.begin() + 1, behind = first + static_cast<ptrdiff_t>(m.materials.size());
-  if (std::find(first, behind, true) == behind) *first = true;  // a program has a material, also where all is void
+  if (std::find(first, behind, true) == behind) *first = true;  // a program has a material even if everything is void
   program::Program kept = m.program;
   std::vector<MaterialId> materials;
   std::vector<design::Check> checks;

@@ -1,4 +1,4 @@
-// From designs to programs, step by step.
+// Makes programs from designs, step by step.
 #pragma once
 
 #include <optional>
@@ -9,27 +9,29 @@
 
 namespace ombre::compile {
 
-// The program that says what is inside and of which composition, with its bodies still called.
+// A program that computes membership and composition; its bodies are still called.
 struct Built {
   voxel::MaterialProgram materials;
-  std::vector<design::Check> checks;  // of the program's check outputs
+  std::vector<design::Check> checks;  // one for each check output of the program
 };
-// On up to `threads` threads; 0: all cores.
+// Builds the program on up to `threads` threads; 0: all cores.
 Built build_program(const design::Design& design, int threads = 1);
 
-// build_program, ready to be evaluated. Nothing, and a diagnostic, when it would not fit into memory.
-// A memory keeps tables of many parts.
+// Calls build_program and makes the program ready to be evaluated. Returns nothing, and adds a diagnostic, if it would
+// not fit into memory. A memory keeps tables of many parts.
 std::optional<Built> build_flat_program(const design::Design& design, Diagnostics& diagnostics, int threads = 1,
                                         design::SubDesignMemory* memory = nullptr);
 
-// The shape alone, without calls and all of the first material. Nothing, and a diagnostic, like above.
+// Builds a program of the shape alone, without calls and all of the first material. Returns nothing, and adds a
+// diagnostic, if it would not fit into memory.
 std::optional<voxel::MaterialProgram> build_inside_program(const design::Design& design, Diagnostics& diagnostics);
 
-// Leaves out materials and checks that cannot occur within the box, and what only they needed. One material stays.
+// Removes materials and checks that cannot occur within the box, and the code that only they needed. One material
+// stays.
 void leave_out_impossible(Built& built, const Box& box, int threads);
 
-// Where the design lies: the box that is sampled, or the bounds of its solids. Nothing, and diagnostics,
-// when it is empty or has no bounds.
+// Returns the place of the design: the box that is sampled, or the bounds of its solids. Returns nothing, and adds
+// diagnostics, when it is empty or has no bounds.
 std::optional<Box> design_box(const design::Design& design, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

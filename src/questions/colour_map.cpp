@@ -12,7 +12,7 @@ using program::Field;
 
 constexpr size_t steps = std::tuple_size_v<decltype(Palette::colours)> - 1;
 
-// The hexadecimal colours of a table.
+// Converts a table of hexadecimal colours.
 constexpr std::array<design::Rgba, 9> table(std::array<uint32_t, 9> colours) {
   std::array<design::Rgba, 9> result{};
   for (size_t n = 0; n < colours.size(); ++n)
@@ -21,8 +21,8 @@ constexpr std::array<design::Rgba, 9> table(std::array<uint32_t, 9> colours) {
   return result;
 }
 
-// D. A. Green, "A colour scheme for the display of astronomical intensity images", 2011: a helix around the grays, with
-// the start 0.5, -1.5 turns, and the hue 1.
+// A helix around the grays with the start 0.5, -1.5 turns, and the hue 1, by D. A. Green, "A colour scheme for the
+// display of astronomical intensity images", 2011.
 std::array<design::Rgba, 9> cubehelix() {
   constexpr double start = 0.5, turns = -1.5, pi = 3.14159265358979323846;
   constexpr double across[3][2] = {{-0.14861, 1.78277}, {-0.29227, -0.90649}, {1.97294, 0}};
@@ -39,8 +39,8 @@ std::array<design::Rgba, 9> cubehelix() {
   return result;
 }
 
-// viridis, plasma, inferno and magma: S. van der Walt and N. Smith, 2015, in the public domain (CC0). coolwarm:
-// K. Moreland, "Diverging color maps for scientific visualization", 2009.
+// Sources of the tables: viridis, plasma, inferno and magma are by S. van der Walt and N. Smith, 2015, in the public
+// domain (CC0); coolwarm is by K. Moreland, "Diverging color maps for scientific visualization", 2009.
 const std::array<Palette, 7> all_palettes{{
     {"viridis", table({0x440154, 0x472C7A, 0x3B518B, 0x2C718E, 0x21908D, 0x27AD81, 0x5CC863, 0xAADC32, 0xFDE725})},
     {"plasma", table({0x0D0887, 0x4C02A1, 0x7E03A8, 0xAA2395, 0xCC4778, 0xE66C5C, 0xF89540, 0xFDC527, 0xF0F921})},
@@ -98,7 +98,7 @@ std::array<Field, 3> mapped_colour(Field value, Interval range, const Palette& p
   const Field place = min(max((value - range.lo) * (steps / width), 0.0), builder.constant(steps));
   const auto channel = [&](float render::Colour::*part) {
     const auto at = [&](size_t n) { return static_cast<double>(render::linear(palette.colours[n]).*part); };
-    // From colour to colour, the slope changes.
+    // The sum of ramps is piecewise linear: its slope changes at each colour.
     Field sum = builder.constant(at(0));
     double slope = 0;
     for (size_t n = 0; n < steps; ++n) {

@@ -1,4 +1,4 @@
-// Values as colours.
+// Maps values to colours.
 #pragma once
 
 #include <array>
@@ -13,22 +13,22 @@
 
 namespace ombre::compile {
 
-// Nine colours from the least value to the greatest, between which linear light is mixed.
+// Nine colours from the least value to the greatest. Between them linear light is interpolated.
 struct Palette {
   std::string_view name;
   std::array<design::Rgba, 9> colours;
 };
-// The first is the usual one: viridis, from dark blue over green to yellow, even in lightness.
+// Returns all palettes. The first is the default: viridis, from dark blue over green to yellow, even in lightness.
 std::span<const Palette> palettes();
 std::vector<std::string> palette_names();
-const Palette* palette_called(std::string_view name);  // null: there is none
+const Palette* palette_called(std::string_view name);  // null if there is none
 
-// Colours that are told apart easily, also by people who see few: those of Okabe and Ito (2008), behind a light gray
-// for no label. Labels take them in turn.
+// Colours that are easy to tell apart, also with colour blindness: a light gray for no label, then those of Okabe and
+// Ito (2008). Labels take them in turn.
 std::span<const design::Rgba> label_colours();
-design::Rgba label_colour(size_t label);  // 0: none
+design::Rgba label_colour(size_t label);  // 0: no label
 
-// `share` goes from 0 to 1.
+// Returns the colour of a share from 0 to 1.
 design::Rgba map_colour(double share, const Palette& palette = palettes().front());
 
 // Linear red, green and blue of a value: the first colour up to range.lo, the last from range.hi on.

@@ -1,4 +1,4 @@
-// The stages of a design, whose solids become programs here.
+// Gives a design the stages of a job, and makes programs of their solids.
 #pragma once
 
 #include "base/text/diagnostic.h"
@@ -8,12 +8,13 @@
 
 namespace ombre::compile {
 
-// The design with stages of its own, for one job.
+// Returns the design with stages of its own, for one job.
 design::Design with_stages(design::Design design, const StageLoan& loan);
-// The stages of a design for a job: those that the job has given it, or else new ones.
+// Returns the stages that the job has given to the design, or else new ones.
 JobStagesPtr stages_of(const design::Design& design);
 
-// For stages that cannot be evaluated: all messages, with the code and the values of the first error.
+// Makes an Error for stages that cannot be evaluated. It has all messages, with the code and the values of the first
+// error.
 Error error_of(const Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -13,15 +13,15 @@ namespace ombre::compile {
 
 struct FieldQuery {
   bool distance = false;
-  std::optional<double> band_mm;      // distances are cut off there, on both sides of the surface
-  std::vector<MaterialId> fractions;  // of these materials
+  std::optional<double> band_mm;      // distances are limited to this, on both sides of the surface
+  std::vector<MaterialId> fractions;  // materials whose fractions are requested
   std::vector<std::string> attributes;
   bool inside = false;  // 1 inside, 0 outside
 };
 
-// Outputs: the distance, mm, if it is requested; each of the fractions, as dithering takes them and 0 outside; each of
-// the attributes, which have their default outside; and `inside`. Without calls. Nothing, and a diagnostic, when it
-// would not fit into memory or the design has no such attribute.
+// Builds a program without calls. Its outputs are the requested ones: the distance, mm; the fractions as dithering
+// takes them, 0 outside; the attributes, which have their default outside; and `inside`. Returns nothing, and adds a
+// diagnostic, if it would not fit into memory or the design lacks an attribute.
 std::optional<program::Program> build_field_program(const design::Design& design, const FieldQuery& query,
                                                     Diagnostics& diagnostics);
 

@@ -7,8 +7,8 @@
 namespace ombre::compile {
 namespace {
 
-constexpr size_t short_enough = 60;            // operations that are as soon done as shortened
-constexpr size_t most_operations = 4'000'000;  // in all cells; some 130 MB
+constexpr size_t short_enough = 60;  // programs this short are not shortened: that would take as long as running them
+constexpr size_t most_operations = 4'000'000;  // limit for the programs of all cells together; some 130 MB
 
 }  // namespace
 
@@ -35,7 +35,7 @@ const program::Program& PointValues::around(Vec3 p) {
   }
   Vec3 low;
   for (int axis = 0; axis < 3; ++axis) low[axis] = static_cast<double>(place[static_cast<size_t>(axis)]) * cell_mm_;
-  // Rounding may put a point of the cell a little beside it.
+  // The box is a little larger than the cell, since rounding may put a point of the cell just beside it.
   const Box box = Box{low, low + Vec3{cell_mm_, cell_mm_, cell_mm_}}.expanded(1e-6 * cell_mm_);
   program::Program local = surface::shortened_for(programs_.around(box), box);
   operations_ += local.code.size();

@@ -1,4 +1,4 @@
-// A program's value at one point after another, of which many lie close together.
+// Evaluates a program at one point after another, many of which lie close together.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@ namespace ombre::compile {
 // space, once for all points there.
 class PointValues {
  public:
-  // Evaluates nothing.
+  // Makes an object that must not be asked for values.
   PointValues() = default;
-  // Points are asked for mostly within `space`; neighbours lie about `cell_mm` apart.
+  // Points lie mostly within `space`, and neighbours about `cell_mm` apart.
   PointValues(program::Program program, const Box& space, double cell_mm);
 
-  // The first output, in double precision.
+  // Returns the first output at p, in double precision.
   double at(Vec3 p);
 
  private:
@@ -26,7 +26,7 @@ class PointValues {
 
   surface::LocalPrograms programs_;
   double cell_mm_ = 1;
-  size_t operations_ = 0;  // in all cells
+  size_t operations_ = 0;  // sum over all cells
   std::map<std::array<int64_t, 3>, program::Program> cells_;
   eval::RowEvaluator rows_{1};
 };

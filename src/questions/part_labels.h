@@ -1,4 +1,4 @@
-// Names of parts as the label "part" of what they hold.
+// Gives the contents of named parts the label "part".
 #pragma once
 
 #include "design/design.h"
@@ -7,10 +7,10 @@ namespace ombre::compile {
 
 inline constexpr const char* part_label = "part";
 
-// The design with a node for each name that only its list of parts has, so that all that is in a named part has the
-// label.
+// Returns the design with a node for each name that only its list of parts has, so that all contents of a named part
+// have the label.
 design::Design with_part_nodes(design::Design design);
-// The label's names, in the order of its numbers, from 1 on. The design has its nodes.
+// Returns the names of the label in the order of its numbers, from 1 on. The design must come from with_part_nodes.
 std::vector<std::string> part_names(const design::Design& design);
 void report_nameless_parts(const design::Design& design, Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// A design cut into regions, as programs.
+// Makes programs that cut a design into regions.
 #include "questions/partition_program.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 using program::Field;
 using program::Point;
 
-// A closed box; its g is negative within.
+// Returns g of a closed box, negative inside.
 Field box_distance(const Box& box, const Point& p) {
   const Field coordinates[] = {p.x, p.y, p.z};
   std::vector<Field> faces;
@@ -24,7 +24,7 @@ Field box_distance(const Box& box, const Point& p) {
   return program::fold(faces, [](Field a, Field b) { return max(a, b); });
 }
 
-// The number of the greatest score, the first of equals; counted from 1.
+// Returns the number, counted from 1, of the greatest score; the first of equal ones.
 Field number_of_greatest(const std::vector<Field>& scores) {
   program::Builder& builder = *scores.front().builder;
   Field best = scores.front(), number = builder.constant(1);
@@ -103,7 +103,7 @@ class RegionBuilder {
     return true;
   }
 
-  // What has no name comes first.
+  // Adds a region for each part; the region "rest", of solids without a name, comes first.
   bool add_parts() {
     const design::AttributeDeclaration* declared = question_.declaration(part_label);
     if (!declared) {
@@ -166,7 +166,8 @@ class RegionBuilder {
     return region;
   }
 
-  // Bands at the ends go to the ends of all values, or where these are not known are as wide as their neighbours.
+  // Returns the middle of a band. The first and last band reach to the ends of the range; if that is not known, they
+  // are as wide as their neighbours.
   static double middle(const RegionRule& rule, const Region& region) {
     const std::vector<double>& borders = rule.borders;
     const double usual =
@@ -176,8 +177,8 @@ class RegionBuilder {
     return (region.least.value_or(lo) + region.greatest.value_or(hi)) / 2;
   }
 
-  // A region for each combination of bands. Its score is how far each value is from the ends of its band, the least of
-  // all: it is 0 on the region's borders, where that of its neighbour is 0 too.
+  // Adds a region for each combination of bands. Its score is the least distance of a value from the ends of its band,
+  // so it is 0 on the region's borders, as is that of the neighbour.
   bool add_crossed() {
     made_.partition.division = surface::Division::greatest;
     std::vector<Region> regions{{}};

@@ -1,4 +1,4 @@
-// A design cut into regions, as programs: one body, a body for each material, or bands of a value.
+// Makes programs that cut a design into regions: one body, a body for each material, or bands of a value.
 #pragma once
 
 #include <optional>
@@ -14,29 +14,29 @@ namespace ombre::compile {
 
 struct RegionRule {
   enum class Kind : uint8_t {
-    whole,      // all that is inside
-    materials,  // by the material of the greatest fraction
-    parts,      // by the name of the part
-    fraction,   // by bands of a material's fraction
-    attribute,  // by bands of an attribute
-    crossed,    // by bands of several values at once: a region for each combination
+    whole,      // one region: everything inside
+    materials,  // a region for each material, where its fraction is the greatest
+    parts,      // a region for each name of a part
+    fraction,   // bands of a material's fraction
+    attribute,  // bands of an attribute
+    crossed,    // bands of several values at once: a region for each combination
   };
   Kind kind = Kind::whole;
-  std::string of;                        // the material or attribute
-  std::vector<double> borders;           // between bands; increasing, one less than there are bands
-  std::vector<RegionRule> crossed = {};  // of that kind: fractions and attributes
-  std::optional<Interval> range = {};    // from the least to the greatest value, if it is known
+  std::string of;                        // name of the material or attribute
+  std::vector<double> borders;           // borders between bands, increasing; one less than there are bands
+  std::vector<RegionRule> crossed = {};  // rules for Kind::crossed: fractions and attributes
+  std::optional<Interval> range = {};    // least and greatest value, if they are known
 };
 
-// A region as people know it; regions count from 1, this list from 0.
+// A region with its names for people. Regions count from 1, this list from 0.
 struct Region {
   std::string name;                       // "red", "handle", "red 25-50 %", "density 0.2-0.4"
-  std::optional<MaterialId> material;     // of Kind::materials
-  std::optional<double> least, greatest;  // of bands: values from `least`, up to and without `greatest`
-  // A body made by bands of attributes has each attribute here, with the value in the middle of its band.
+  std::optional<MaterialId> material;     // only for Kind::materials
+  std::optional<double> least, greatest;  // only for bands: values are at least `least` and less than `greatest`
+  // Attributes of a body made by bands, each with the value in the middle of its band.
   std::vector<std::pair<std::string, double>> attributes = {};
 };
-// More are refused: each has a body of its own.
+// Limit of combinations, since each has a body of its own.
 inline constexpr size_t most_crossed_regions = 256;
 
 struct RegionProgram {
@@ -44,8 +44,9 @@ struct RegionProgram {
   std::vector<Region> regions;
 };
 
-// What lies outside of `box` is void, and outside of `shape`, a part of the design, where one is given. Nothing, and
-// diagnostics, when the rule names what is not there or the programs would not fit into memory.
+// Builds the programs. Points outside of `box`, and outside of `shape` if that part of the design is given, are void.
+// Returns nothing, and adds diagnostics, if the rule names something that the design lacks or the programs would not
+// fit into memory.
 std::optional<RegionProgram> build_region_program(const design::Design& design, const Box& box, const RegionRule& rule,
                                                   Diagnostics& diagnostics, const design::NodePtr& shape = nullptr);
 

@@ -20,10 +20,10 @@ constexpr size_t boxes_at_once = 64, boxes_in_task = 8;
 
 enum class Answer : uint8_t { no, yes, undecided };
 
-// Evaluates ever smaller boxes and their middles, some at once.
+// Evaluates ever smaller boxes and their middles, several at a time, to find outputs that can be other than 0.
 class Search {
  public:
-  // `first_counts`: where the first output is 0 the others do not count.
+  // With `first_counts`, other outputs are ignored where the first is 0.
   Search(const program::Program& program, bool first_counts, int threads)
       : program_(program),
         batch_(program::prepare(program, program::Purpose::ranges)),
@@ -53,10 +53,10 @@ class Search {
   }
 
  private:
-  // Of the open outputs.
+  // Result for a box; output numbers are those in open_.
   struct Found {
     std::vector<size_t> in_middle;
-    bool may_be_elsewhere = false;  // any of the others, whoever evaluates it
+    bool may_be_elsewhere = false;  // some open output may be other than 0 elsewhere in the box
   };
 
   static std::vector<Box> take(std::deque<Box>& waiting, size_t count) {
@@ -124,7 +124,8 @@ class Search {
   std::vector<size_t> open_;  // outputs for which no point was found
 };
 
-// Without the first output, which may take far more code, there is time for smaller boxes.
+// Searches for one output alone. Without the first output, which may take far more code, there is time for smaller
+// boxes.
 bool is_zero_everywhere(const program::Program& program, size_t output, const Box& box, int threads) {
   program::Program alone = program;
   alone.outputs = {program.outputs[output]};

@@ -1,4 +1,4 @@
-// Which outputs of a program can be other than 0 within a box.
+// Finds out which outputs of a program can be other than 0 within a box.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace ombre::compile {
 
-// By output. The first one says where the others count, and is always among them. An output is possible where a point
-// is found at which it is positive, and as long as intervals over ever smaller boxes do not exclude it, for a bounded
-// time. The same with any number of threads, of which 0 means all.
+// Returns a flag for each output. The first output says where the others count, and is always possible. Another output
+// is possible if a point is found where it is positive, or if intervals over ever smaller boxes do not exclude it
+// within a bounded time. The result does not depend on the number of threads; 0 means all cores.
 std::vector<bool> possible_outputs(const program::Program& program, const Box& box, int threads);
 
 }  // namespace ombre::compile

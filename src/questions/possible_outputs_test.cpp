@@ -31,13 +31,14 @@ bool is_possible(MakeField inside, MakeField output) { return possible({inside, 
 
 Field all(const Point& p) { return p.constant(1); }
 
-// What two shares leave that add up to one.
+// Returns 1 where two shares that add up to one leave nothing, which is nowhere.
 Field rest(const Point& p) {
   const Field a = max(0.1 * p.x + 0.5, 0.0), b = max(0.5 - 0.1 * p.x, 0.0);
   return select(a + b <= 0, p.constant(1), p.constant(0));
 }
 
-// A condition and its opposite: intervals never see that, along the surface between them.
+// Returns a condition and its opposite, which is false everywhere. Interval arithmetic cannot see that along the
+// surface between them.
 Field never(const Point& p) { return logical_and(less(p.x, p.y * p.z), less_equal(p.y * p.z, p.x)); }
 
 TEST(PossibleOutputs, SharesThatAddUpLeaveNothing) { EXPECT_FALSE(is_possible(all, rest)); }
@@ -76,7 +77,7 @@ std::vector<std::string> materials_of(const std::string& text, int most = 255) {
   return names;
 }
 
-// The solid's own material is what is left where no fraction is positive, which is nowhere.
+// The solid's own material is taken where no fraction is positive, which is nowhere.
 TEST(PossibleOutputs, AGradeOfTwoMaterialsIsNoJobOfThree) {
   const std::string grade =
       "root((-5,-5,-5),(5,5,5),(0.2,0.2,0.2)) fgrade([\"x/10+0.5\",\"0.5-x/10\"],[\"magenta\",\"yellow\"]) sphere(5);";

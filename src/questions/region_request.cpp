@@ -1,4 +1,4 @@
-// How a design is to be cut into regions, and how finely.
+// Decides how a design is cut into regions, and how finely.
 #include "questions/region_request.h"
 
 #include <algorithm>
@@ -13,11 +13,12 @@ namespace {
 
 constexpr double sides_of_tolerance = 1000;
 constexpr MaterialId void_material = 0;
-// Corners begin so many cells before the box; an odd part, so that faces of round coordinates do not run through them.
+// Distance in cells from the first corner to the box. It is not a round number, so that faces of round coordinates do
+// not run through corners.
 constexpr double margin_cells = 1.37;
-constexpr int64_t most_cells = int64_t{1} << 20;  // along an axis
+constexpr int64_t most_cells = int64_t{1} << 20;  // limit along an axis
 
-// 0.0234 becomes 0.02.
+// Rounds to one digit: 0.0234 becomes 0.02.
 double one_digit(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)));
   return std::floor(value / unit) * unit;
@@ -34,7 +35,8 @@ std::vector<double> equal_borders(Interval range, int bands) {
   return borders;
 }
 
-// A material's fraction, an attribute, or the fraction that varies most. Names of materials go first.
+// Makes the rule for bands of a material's fraction, of an attribute, or of the fraction that varies most. Names of
+// materials take precedence over attributes.
 std::optional<RegionRule> band_rule(const design::Design& design, const Box& box, const BandRequest& bands,
                                     Diagnostics& diagnostics) {
   RegionRule rule{RegionRule::Kind::fraction, bands.of, bands.borders};
@@ -84,7 +86,7 @@ std::optional<Fineness> choose_fineness(const design::Design& design, const Box&
                                         Diagnostics& diagnostics) {
   const double tolerance = request.tolerance_mm.value_or(one_digit(longest(box) / sides_of_tolerance));
   const double cell_mm = request.cell_mm.value_or(cells_of_tolerance * tolerance);
-  // Without the dust of multiplication.
+  // Rounding removes the error of the multiplication.
   const std::optional<Pitch> cell = Pitch::from_mm(parse_number(format_rounded(cell_mm, 9)).value_or(cell_mm));
   if (cell && longest(box) / cell_mm <= static_cast<double>(most_cells)) return Fineness{tolerance, *cell};
   diagnostics.error(Code::too_large, design.parts[0].solid->where(),

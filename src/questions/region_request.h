@@ -1,4 +1,4 @@
-// How a design is to be cut into regions, and how finely: what its surfaces and its outlines have in common.
+// Decides how a design is cut into regions, and how finely, for surfaces and outlines.
 #pragma once
 
 #include <optional>
@@ -11,24 +11,24 @@
 
 namespace ombre::compile {
 
-// How many bands a value is cut into, or where; of a material or an attribute, or of the material that varies most.
+// A request for bands of a material's fraction or of an attribute, by their count or their borders.
 struct BandRequest {
-  int count = 4;                     // of equal width: of fractions from 0 to 1, of attributes from least to greatest
-  std::vector<double> borders = {};  // instead, if there are any
-  std::string of = {};               // empty: the fraction that varies most
+  int count = 4;  // bands of equal width: fractions go from 0 to 1, attributes from least to greatest
+  std::vector<double> borders = {};  // used instead of `count` if not empty
+  std::string of = {};               // material or attribute; empty: the fraction that varies most
 };
 
 struct RegionRequest {
-  bool by_material = false;            // a region for each material
-  bool by_part = false;                // or for each part that has a name
-  std::optional<BandRequest> bands;    // or for each band; else one for all
-  std::vector<BandRequest> crossed;    // further values, whose bands are crossed with those
-  std::optional<double> tolerance_mm;  // else a thousandth of the longest side, rounded; mesh_job.h may take more
-  std::optional<double> cell_mm;       // else cells_of_tolerance times the tolerance
+  bool by_material = false;            // make a region for each material
+  bool by_part = false;                // make a region for each part that has a name
+  std::optional<BandRequest> bands;    // make a region for each band; without any of these there is one region
+  std::vector<BandRequest> crossed;    // further values, whose bands are crossed with `bands`
+  std::optional<double> tolerance_mm;  // default: a thousandth of the longest side, rounded; mesh_job.h may take more
+  std::optional<double> cell_mm;       // default: cells_of_tolerance times the tolerance
 };
 constexpr double cells_of_tolerance = 4;
-// How near to their solids triangles of CAD files are, in tolerances. Those of two solids that touch are as far apart
-// in places, and what lies between must not count.
+// Distance between the triangles of CAD files and their solids, in tolerances. It is small, since triangles of two
+// solids that touch are this far apart in places, and the gaps must not count.
 constexpr double triangles_of_tolerance = 0.1;
 
 struct Fineness {
@@ -36,24 +36,25 @@ struct Fineness {
   Pitch cell;
 };
 
-// Nothing, and diagnostics, when there would be too many cells.
+// Returns nothing, and adds diagnostics, when there would be too many cells.
 std::optional<Fineness> choose_fineness(const design::Design& design, const Box& box, const RegionRequest& request,
                                         Diagnostics& diagnostics);
 
-// With voxels that are fine enough for surfaces of this tolerance.
+// Returns the design for a job whose voxels are fine enough for surfaces of this tolerance.
 design::Design for_tolerance(const design::Design& design, double tolerance_mm);
 
-// Of the whole design, or of `shape`, a part of it. Nothing, and diagnostics, when the design cannot be cut so.
+// Cuts the whole design, or its part `shape`, into regions. Returns nothing, and adds diagnostics, when that is not
+// possible.
 std::optional<RegionProgram> build_regions(const design::Design& design, const Box& box, const RegionRequest& request,
                                            Diagnostics& diagnostics, const design::NodePtr& shape = nullptr);
 
-// Corners of cells over the box, with void around it.
+// Returns the corners of cells that cover the box, with void around it.
 voxel::Lattice corners_over(const Box& box, Pitch cell);
 
-// Nothing is printed there.
+// True if nothing is printed in the region.
 bool is_void(const Region& region);
 
-// Of region 1 and so on: the material's, or the mean of what is mixed there.
+// Returns the colours of regions from region 1 on: the colour of the material, or the mean of the mixture there.
 std::vector<design::Rgba> region_colours(const design::Design& design, const RegionProgram& program, const Box& box,
                                          Diagnostics& diagnostics);
 

@@ -16,11 +16,11 @@ namespace {
 using surface::Partition;
 
 constexpr double samples_along_longest = 48;
-constexpr float about_equal = 1e-3f;  // of fractions, which samples know but for rounding
+constexpr float about_equal = 1e-3f;  // fractions that differ by less than rounding of samples count as equal
 
 voxel::Lattice coarse_lattice(const Box& box) {
   const Vec3 size = box.size();
-  // Short decimals: what has twenty digits is no pitch.
+  // The pitch is a short decimal, since a number of twenty digits is no pitch.
   const std::string pitch = format_rounded(std::max({size.x, size.y, size.z, 1e-6}) / samples_along_longest, 3);
   voxel::Lattice lattice;
   lattice.origin = box.lo;
@@ -53,7 +53,7 @@ std::vector<std::vector<float>> sample_coarsely(const program::Program& program,
 
 namespace {
 
-// Of all materials there are, without void.
+// Samples the fractions of all materials except void.
 std::optional<std::vector<std::vector<float>>> sample_fractions(const design::Design& design, const Box& box,
                                                                 std::vector<MaterialId>& ids,
                                                                 Diagnostics& diagnostics) {
@@ -66,7 +66,8 @@ std::optional<std::vector<std::vector<float>>> sample_fractions(const design::De
   return sample_coarsely(*program, box);
 }
 
-// Fractions are 0 outside, so all of a design's materials together say what is inside.
+// Finds the samples that are inside: fractions are 0 outside, so some fraction of the design's materials is positive
+// inside.
 std::vector<bool> inside_of(const std::vector<std::vector<float>>& fractions) {
   std::vector<bool> inside(fractions.front().size(), false);
   for (const auto& values : fractions)
@@ -88,7 +89,7 @@ bool are_mixed(const std::vector<std::vector<float>>& fractions) {
   return false;
 }
 
-// Of the values that are numbers, where the mark is greater than 0.
+// Returns the range of the values that are numbers, where the mark is greater than 0.
 std::optional<Interval> range_inside(const std::vector<float>& values, const std::vector<float>& flags) {
   std::optional<Interval> range;
   for (size_t n = 0; n < values.size(); ++n) {
@@ -161,7 +162,7 @@ std::vector<design::Rgba> mean_colours(const design::Design& design, const Parti
   const auto fractions = sample_fractions(design, box, ids, diagnostics);
   if (!fractions) return colours;
   const std::vector<float> labels = sample_coarsely(partition.label, box).front();
-  std::vector<std::array<double, 5>> sums(partition.regions);  // of four channels and the fractions
+  std::vector<std::array<double, 5>> sums(partition.regions);  // sums of four colour channels and of the fractions
   for (size_t n = 0; n < labels.size(); ++n) {
     if (labels[n] < 1) continue;
     auto& sum = sums[static_cast<size_t>(labels[n]) - 1];

@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t block_points = 256;
 
-// Every third bit of the result is one of the ten lowest of `v`.
+// Spreads the ten lowest bits of `v` to every third bit of the result.
 uint32_t spread(uint32_t v) {
   v = (v | (v << 16)) & 0x030000FFU;
   v = (v | (v << 8)) & 0x0300F00FU;
@@ -24,7 +24,7 @@ uint32_t spread(uint32_t v) {
   return (v | (v << 2)) & 0x09249249U;
 }
 
-// Points that are evaluated together: some of an order.
+// A block of points that are evaluated together: a range of the order along the curve.
 struct Block {
   size_t begin = 0, end = 0;
 };
@@ -33,7 +33,8 @@ void add_blocks(size_t begin, size_t end, std::vector<Block>& blocks) {
   for (; begin < end; begin += block_points) blocks.push_back({begin, std::min(begin + block_points, end)});
 }
 
-// Points in the order of a Z curve, and blocks that each lie in a cell of an octree: so few of many parts reach one.
+// Orders points along a Z curve and divides them into blocks, each of which lies in a cell of an octree, so that few of
+// many parts reach one block.
 class Curve {
  public:
   explicit Curve(std::span<const Vec3> points) : keys_(points.size(), 0), order_(points.size()) {
@@ -56,9 +57,9 @@ class Curve {
   const std::vector<Block>& blocks() const { return blocks_; }
 
  private:
-  static constexpr int first_digit = 27;  // three bits for each of ten levels
+  static constexpr int first_digit = 27;  // lowest bit of the first digit; each of the ten levels has three bits
 
-  // The points from `begin` to `end` lie in the cell whose keys begin as `key` does, above the digit.
+  // Cuts the points from `begin` to `end`, which lie in the cell whose keys equal `key` above the digit.
   void cut(size_t begin, size_t end, uint32_t key, int digit) {
     if (end - begin <= block_points || digit < 0) return add_blocks(begin, end, blocks_);
     for (uint32_t n = 0; n < 8 && begin < end; ++n) {
@@ -76,7 +77,7 @@ class Curve {
   std::vector<Block> blocks_;
 };
 
-// The program with those of many parts written out that reach the box.
+// Returns the program in which the many parts that reach the box are written out.
 program::Program parts_within(const program::Program& program, const Box& box) {
   std::vector<Interval> ranges;
   program::evaluate_intervals(program, box, ranges);

@@ -1,4 +1,4 @@
-// What a design says at many points at once, in double precision.
+// Evaluates a design at many points at once, in double precision.
 #pragma once
 
 #include <optional>
@@ -19,28 +19,28 @@ struct SampleQuery {
   bool fractions = false;
   bool parts = false;  // 1 in the part, 0 outside of it
   std::vector<std::string> attributes;
-  bool checks = false;  // 1 where something is wrong with the composition; meant inside only
+  bool checks = false;  // 1 where a check of the composition fails; it has a meaning inside only
 };
 
 // Thread-safe. Values have the bits of the reference evaluator.
 class Sampler {
  public:
-  // What one column of the answer is.
+  // A column of the answer.
   struct Column {
     enum class Kind { inside, distance, fraction, attribute, part, check } kind;
-    std::string name;  // of the material, attribute or part; what the check tells
+    std::string name;  // name of the material, attribute or part; text of the check
     MaterialId material = 0;
-    SourceRange where = {};  // of the node that checks
+    SourceRange where = {};  // place of the node that checks
   };
 
-  // Columns in the order of the query; fractions by id. Nothing, and diagnostics, when the design is too large or
-  // has no such attribute.
+  // Builds a sampler whose columns have the order of the query, and fractions that of the ids. Returns nothing, and
+  // adds diagnostics, if the design is too large or lacks an attribute.
   static std::optional<Sampler> build(const design::Design& design, const SampleQuery& query, Diagnostics& diagnostics);
 
   const std::vector<Column>& columns() const { return columns_; }
 
-  // columns[c][n] gets column c at points[n], mm. Fractions are meant inside only. On up to `threads` threads, 0 for
-  // all cores. Throws Cancelled.
+  // Writes the value of column c at points[n], mm, to columns[c][n]. Fractions have a meaning inside only. Runs on up
+  // to `threads` threads, 0 for all cores. Throws Cancelled.
   void sample(std::span<const Vec3> points, std::span<double* const> columns, int threads = 0,
               const StopFlag* stop = nullptr) const;
 

@@ -15,7 +15,7 @@ using Kind = Sampler::Column::Kind;
 
 constexpr size_t points_at_once = size_t{1} << 18;
 
-// Elements that one reason spoils.
+// The elements with one kind of fault.
 struct Spoilt {
   size_t count = 0, first = 0;
   std::set<MaterialId> taken_for;
@@ -62,7 +62,7 @@ class MixtureSurvey {
  private:
   void check(const std::vector<std::vector<double>>& values, size_t n, size_t element) {
     bool has_check = false;
-    double sum = 0;  // of fractions
+    double sum = 0;  // sum of fractions
     for (size_t c = 0; c < values.size(); ++c) {
       const Kind kind = sampler_.columns()[c].kind;
       const double value = values[c][n];
@@ -89,8 +89,8 @@ class MixtureSurvey {
   const design::Design& design_;
   const Sampler& sampler_;
   const ElementDraws& elements_;
-  std::vector<Spoilt> by_check_;  // of the column of this number
-  Spoilt unknown_, all_;          // by fractions alone; by anything
+  std::vector<Spoilt> by_check_;  // elements by the number of the column of the check
+  Spoilt unknown_, all_;  // elements whose fractions have no positive sum and that no check names; all faulty elements
   size_t inside_ = 0;
 };
 
@@ -102,7 +102,7 @@ bool check_mixtures(const design::Design& design, const ElementDraws& elements, 
   query.inside = query.fractions = query.checks = true;
   const auto sampler = Sampler::build(design, query, diagnostics);
   if (!sampler) return false;
-  constexpr size_t of_one_material = 2;  // inside, and a fraction that is 1
+  constexpr size_t of_one_material = 2;  // columns: inside, and a fraction that is always 1
   if (sampler->columns().size() == of_one_material) return true;
   MixtureSurvey survey(design, *sampler, elements);
   survey.run(threads, stop);

@@ -1,4 +1,4 @@
-// Elements of a mesh where the design's mixture is no number.
+// Finds elements of a mesh where the design's mixture is no number.
 #pragma once
 
 #include <span>
@@ -9,15 +9,15 @@
 
 namespace ombre::compile {
 
-// What the elements of a mesh got.
+// The elements of a mesh with their materials.
 struct ElementDraws {
-  std::span<const Vec3> middles;  // mm
+  std::span<const Vec3> middles;  // middles of elements, mm
   std::span<const MaterialId> drawn;
 };
 
-// Warns of elements where the design's own checks find no usable fractions, or the fractions have no sum that is
-// positive: how many they are, where the first is and what they were taken for. False, and an error, when all are such.
-// Middles that lie outside of the design do not count. Throws Cancelled.
+// Warns of elements where the design's own checks find no usable fractions, or the fractions have no positive sum: how
+// many there are, where the first is and which materials they got. Returns false, and adds an error, if all elements
+// inside are such. Middles outside of the design are ignored. Throws Cancelled.
 bool check_mixtures(const design::Design& design, const ElementDraws& elements, int threads, const StopFlag* stop,
                     Diagnostics& diagnostics);
 

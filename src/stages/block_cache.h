@@ -1,4 +1,4 @@
-// Blocks of computed values, of which those that were used last are kept.
+// A cache of blocks of computed values that keeps the most recently used ones.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace ombre::compile {
 
-// Thread-safe.
+// A thread-safe cache of blocks.
 class BlockCache {
  public:
-  // A block is known by the source that it belongs to and its number there.
+  // The source that a block belongs to, and the number of the block there.
   struct Key {
     uint64_t owner = 0;
     std::array<int64_t, 3> number{};
@@ -25,9 +25,9 @@ class BlockCache {
   };
 
   uint64_t new_owner();
-  // Blocks that are in use count, but are never dropped.
+  // Sets the limit in bytes. Blocks in use count, but are never dropped.
   void set_limit(size_t bytes);
-  // The block, made now if it is not there. Two threads never make the same block at the same time.
+  // Returns the block, and makes it first if it is missing. Two threads never make the same block at the same time.
   ValueBlockPtr get(const Key& key, const std::function<ValueBlock()>& make);
 
   struct Counts {
@@ -37,7 +37,7 @@ class BlockCache {
 
  private:
   struct Entry {
-    ValueBlockPtr block;  // null while it is made
+    ValueBlockPtr block;  // null while the block is being made
     size_t bytes = 0;
     std::list<Key>::iterator use;
   };
@@ -47,7 +47,7 @@ class BlockCache {
   mutable std::mutex mutex_;
   std::condition_variable made_;
   std::map<Key, Entry> entries_;
-  std::list<Key> uses_;  // of blocks that are made, the latest first
+  std::list<Key> uses_;  // keys of finished blocks, the most recently used first
   uint64_t last_owner_ = 0;
   size_t limit_ = size_t{1} << 30;
   Counts counts_;

@@ -18,7 +18,7 @@ void ColumnTable::set_limit(double bytes, std::string what) {
 }
 
 void ColumnTable::add(size_t channel, int64_t i, int64_t j, int64_t bottom, int64_t top, float value) {
-  // Runs are copied when they are put in order.
+  // Each run counts twice, since finish() copies runs when it puts them in order.
   added_bytes_ += sizeof(Added) + sizeof(Run);
   if (limit_ && added_bytes_ > *limit_)
     throw Error(Code::memory, what_ + ": computing them takes more memory than allowed; allow more with " +

@@ -14,15 +14,15 @@ class ColumnTable final : public design::ColumnRuns {
   ColumnTable() = default;
   ColumnTable(const IndexBox& cells, size_t channels) : cells_(cells), channels_(channels) {}
 
-  // Bytes that runs may take; beyond them add() throws Error, in whose message `what` they are.
+  // Limits the bytes that runs may take. Beyond the limit add() throws Error, whose message begins with `what`.
   void set_limit(double bytes, std::string what);
   void add(size_t channel, int64_t i, int64_t j, int64_t bottom, int64_t top, float value) override;
-  // Puts the runs in order; from then on values can be read.
+  // Puts the runs in order; after that values can be read.
   void finish();
 
   double bytes() const;
   float at(size_t channel, int64_t i, int64_t j, int64_t k) const;
-  // `otherwise` where looking takes too long.
+  // Returns `otherwise` if the search would take too long.
   Interval range(size_t channel, const IndexBox& cells, Interval otherwise) const;
 
  private:
@@ -36,8 +36,8 @@ class ColumnTable final : public design::ColumnRuns {
   };
   struct Channel {
     std::vector<Added> added;
-    std::vector<uint32_t> first;  // of each column's runs, and their end
-    std::vector<Run> runs;        // of a column from below
+    std::vector<uint32_t> first;  // index of the first run of each column; the last entry is the count of runs
+    std::vector<Run> runs;        // runs of each column from below
   };
   size_t columns() const { return static_cast<size_t>(cells_.size(0) * cells_.size(1)); }
   void put_in_order(Channel& channel) const;

@@ -10,13 +10,14 @@ namespace {
 
 using design::StageValues;
 
-// A slice job goes through slabs of 8 layers in strips of 64 rows, and needs each such block once.
+// Least and greatest size of a block. A slice job goes through slabs of 8 layers in strips of 64 rows, and needs each
+// block of the least size once.
 constexpr std::array<int64_t, 3> least_block{64, 64, 8}, greatest_block{512, 512, 64};
-// A range over more blocks than these is taken from their own ranges, or from what the stage declares, so that blocks
-// need not be computed for it.
+// Limits for a range over several blocks. Beyond them it comes from the ranges of the blocks, or from the stage's
+// declaration, so that no blocks need to be computed for it.
 constexpr int64_t most_blocks_read = 4, most_blocks_queried = 64;
 
-// Blocks are so large that the cells around one are not many more than its own.
+// Chooses the size of blocks so that the cells around a block are not many more than its own.
 std::array<int64_t, 3> block_size(const design::HaloStage::Reach& reach) {
   std::array<int64_t, 3> block = least_block;
   for (size_t axis = 0; axis < 3; ++axis)
@@ -72,7 +73,7 @@ double bytes_of_halo_block(const design::HaloStage::Reach& reach, size_t channel
     made *= static_cast<double>(block[axis]);
     read *= static_cast<double>(block[axis] + reach.below[axis] + reach.above[axis]);
   }
-  // The factor leaves room for the sums that a stage makes on its way.
+  // The factor 3 leaves room for intermediate sums of a stage.
   return 3 * sizeof(float) * (made * static_cast<double>(channels_made) + read * static_cast<double>(channels_read));
 }
 
@@ -104,7 +105,7 @@ void HaloSource::read_cells(size_t channel, const CellIndex& first, std::span<fl
   }
 }
 
-// Keeps the block that it read last.
+// A reader that keeps the block that it read last.
 class HaloSource::Reader final : public CellReader {
  public:
   explicit Reader(const HaloSource& source) : source_(source) {}

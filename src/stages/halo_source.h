@@ -1,4 +1,4 @@
-// Stages that read a few cells around each, computed block by block when something asks for their values.
+// A source for stages that read a few cells around each; blocks are computed when something asks for their values.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class HaloSource final : public LatticeSource {
   Interval range_of_cells(size_t channel, const IndexBox& cells) const override;
 
  protected:
-  // Ranges do not depend on values while the job is planned.
+  // While the job is being planned, ranges do not depend on values.
   bool has_values() const override { return shared_->is_under_way; }
 
  private:
@@ -28,10 +28,10 @@ class HaloSource final : public LatticeSource {
   ValueBlock known_or_computed(const CellIndex& number) const;
   ValueBlock compute(const IndexBox& box) const;
   design::StageValues made_of(const design::StageValues& read, const IndexBox& box) const;
-  // The cells that those of a box read, with their values.
+  // The cells that a box of cells reads, with their values.
   struct Around {
     std::optional<design::StageValues> values;
-    std::vector<float> same;  // where there are no values: of each channel, which is the same everywhere
+    std::vector<float> same;  // without `values`: the value of each channel, which is the same everywhere
   };
   Around around_cells(const IndexBox& box) const;
   ValueBlockPtr input_block(const CellIndex& number) const;
@@ -41,12 +41,12 @@ class HaloSource final : public LatticeSource {
   StageInput input_;
   std::shared_ptr<SharedStageWork> shared_;
   design::HaloStage::Reach reach_;
-  std::array<int64_t, 3> block_;  // cells of a block along each axis
-  IndexBox filled_;               // beyond these cells what is read is 0, if it is so anywhere
+  std::array<int64_t, 3> block_;  // size of a block in cells along each axis
+  IndexBox filled_;               // beyond these cells the values read are 0, if there are such cells
   uint64_t own_blocks_, input_blocks_;
 };
 
-// The most that a thread takes to compute one block.
+// Returns the most memory in bytes that a thread takes to compute one block.
 double bytes_of_halo_block(const design::HaloStage::Reach& reach, size_t channels_read, size_t channels_made);
 
 }  // namespace ombre::compile

@@ -18,12 +18,13 @@ namespace {
 using design::StageLattice;
 using design::StagePlace;
 
-// The size of cells that nobody states is a two-hundredth of the longest side.
+// Number of cells along the longest side if nobody states their size.
 constexpr double cells_of_longest_side = 200;
 constexpr int64_t most_sweep_cells = 1'000'000, most_sweep_columns = int64_t{1} << 26;
-constexpr double halo_share = 0.5;  // of a job's memory that blocks may take
+constexpr double halo_share = 0.5;  // share of a job's memory that blocks may take
 
-// A ratio of a tidy number, which those of dots per inch and of pixels are not.
+// Returns the pitch as an exact ratio. Lengths that are no short decimals, such as pixels of a picture, are rounded to
+// nine digits.
 std::optional<Pitch> pitch_of(double mm) {
   if (const auto exact = Pitch::from_mm(mm)) return exact;
   return Pitch::from_mm(parse_number(format_rounded(mm, 9)).value_or(mm));
@@ -58,7 +59,7 @@ StageLattice lattice_for(const design::Stage& stage, const StagePlace& place) {
   return lattice;
 }
 
-// The cells over the stage's bounds.
+// Returns the cells that cover the stage's bounds.
 IndexBox cells_for(const design::Stage& stage, const StageLattice& lattice) {
   constexpr double slack = 1e-6;
   const Box bounds = stage.bounds();
@@ -85,7 +86,7 @@ void grow(LatticeFrame& frame, const design::HaloStage::Reach& reach) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
     const double cell = frame.lattice.pitch[a].mm();
-    // A cell that reads those above it is below the solid.
+    // The frame grows down by what a cell reads above it: such a cell lies below the solid.
     frame.cells.lo[a] -= reach.above[a];
     frame.cells.hi[a] += reach.below[a];
     frame.box.lo[axis] -= static_cast<double>(reach.above[a]) * cell;
@@ -93,7 +94,7 @@ void grow(LatticeFrame& frame, const design::HaloStage::Reach& reach) {
   }
 }
 
-// An empty design for a stage's solids: in their space the stage's lattice is that of the job.
+// Makes an empty design for a stage's solids: in their space the stage's lattice is that of the job.
 design::Design design_for(const StagePlace& place, const voxel::Lattice& lattice,
                           const std::shared_ptr<design::StageHost>& stages) {
   design::Design design;
@@ -104,7 +105,7 @@ design::Design design_for(const StagePlace& place, const voxel::Lattice& lattice
   return design;
 }
 
-// The host is not this one's to keep: sources would keep each other.
+// Returns a pointer that does not own the host, since sources would otherwise keep each other alive.
 std::shared_ptr<design::StageHost> not_kept(design::StageHost& host) { return {std::shared_ptr<void>(), &host}; }
 
 }  // namespace
@@ -138,7 +139,7 @@ program::SourceField JobStages::source(const design::StagePtr& stage, const Stag
     return found == sources_.end() ? nullptr : found->second.source.lock();
   };
   if (auto source = known()) return source;
-  // Solids that have stages themselves ask again meanwhile.
+  // The mutex is free here, since solids that have stages themselves call this function again.
   const program::SourceField made = make(stage, place, lattice);
   const std::scoped_lock lock(mutex_);
   Made& entry = sources_[key];
@@ -189,7 +190,7 @@ void JobStages::lend(const StageLoan& loan) {
   shared_->blocks.set_limit(static_cast<size_t>(block_bytes(loan)));
 }
 
-// Each thread gets a few blocks at least; with fewer, blocks would be computed many times.
+// Bounds blocks from below so that each thread has a few; with fewer, blocks would be computed many times.
 double JobStages::block_bytes(const StageLoan& loan) const {
   constexpr double least_blocks = 4;
   const double threads = loan.threads > 0 ? loan.threads : core_count();

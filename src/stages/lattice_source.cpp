@@ -6,10 +6,10 @@
 namespace ombre::compile {
 namespace {
 
-// Centres that lie so close to each other, in cells, are meant to be the same.
+// Distance in cells below which centres count as the same.
 constexpr double centre_slack = 1e-6;
 
-// Negative inside.
+// Returns the signed distance to the box, negative inside.
 double distance_to(const Box& box, Vec3 p) {
   Vec3 beyond;
   double deepest = -Box::inf;
@@ -21,7 +21,7 @@ double distance_to(const Box& box, Vec3 p) {
   return deepest > 0 ? length(beyond) : deepest;
 }
 
-// The cells of a source under the voxels of a job.
+// Reads the cells of a source that lie under the voxels of a job.
 class CellRows final : public program::ValueSampler {
  public:
   // Values beyond `cells` are 0.
@@ -56,7 +56,7 @@ class CellRows final : public program::ValueSampler {
   IndexBox cells_;
 };
 
-// Reads cells one by one.
+// A reader that reads cells one by one.
 class PlainReader final : public CellReader {
  public:
   explicit PlainReader(const LatticeSource& source) : source_(source) {}
@@ -70,7 +70,7 @@ class PlainReader final : public CellReader {
 
 double between(double a, double b, double share) { return share > 0 ? a + share * (b - a) : a; }
 
-// Those of the cells whose centres lie in the box.
+// Returns the cells whose centres lie in the box.
 IndexBox centres_in(const Box& box, const LatticeFrame& frame) {
   IndexBox cells = frame.cells;
   for (int axis = 0; axis < 3; ++axis) {
@@ -159,7 +159,7 @@ CellIndex LatticeSource::cell_of(Vec3 p) const {
     const auto a = static_cast<size_t>(axis);
     const double lo = static_cast<double>(frame_.cells.lo[a]) - 2, hi = static_cast<double>(frame_.cells.hi[a]) + 1;
     const double cells = std::floor((p[axis] - frame_.lattice.origin[axis]) / cell_mm_[axis]);
-    cell[a] = static_cast<int64_t>(cells >= lo ? std::min(cells, hi) : lo);  // what is no number is at the end
+    cell[a] = static_cast<int64_t>(cells >= lo ? std::min(cells, hi) : lo);  // NaN goes to lo
   }
   return cell;
 }
@@ -182,11 +182,11 @@ Box LatticeSource::box_of(const CellIndex& cell) const {
   return box;
 }
 
-// Along x, then y, then z; where values are the same, so is the result.
+// Interpolates along x, then y, then z. If all values are the same, the result is exactly that value.
 double LatticeSource::between_centres(size_t channel, Vec3 p, CellReader& reader) const {
   if (!is_finite(p)) return 0;
   CellIndex low;
-  std::array<double, 3> share;  // of the way to the next centre
+  std::array<double, 3> share;  // fraction of the way to the next centre
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
     const double at = in_centres(axis, p[axis]), nearest = std::round(at);
@@ -208,7 +208,7 @@ double LatticeSource::between_centres(size_t channel, Vec3 p, CellReader& reader
   return between(layers[0], layers[1], share[2]);
 }
 
-// How many cells lie between the first cell's centre and the place; beyond all cells, some number there.
+// Returns the distance in cells from the first cell's centre; a place beyond all cells gives some number there.
 double LatticeSource::in_centres(int axis, double mm) const {
   const auto a = static_cast<size_t>(axis);
   const double lo = static_cast<double>(frame_.cells.lo[a]) - 2, hi = static_cast<double>(frame_.cells.hi[a]) + 1;
@@ -244,7 +244,7 @@ Interval LatticeSource::range_between_centres(size_t channel, const Box& box) co
 
 double LatticeSource::distance(Vec3 p) const { return std::max(distance_to(frame_.box, p), distance_to_cells(p)); }
 
-// The distance to the nearest cell of the other kind, looked for among the neighbours.
+// Returns the distance to the nearest cell of the other kind among the neighbours.
 double LatticeSource::distance_to_cells(Vec3 p) const {
   const CellIndex own = cell_of(p);
   const bool is_inside = holds(own);

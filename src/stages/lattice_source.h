@@ -13,29 +13,29 @@ namespace ombre::compile {
 
 using CellIndex = std::array<int64_t, 3>;
 
-// Describes a source on a lattice, apart from its values.
+// The description of a source on a lattice, without its values.
 struct LatticeFrame {
   design::StagePtr stage;
-  voxel::Lattice lattice;  // its count does not matter
-  Box box;                 // beyond it nothing is marked
-  IndexBox cells;          // beyond them all values are 0
+  voxel::Lattice lattice;  // the number of voxels is ignored
+  Box box;                 // points beyond it are not flagged
+  IndexBox cells;          // all values beyond them are 0
   std::vector<design::StageChannel> channels;
-  std::optional<Hash> made_from = {};  // hash of all that the values depend on, where a memory keeps them
+  std::optional<Hash> made_from = {};  // hash of everything that the values depend on, if a memory keeps them
 };
 
-// Reads cells, most often near to those that it read before.
+// Reads cells, most often near those that it read before.
 class CellReader {
  public:
   virtual ~CellReader() = default;
-  // The values of cells first, first + (1, 0, 0) ..., which all lie in the source's frame().cells.
+  // Reads the values of the cells first, first + (1, 0, 0) ..., which all lie in the source's frame().cells.
   virtual void read(size_t channel, const CellIndex& first, std::span<float> values) = 0;
-  // The value of the cells first to first + (1, 1, 1), if it is known to be one for all.
+  // Returns the value of the cells first to first + (1, 1, 1), if it is known to be the same for all.
   virtual std::optional<float> same_around(size_t /*channel*/, const CellIndex& /*first*/) { return std::nullopt; }
 };
 
-// Between centres the nearest counts for flags; other channels are linear along each axis. With a flag "inside" there
-// is a further channel "distance": to the border of the flagged cells that the box holds, exact up to one
-// cell away.
+// A source on a lattice. Flags have the value of the nearest centre; other channels are linear along each axis. A
+// source with a flag "inside" has a further channel "distance" to the border of the flagged cells whose centres lie in
+// the box. It is exact up to one cell away.
 class LatticeSource : public program::FieldSource {
  public:
   explicit LatticeSource(LatticeFrame frame);
@@ -50,16 +50,16 @@ class LatticeSource : public program::FieldSource {
   std::unique_ptr<program::RowSampler> rows(int channel, const Affine& source_from_index) const override;
 
   const LatticeFrame& frame() const { return frame_; }
-  // The values of cells first, first + (1, 0, 0) ..., which all lie in frame().cells.
+  // Reads the values of the cells first, first + (1, 0, 0) ..., which all lie in frame().cells.
   virtual void read_cells(size_t channel, const CellIndex& first, std::span<float> values) const = 0;
   virtual std::unique_ptr<CellReader> reader() const;
-  // Encloses the values of cells that all lie there; what takes long to find is left out.
+  // Encloses the values of cells in frame().cells; may be wider than the values to save time.
   virtual Interval range_of_cells(size_t channel, const IndexBox& cells) const = 0;
-  // The range that the stage declares for the channel, with 0.
+  // Returns the range that the stage declares for the channel, extended to 0.
   Interval declared_range(size_t channel) const;
 
  protected:
-  // May range() look at values? Not before they are computed.
+  // True if range() may look at values, which must be computed by then.
   virtual bool has_values() const { return true; }
 
  private:
@@ -78,8 +78,8 @@ class LatticeSource : public program::FieldSource {
 
   LatticeFrame frame_;
   Vec3 cell_mm_;
-  IndexBox cells_in_box_;  // whose centres it holds
-  int inside_ = -1;        // the channel of that name, if it is a mark
+  IndexBox cells_in_box_;  // cells whose centres lie in the box
+  int inside_ = -1;        // the channel of that name, if it is a flag; else -1
 };
 
 }  // namespace ombre::compile

@@ -15,7 +15,7 @@ struct Stack {
   int64_t i = 0, j = 0, bottom = 0, top = 0;
 };
 
-// Flags the given cells, whatever it reads.
+// A stage that flags the given cells, whatever it reads.
 class GivenStacks final : public design::SweepStage {
  public:
   GivenStacks(const Box& box, const Pitch& along_x, const Pitch& along_y, const Pitch& along_z,
@@ -82,7 +82,8 @@ class FlaggedCells : public testing::Test {
     return {number(box.lo.x, box.hi.x), number(box.lo.y, box.hi.y), number(box.lo.z, box.hi.z)};
   }
 
-  // To the nearest filled cell, or to the nearest that is not, by looking at all; the empty ones go on around.
+  // Returns the distance to the nearest cell that is filled, or is not, by looking at all cells. Cells outside of the
+  // lattice are empty.
   double away(Vec3 p, bool filled) const {
     double least = Box::inf;
     for (int i = -1; i <= cells; ++i)

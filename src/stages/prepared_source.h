@@ -1,4 +1,4 @@
-// Stages that are computed as a whole, before a job's first layer.
+// A source for stages that are computed as a whole, before a job's first layer.
 #pragma once
 
 #include <atomic>
@@ -11,19 +11,19 @@
 
 namespace ombre::compile {
 
-// A source that no job prepares does so itself when its first value is read.
+// A source that is computed as a whole. If no job prepares it, it does so itself when its first value is read.
 class PreparedSource : public LatticeSource {
  public:
   PreparedSource(LatticeFrame frame, StageInput input, std::shared_ptr<SharedStageWork> shared)
       : LatticeSource(std::move(frame)), input_(std::move(input)), shared_(std::move(shared)) {}
 
   bool is_prepared() const { return is_prepared_; }
-  // Throws Error when it takes more memory than there is.
+  // Throws Error if it takes more memory than the loan has.
   void check_memory(const StageLoan& loan) const;
-  // The same, and Cancelled.
+  // Computes the values. Throws Error if memory does not suffice, and Cancelled.
   void prepare(const StageLoan& loan) const;
-  virtual double kept_bytes() const = 0;  // of its values; before it is prepared, at least
-  // Makes all values 0 that are not prepared.
+  virtual double kept_bytes() const = 0;  // size of the values; before preparation a lower bound
+  // Makes all values 0 if they are not prepared.
   void leave_out() const { is_left_out_ = true; }
 
   void read_cells(size_t channel, const CellIndex& first, std::span<float> values) const final;
@@ -33,12 +33,12 @@ class PreparedSource : public LatticeSource {
   bool has_values() const final { return is_prepared_; }
   const StageInput& input() const { return input_; }
 
-  // The least memory that computing takes, and what it keeps.
+  // Returns the least memory that computing takes, with the values that are kept.
   virtual double least_bytes() const = 0;
   virtual void compute(const StageLoan& loan, const design::StageWork& work) const = 0;
   virtual void read_made(size_t channel, const CellIndex& first, std::span<float> values) const = 0;
   virtual Interval range_of_made(size_t channel, const IndexBox& cells) const = 0;
-  // The values, to be kept, and those that another source of the same class kept.
+  // made() returns the values so that they can be kept; take() sets values that another source of the same class made.
   virtual std::shared_ptr<const void> made() const = 0;
   virtual void take(std::shared_ptr<const void> made) const = 0;
 

@@ -13,20 +13,20 @@ namespace ombre::compile {
 // The threads, memory, progress and stop flag that a job lends to its stages.
 struct StageLoan {
   int threads = 0;                        // 0: all cores
-  size_t memory_bytes = size_t{2} << 30;  // of the whole job
+  size_t memory_bytes = size_t{2} << 30;  // memory of the whole job
   Progress* progress = nullptr;
   const StopFlag* stop = nullptr;  // must live as long as the job works
-  // Where values are kept for other jobs, and found; null: nowhere. It must live as long as the job's stages.
+  // Memory that keeps values for other jobs; null: values are not kept. It must live as long as the job's stages.
   design::SubDesignMemory* memory = nullptr;
-  bool keeps_blocks = false;  // those of halo stages as well, which are many where all layers are made
+  bool keeps_blocks = false;  // keeps values of halo stages, too; there are many if all layers are made
 };
 
-// Halo stages may be computed at any time, by any of the job's threads.
+// State that halo stages share. They may be computed at any time, by any of the job's threads.
 struct SharedStageWork {
   BlockCache blocks;
   std::atomic<const StopFlag*> stop{nullptr};
   std::atomic<int> threads{0};
-  std::atomic<bool> is_under_way{false};  // the job has been planned, and makes layers
+  std::atomic<bool> is_under_way{false};  // true once the job has been planned and makes layers
   std::atomic<size_t> memory_bytes{size_t{2} << 30};
   std::atomic<design::SubDesignMemory*> memory{nullptr};
   std::atomic<bool> keeps_blocks{false};

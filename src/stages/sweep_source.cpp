@@ -10,10 +10,10 @@ namespace {
 
 using design::StageValues;
 
-constexpr int64_t most_sweep_slab = 8;        // layers
-constexpr double most_slab_bytes = 64 << 20;  // so that a stop flag is seen soon
+constexpr int64_t most_sweep_slab = 8;        // greatest number of layers in a slab
+constexpr double most_slab_bytes = 64 << 20;  // bounds slabs so that a stop flag is seen soon
 
-// One layer of a slab.
+// Returns one layer of a slab.
 StageValues layer_of(const StageValues& slab, int64_t k) {
   IndexBox box = slab.box();
   box.lo[2] = k;
@@ -40,7 +40,8 @@ double SweepSource::bytes_of_slab(int64_t layers) const {
          sizeof(float) * static_cast<double>(input().channels().size());
 }
 
-// Slabs that wait for their turn hold values; those that are made hold them twice.
+// Returns the memory that slabs take: those that wait for their turn hold values, those that are being made hold them
+// twice.
 double SweepSource::bytes(int64_t layers, size_t window, size_t threads) const {
   const IndexBox& cells = frame().cells;
   const auto columns = static_cast<double>(cells.size(0)) * static_cast<double>(cells.size(1));

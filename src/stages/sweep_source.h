@@ -1,4 +1,4 @@
-// Stages that read layers from the top down.
+// A source for stages that read layers from the top down.
 #pragma once
 
 #include "stages/column_runs.h"
@@ -24,7 +24,7 @@ class SweepSource final : public PreparedSource {
   }
 
  private:
-  // How many layers are read at once, and by how many threads.
+  // Number of layers read at once, and of threads that read them.
   struct Slabs {
     int64_t layers = 8;
     size_t window = 1, threads = 1;

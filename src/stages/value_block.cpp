@@ -70,7 +70,7 @@ Interval ValueBlock::range(size_t channel, const IndexBox& cells) const {
 }
 
 size_t ValueBlock::bytes() const {
-  constexpr size_t own = 256;  // with its place in a table
+  constexpr size_t own = 256;  // size of the object with its place in a table, bytes
   size_t bytes = own;
   for (const auto& channel : channels_) bytes += sizeof(std::vector<float>) + channel.capacity() * sizeof(float);
   return bytes;

@@ -1,4 +1,4 @@
-// Values of some channels in a box of cells; those that are the same everywhere take no room.
+// Values of some channels in a box of cells; uniform channels take no room.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@ namespace ombre::compile {
 
 class ValueBlock {
  public:
-  // All values are 0.
+  // Makes a block in which all values are 0.
   ValueBlock(const IndexBox& box, size_t channels);
   explicit ValueBlock(design::StageValues values);
-  // Each channel has one value.
+  // Makes a block in which each channel has one value.
   ValueBlock(const IndexBox& box, std::span<const float> values);
 
   const IndexBox& box() const { return box_; }
@@ -23,7 +23,7 @@ class ValueBlock {
   bool is_uniform(size_t channel) const { return channels_[channel].size() == 1; }
   float first(size_t channel) const { return channels_[channel][0]; }
   std::vector<float> firsts() const;
-  // The values of cells first, first + (1, 0, 0) ... that lie in the box.
+  // Copies the values of the cells first, first + (1, 0, 0) ..., which all lie in the box.
   void copy_row(size_t channel, const std::array<int64_t, 3>& first, std::span<float> values) const;
   float at(size_t channel, const std::array<int64_t, 3>& cell) const;
   Interval range(size_t channel) const { return ranges_[channel]; }
@@ -35,8 +35,8 @@ class ValueBlock {
   size_t offset(const std::array<int64_t, 3>& cell) const;
 
   IndexBox box_;
-  std::vector<std::vector<float>> channels_;  // one value where it is uniform
-  std::vector<Interval> ranges_;              // of the channels, if they are numbers
+  std::vector<std::vector<float>> channels_;  // one value if the channel is uniform
+  std::vector<Interval> ranges_;              // ranges of the channels, if their values are numbers
 };
 using ValueBlockPtr = std::shared_ptr<const ValueBlock>;
 

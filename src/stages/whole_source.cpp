@@ -12,7 +12,7 @@ namespace {
 using design::StageValues;
 
 constexpr int64_t slab_layers = 8;
-// Larger boxes are not looked at value by value.
+// Limit of cells that are searched value by value; larger boxes are not.
 constexpr int64_t most_cells_queried = 1 << 15;
 
 }  // namespace
@@ -32,7 +32,7 @@ double WholeSource::kept_bytes() const {
   return cell_count() * static_cast<double>(frame().channels.size()) * sizeof(float);
 }
 
-// Slab by slab, in which half of the time is taken to pass.
+// Reads all cells slab by slab; progress goes to one half.
 StageValues WholeSource::read_all(const StageLoan& loan, const design::StageWork& work) const {
   const IndexBox& cells = frame().cells;
   StageValues read(cells, input().channels().size(), loan.stop);

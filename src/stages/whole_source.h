@@ -1,4 +1,4 @@
-// Stages that read all cells at once.
+// A source for stages that read all cells at once.
 #pragma once
 
 #include "stages/prepared_source.h"

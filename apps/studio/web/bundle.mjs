@@ -1,4 +1,5 @@
-// node bundle.mjs FOLDER: writes the page there, index.html, app.js, app.css, and the licences of what is in app.js.
+// `node bundle.mjs FOLDER` writes the page there: index.html, app.js, app.css, and the licences of the packages in
+// app.js.
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";

@@ -26,7 +26,7 @@ void each_function(const Data& data, const F& f) {
   if (const auto function = std::dynamic_pointer_cast<const HostFunction>(data.host_object())) f(*function);
 }
 
-// Raises what a function of the node or of those below it raised; `path` leads to the node.
+// Raises the exception of a function of the node or of those below it; `path` leads to the node.
 void raise_below(const design::Node& node, const std::string& path, std::unordered_set<const design::Node*>& seen) {
   if (!seen.insert(&node).second) return;
   std::string here = path;
@@ -53,7 +53,7 @@ const char* name(compile::Sampler::Column::Kind kind) {
   return names[static_cast<size_t>(kind)];
 }
 
-// [(kind, name, values)], values as many as points.
+// Returns [(kind, name, values)], with as many values as points.
 py::list sample(DesignHandle& handle, const Points& points, const std::string& question, int threads) {
   if (points.ndim() != 2 || points.shape(1) != 3) throw py::value_error("points have the shape (N, 3), mm");
   const std::shared_ptr<const compile::Sampler> sampler = handle.sampler(question);
@@ -81,7 +81,7 @@ py::list sample(DesignHandle& handle, const Points& points, const std::string& q
   return result;
 }
 
-// Refuses a NumPy whose arrays this build cannot read: its values would be wrong without a word.
+// Refuses a NumPy whose arrays this build cannot read; its values would silently be wrong.
 void check_numpy() {
   const Points twice = py::module_::import("numpy").attr("arange")(6.0).attr("reshape")(2, 3);
   py::array_t<double> made(2);
@@ -123,13 +123,13 @@ NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const p
   return {std::move(node), factory};
 }
 
-// {"from": node, "output": name}
+// Returns {"from": node, "output": name}.
 py::tuple output_of(const Data& data, const FactoryPtr& factory) {
   const auto object = std::dynamic_pointer_cast<const design::NodeObject>(data.find("from")->host_object());
   return py::make_tuple(NodeHandle{object->node(), factory}, *data.find("output")->string());
 }
 
-// A parameter, in which expressions of outputs are expressions of Python, and mixtures values.
+// Returns a parameter; expressions of outputs become expressions of Python, and mixtures values.
 py::object parameter(const Data& data, const FactoryPtr& factory) {
   if (const DataList* list = data.list()) {
     py::list result;
@@ -137,7 +137,7 @@ py::object parameter(const Data& data, const FactoryPtr& factory) {
     return result;
   }
   if (!design::is_value(data)) return to_python(data);
-  if (const Data* from = data.find("from"); from && !data.find("output")) {  // a solid
+  if (const Data* from = data.find("from"); from && !data.find("output")) {  // refers to a solid
     const auto object = std::dynamic_pointer_cast<const design::NodeObject>(from->host_object());
     return py::module_::import("ombre._solid").attr("wrap")(NodeHandle{object->node(), factory});
   }
@@ -159,7 +159,7 @@ py::dict parameters(const NodeHandle& handle) {
   return result;
 }
 
-// (name, type) of what a value node gives.
+// Returns (name, type) of each output of a value node.
 py::list outputs(const NodeHandle& handle) {
   py::list result;
   const auto& all = handle.node->type().outputs;
@@ -225,7 +225,7 @@ std::unique_ptr<DesignHandle> make_design(const PartList& parts,
   return std::make_unique<DesignHandle>(std::move(loaded), factory);
 }
 
-// `text` in place of the file's, if there is one.
+// Loads a design; `text`, if given, replaces that of the file.
 std::unique_ptr<DesignHandle> load(const CachePtr& cache, const std::string& path, const std::string& materials,
                                    const std::vector<std::string>& definitions,
                                    const std::optional<std::string>& text) {
@@ -309,12 +309,13 @@ std::shared_ptr<const compile::Sampler> DesignHandle::sampler(const std::string&
     const std::scoped_lock lock(mutex_);
     if (const auto known = samplers_.find(question); known != samplers_.end()) return known->second;
   }
-  // Built without the lock: it may call functions of Python. The first one counts.
+  // The sampler is built without the lock, since it may call functions of Python. If several threads build one, the
+  // first counts.
   Diagnostics diagnostics;
   const compile::SampleQuery query = query_for(question, design());
   std::optional<compile::Sampler> built;
   try {
-    const py::gil_scoped_release unlocked;  // threads may call them
+    const py::gil_scoped_release unlocked;  // released, since threads may call functions of Python
     built = compile::Sampler::build(design(), query, diagnostics);
   } catch (const HostFailure&) {
     raise_failures();

@@ -20,7 +20,7 @@ using FactoryPtr = std::shared_ptr<compile::NodeFactory>;
 
 struct NodeHandle {
   design::NodePtr node;
-  FactoryPtr factory;  // whose materials it names
+  FactoryPtr factory;  // has the materials that the node names
 };
 
 class DesignHandle {
@@ -30,9 +30,9 @@ class DesignHandle {
   const design::Design& design() const { return loaded_->design; }
   const compile::LoadedPtr& loaded() const { return loaded_; }
   const FactoryPtr& factory() const { return factory_; }
-  // Built once for each kind of question.
+  // Returns the sampler of a question, which is built once.
   std::shared_ptr<const compile::Sampler> sampler(const std::string& question);
-  // Raises what a function of the design raised.
+  // Raises the exception of a function of the design.
   void raise_failures() const;
 
  private:
@@ -42,7 +42,7 @@ class DesignHandle {
   std::map<std::string, std::shared_ptr<const compile::Sampler>> samplers_;
 };
 
-// The cache of the process.
+// The source cache of the process.
 using CachePtr = std::shared_ptr<sources::SourceCache>;
 
 void add_designs(py::module_& module, const CachePtr& cache);

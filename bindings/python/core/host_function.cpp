@@ -32,7 +32,7 @@ HostFunction::HostFunction(py::object callable, SourceRange where)
     : callable_(std::move(callable)), where_(std::move(where)), name_(name_of(callable_)), identity_(next_identity()) {}
 
 HostFunction::~HostFunction() {
-  if (!Py_IsInitialized()) {  // nothing can be given back any more
+  if (!Py_IsInitialized()) {  // after Python's end objects cannot be released any more
     callable_.release();
     failure_.release();
     return;

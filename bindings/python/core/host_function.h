@@ -1,4 +1,4 @@
-// Functions of Python as field sources: slower than expressions, and known to this process alone.
+// Functions of Python as field sources. They are slower than expressions, and known only to this process.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -25,10 +25,10 @@ class HostFunction : public program::FieldSource {
   Box bounds() const override { return Box::everything(); }
   int channel(std::string_view) const override { return 0; }
   double sample(int channel, Vec3 p) const override;
-  // Throws HostFailure when the function fails; what it raised is kept for `raise_failure`.
+  // Throws HostFailure if the function fails; its exception is kept for `raise_failure`.
   void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override;
 
-  // Raises what the function raised, if it did, with the path to its node, the place and the point. Needs the
+  // Raises the exception of the function, if it failed, with the path to its node, the place and the point. Needs the
   // interpreter's lock.
   void raise_failure(const std::string& path) const;
 
@@ -38,11 +38,11 @@ class HostFunction : public program::FieldSource {
   py::object callable_;
   SourceRange where_;
   std::string name_;
-  Hash identity_;  // of this object: nothing tells what a function computes
+  Hash identity_;  // identity of this object, since the meaning of a function is unknown
   mutable py::object failure_;
 };
 
-// Ends a job whose function failed.
+// An exception that ends a job whose function failed.
 struct HostFailure : std::exception {
   const char* what() const noexcept override { return "a function of the design failed"; }
 };

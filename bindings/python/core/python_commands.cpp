@@ -1,4 +1,4 @@
-// Jobs, and the command line, inside of Python.
+// Runs jobs, and the command line, inside of Python.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -31,22 +31,22 @@ std::vector<const char*> pointers(const std::vector<std::string>& arguments) {
   return list;
 }
 
-// A job on a thread of its own. The thread keeps it, so that it may outlive who waits for it: Python ends threads in
-// the middle when it exits.
+// A job on a thread of its own. The thread shares ownership, so that the job may outlive the caller: Python ends
+// threads in the middle when it exits.
 struct RunningJob {
   std::function<int(jobs::Session&)> run;
-  compile::LoadedPtr design = nullptr;  // in memory, in place of the option that names one
+  compile::LoadedPtr design = nullptr;  // replaces the option that names a design file
   CachePtr cache = nullptr;
   StopFlag stop = {};
   std::mutex mutex = {};
   std::condition_variable changed = {};
-  std::deque<DataMembers> events = {};  // not yet handed over
+  std::deque<DataMembers> events = {};  // events that were not handed over yet
   bool is_done = false;
   std::string data = {};
   int code = 0;
 };
 
-// Returns an exit code, as the command line does.
+// Runs the job and returns an exit code, as the command line does.
 int run_job(RunningJob& running, const jobs::Events& events) {
   jobs::Session session{events, running.stop, compile::load_design, *running.cache, "ombre " OMBRE_VERSION};
   if (running.design) session.load = jobs::memory_loader(running.design, false);
@@ -68,7 +68,7 @@ void work(RunningJob& job) {
   job.changed.notify_one();
 }
 
-// Stops a command whose end nobody waits for any more.
+// A guard that stops a command when nobody waits for it any more.
 class StopAtEnd {
  public:
   explicit StopAtEnd(StopFlag& stop) : stop_(stop) {}
@@ -80,9 +80,10 @@ class StopAtEnd {
   StopFlag& stop_;
 };
 
-// The events since the last call, waiting for some a little while; false once the command has ended.
+// Takes the events since the last call, and waits a little for some; returns false once the command has ended.
 bool next_events(RunningJob& command, std::deque<DataMembers>& events) {
-  // Not by a guard: when Python exits it ends this thread in RestoreThread, which no destructor would survive.
+  // A guard is not possible here: when Python exits it ends this thread in RestoreThread, which no destructor would
+  // survive.
   PyThreadState* const state = PyEval_SaveThread();
   bool is_running = true;
   {
@@ -95,7 +96,7 @@ bool next_events(RunningJob& command, std::deque<DataMembers>& events) {
   return is_running;
 }
 
-// Waits for the end, and hands events over as they come. Raises what `on_event` raises, and KeyboardInterrupt, once
+// Waits for the end, and hands events over as they come. Raises exceptions of `on_event`, and KeyboardInterrupt once
 // the command has stopped in good order.
 void wait_for(RunningJob& command, const py::object& on_event) {
   const StopAtEnd stop_at_end(command.stop);
@@ -124,7 +125,7 @@ DataMembers members_of(const py::dict& options) {
   return members;
 }
 
-// Runs it to its end; a design in memory stands for the option that names one.
+// Runs the job to its end; a design in memory replaces the option that names one.
 void run_to_end(const std::shared_ptr<RunningJob>& running, const CachePtr& cache, DesignHandle* design,
                 const py::object& on_event) {
   running->cache = cache;
@@ -134,7 +135,7 @@ void run_to_end(const std::shared_ptr<RunningJob>& running, const CachePtr& cach
   if (running->code != jobs::done && design) design->raise_failures();
 }
 
-// (exit code, what is text or bytes)
+// Runs a job; returns (exit code, its output as text or bytes).
 py::tuple run_kind(const CachePtr& cache, const std::string& kind, const py::dict& options, DesignHandle* design,
                    const py::object& on_event) {
   const jobs::JobKind* found = jobs::find_job(kind);
@@ -149,7 +150,7 @@ py::tuple run_kind(const CachePtr& cache, const std::string& kind, const py::dic
   return py::make_tuple(running->code, py::bytes(running->data));
 }
 
-// (exit code, [(what the numbers are, the numbers)]) of the options of `ombre voxels`.
+// Computes voxels with the options of `ombre voxels`; returns (exit code, [(kind of the numbers, the numbers)]).
 py::tuple make_voxels(const CachePtr& cache, const py::dict& options, DesignHandle& design,
                       const py::object& on_event) {
   const auto running = std::make_shared<RunningJob>();
@@ -180,8 +181,8 @@ py::list describe_jobs() {
   return list;
 }
 
-// The whole command line, on this process's own streams. `load_script` gives the design of a .py file, or None once
-// it has reported what is wrong.
+// Runs the whole command line on this process's own streams. `load_script` returns the design of a .py file, or None
+// after it has reported what is wrong.
 int run_main(const std::vector<std::string>& arguments, const py::function& load_script, const CachePtr& cache) {
   cli::Host host;
   host.cache = cache.get();

@@ -11,7 +11,7 @@
 namespace ombre::python {
 namespace {
 
-// Both are guarded by the interpreter's lock.
+// The package folder. Like the texts of files below, it is guarded by the interpreter's lock.
 std::string& package_folder() {
   static std::string folder;
   return folder;
@@ -21,7 +21,7 @@ bool is_own_file(const std::string& file) {
   return !package_folder().empty() && file.compare(0, package_folder().size(), package_folder()) == 0;
 }
 
-// The text of a file of Python code as messages quote it; notebooks keep theirs in linecache.
+// Returns the text of a file of Python code, which messages quote. linecache also knows the cells of notebooks.
 SourcePtr read_source(const std::string& file) {
   std::string text;
   for (const py::handle line : py::module_::import("linecache").attr("getlines")(file)) text += py::str(line);
@@ -29,7 +29,7 @@ SourcePtr read_source(const std::string& file) {
 }
 
 SourcePtr source_of(const std::string& file) {
-  static auto* const known = new std::map<std::string, SourcePtr>();  // lives as long as the process
+  static auto* const known = new std::map<std::string, SourcePtr>();  // exists as long as the process
   const auto [entry, is_new] = known->try_emplace(file);
   if (is_new) entry->second = read_source(file);
   return entry->second;
@@ -50,7 +50,7 @@ DataList list_of(const py::handle& values, const SourceRange& where, const std::
   return list;
 }
 
-// Raise OverflowError and UnicodeEncodeError.
+// number_of and text_of raise OverflowError and UnicodeEncodeError.
 double number_of(const py::handle& value) {
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred()) throw py::error_already_set();
@@ -70,7 +70,7 @@ HostObjectPtr node_object(const py::handle& node) {
   return std::make_shared<design::NodeObject>(node.cast<const NodeHandle&>().node);
 }
 
-// An expression that holds outputs of nodes.
+// Returns the data of an expression that holds outputs of nodes.
 Data formula_of(const py::handle& expression, const SourceRange& where) {
   DataMembers with;
   for (const auto& [name, value] : expression.attr("_ombre_values_").cast<py::dict>()) {

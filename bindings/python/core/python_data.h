@@ -1,4 +1,4 @@
-// Python's values as plain data, and back.
+// Converts Python's values to plain data, and back.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -10,22 +10,23 @@ namespace ombre::python {
 
 namespace py = pybind11;
 
-// None, numbers, texts, lists, tuples, arrays, callables. Raises TypeError, naming `what`, for anything else.
+// Converts None, numbers, texts, lists, tuples, arrays and callables. Raises TypeError, naming `what`, for anything
+// else.
 Data to_data(const py::handle& value, const SourceRange& where, const std::string& what);
 py::object to_python(const Data& data);
 py::dict to_python(const DataMembers& members);
 
-// The line of the user's code that is running: the innermost frame outside of this package.
+// Returns the line of the user's code that is running: the innermost frame outside of this package.
 SourceRange call_site();
 SourceRange line_of(const std::string& file, int number);
-// Code below this folder is the package's own.
+// Sets the folder whose code counts as the package's own.
 void set_package_folder(const std::string& folder);
 
-// [{"severity", "message", "hint", "file", "line", "column"}]
+// Returns [{"severity", "message", "hint", "file", "line", "column"}].
 py::list to_python(const Diagnostics& diagnostics);
 // Raises DesignError when there are errors; warnings become Python's.
 void raise_errors(const Diagnostics& diagnostics);
-// The Python class of that name in the package; owned by the interpreter.
+// Returns the Python class of that name in the package; the interpreter owns it.
 py::object package_member(const char* name);
 
 }  // namespace ombre::python

@@ -1,4 +1,4 @@
-// Edges between points, for Python.
+// Functions for Python that make edges between points.
 #include "base/math/point_sets.h"
 
 #include <pybind11/numpy.h>

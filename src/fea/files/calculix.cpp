@@ -66,7 +66,7 @@ int status_of(pid_t process, const StopFlag* stop) {
   }
 }
 
-// Runs ccx on job.inp in the folder, its words to job.log.
+// Runs ccx on job.inp in the folder; its output goes to job.log.
 void run_program(const TemporaryFolder& folder, int threads, const StopFlag* stop) {
   const std::string log = folder.file("job.log");
   std::vector<std::string> variables;
@@ -84,11 +84,11 @@ void run_program(const TemporaryFolder& folder, int threads, const StopFlag* sto
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, 1, 2);
-  // It writes files of its own into the working folder.
+  // The program writes files of its own into the working folder.
   posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C is for us
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // so that Ctrl-C does not reach the program
   pid_t process = 0;
   const int failure =
       posix_spawnp(&process, program.c_str(), &actions, &attributes, arguments.data(), environment.data());
@@ -100,7 +100,7 @@ void run_program(const TemporaryFolder& folder, int threads, const StopFlag* sto
   if (failure != 0) throw Error(Code::other_program, std::string("ccx cannot be started: ") + std::strerror(failure));
   const int status = status_of(process, stop);
   const std::string words = text_of_file(log);
-  // Its exit code is 0 for some failures too.
+  // The exit code of ccx is 0 for some failures, too, so it is not used.
   if (WIFSIGNALED(status))
     throw Error(Code::other_program, "CalculiX was ended by signal " + std::to_string(WTERMSIG(status)) +
                                          (WTERMSIG(status) == SIGKILL ? ", perhaps since memory ran out" : "") + "; " +
@@ -109,7 +109,7 @@ void run_program(const TemporaryFolder& folder, int threads, const StopFlag* sto
     throw Error(Code::other_program, "CalculiX did not finish; " + words_of_failure(words));
 }
 
-// The numbers of a line.
+// Reads the numbers of a line, and returns how many there are.
 size_t numbers_in(std::string_view line, std::array<double, 8>& numbers) {
   size_t count = 0;
   const char *at = line.data(), *const end = at + line.size();
@@ -140,7 +140,7 @@ void read_node(std::string_view line, size_t count, std::vector<std::array<doubl
   std::copy_n(numbers.begin() + 1, size, values[place_of(numbers[0], count, line)].begin());
 }
 
-// Sums over an element's points.
+// Sums of a tensor over an element's points.
 template <size_t size>
 void read_point(std::string_view line, size_t count, std::vector<std::array<double, size>>& values,
                 std::vector<double>& points) {
@@ -163,10 +163,10 @@ void divide(std::vector<std::array<double, size>>& values, const std::vector<dou
   }
 }
 
-// Components xx, yy, zz, xy, xz, yz in our order: xx, yy, zz, xy, yz, zx.
+// Reorders the components xx, yy, zz, xy, xz, yz to our order: xx, yy, zz, xy, yz, zx.
 std::array<double, 6> in_order(const std::array<double, 6>& c) { return {c[0], c[1], c[2], c[3], c[5], c[4]}; }
 
-// All in one folder, which goes at the end.
+// Runs the program in a temporary folder, which is removed at the end, and reads its results.
 PrintedResults results_of(const ModelView& model, const Conditions& conditions, const CalculixOptions& options,
                           const StopFlag* stop) {
   refuse_inverted(model.mesh);
@@ -231,7 +231,8 @@ PrintedResults read_printed(const std::string& text, size_t nodes, size_t elemen
   return found;
 }
 
-// The deck has the stress of a cut brick's material spread over the whole brick.
+// Returns the share of an element that is filled. In the deck, the stress of a cut brick's material is spread over the
+// whole brick.
 static double share_of(const MeshView& mesh, size_t element) {
   return mesh.bricks() ? mesh.bricks()->share(element) : 1;
 }
@@ -279,7 +280,7 @@ Conduction conduct_by_calculix(const ModelView& model, const Conditions& conditi
   for (const Prescribed& flow : conditions.forces) flows[flow.node] = flow.value;
   for (const Prescribed& held : conditions.displacements)
     found.flows.push_back({held.node, 0, milli * results.heat[held.node] - flows[held.node]});
-  // Heat that does not leave where temperatures are held goes through the films.
+  // Heat that does not leave at prescribed temperatures leaves through films.
   for (const Prescribed& flow : found.flows) found.lost_w += flow.value;
   for (const double flow : flows) found.lost_w += flow;
   if (conditions.films.empty()) found.lost_w = 0;

@@ -19,7 +19,7 @@ namespace {
 
 using namespace test;
 
-// The text is what CalculiX 2.20 prints, shortened.
+// The text is an excerpt of what CalculiX 2.20 prints.
 TEST(Calculix, PrintedResultsHaveTheirPlaces) {
   const PrintedResults found = read_printed(R"(
  displacements (vx,vy,vz) for set NALL and time  0.1000000E+01
@@ -49,7 +49,7 @@ TEST(Calculix, PrintedResultsHaveTheirPlaces) {
   EXPECT_THROW(read_printed(" stresses (elem)\n   1 1 0. 0. 0. 0. 0. 0.\n", 2, 2), Error);
 }
 
-// Puts a script that says and does what a test wants in the place of the real program.
+// Replaces the real program by a script that does what a test needs.
 class FakeProgram : public testing::Test {
  protected:
   void SetUp() override {
@@ -138,7 +138,7 @@ bool has_program() {
   return false;
 }
 
-// The energies are those of CalculiX 2.20; where it is installed, all is compared.
+// The energies are those of CalculiX 2.20. If it is installed, all results are compared.
 TEST(Calculix, GivesWhatTheBuiltInSolverGives) {
   constexpr std::array<std::pair<ElementKind, double>, 2> cases{
       {{ElementKind::c3d4, 0.233955525}, {ElementKind::c3d10, 2.945740925}}};

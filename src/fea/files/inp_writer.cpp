@@ -18,7 +18,7 @@ std::string_view type_name(BrickType type) {
   return names[static_cast<size_t>(type)];
 }
 
-// Capitals, digits and _, a letter first, each name once.
+// Makes unique names of capitals, digits and _ that begin with a letter.
 template <class Named>
 std::vector<std::string> deck_names(const std::vector<Named>& things) {
   constexpr size_t longest = 60;
@@ -38,7 +38,7 @@ std::vector<std::string> deck_names(const std::vector<Named>& things) {
   return names;
 }
 
-// Gathers text, and hands it on in large pieces.
+// Gathers text, and writes it in large pieces.
 class Lines {
  public:
   explicit Lines(const Sink& sink) : sink_(sink) {}
@@ -70,7 +70,7 @@ class Lines {
   std::string text_;
 };
 
-// Sixteen numbers to a line, from 1.
+// Writes a node set, sixteen numbers to a line, counted from 1.
 void write_set(const NodeSet& set, const std::string& name, Lines& lines) {
   constexpr size_t of_line = 16;
   lines << "*NSET, NSET=" << name << "\n";
@@ -121,12 +121,12 @@ void write_sections(const ModelView& model, Physics physics, const std::vector<s
   }
 }
 
-// Results as text in job.dat, which is read back.
+// Requests results as text in job.dat, which calculix.h reads.
 void write_prints(const char* of_nodes, const char* of_elements, Lines& lines) {
   lines << "*NODE PRINT, NSET=NALL\n" << of_nodes << "\n*EL PRINT, ELSET=EALL\n" << of_elements << "\n";
 }
 
-// The period along an axis has a node behind those of the mesh.
+// Returns the node of the period along an axis; these nodes come after those of the mesh.
 size_t period_node(const ModelView& model, size_t axis) { return model.mesh.node_count() + 1 + axis; }
 
 void write_periods(const ModelView& model, const Repeat& repeat, Lines& lines) {
@@ -175,7 +175,7 @@ void write_static_step(const ModelView& model, const Conditions& conditions, boo
   lines << "*END STEP\n";
 }
 
-// How much of a side's area there is to act on.
+// Returns the loaded area of a side as a share of the side.
 double share_of_side(const MeshView& mesh, const OuterSide& side) {
   double area = 0;
   for (const NodeShare& here : side_shares(mesh, side)) area += here.share;
@@ -208,8 +208,8 @@ std::string_view element_name(const MeshView& mesh, BrickType type, Physics phys
   return is_plain ? mesh.shape().name : type_name(type);
 }
 
-// Elements of a deck are whole: bricks that are cut become sections, whose properties are those of the material times
-// the share that is inside.
+// The sections of a deck, whose elements are whole. Each kind of cut brick becomes a section whose properties are those
+// of the material times the share inside.
 struct DeckSections {
   std::vector<Section> sections;
   std::vector<uint16_t> section_of;

@@ -10,18 +10,20 @@ namespace ombre::fea {
 
 enum class BrickType : uint8_t {
   c3d8,   // full integration
-  c3d8i,  // with incompatible modes, for bending
-  c3d8r,  // reduced integration, with hourglass control
+  c3d8i,  // incompatible modes, for bending
+  c3d8r,  // reduced integration with hourglass control
 };
 
-// A flat deck in mm, N, MPa and tonnes that runs as it is, static and linear: nodes and elements from 1, an element set
-// and a material for each section that elements have, the conditions' node sets, single-node supports and loads;
-// of a cell that repeats equations between its nodes, and three nodes PERIOD_1 to PERIOD_3 behind the mesh's that move
-// as what lies a period along x, y, z away moves, so that the forces on them are mean stresses times sides of the cell;
-// results U, RF, S and E. Conduction becomes a steady heat transfer, in mW and degrees Celsius, with results NT, RFL
-// and HFL; currents stand for heat, so that potentials are temperatures and mA are mW. Names are in capitals, with _
-// for what decks do not take. Bricks that are cut have properties times the share that is inside. `type` is that of
-// hexahedra in mechanics. With `prints` the results go as text to job.dat, for calculix.h.
+// Writes a flat deck in mm, N, MPa and tonnes that runs as it is, static and linear. It has nodes and elements counted
+// from 1, an element set and a material for each section in use, the node sets of the conditions, single-node supports
+// and loads, and the results U, RF, S and E.
+// A periodic cell also has equations between its nodes, and three nodes PERIOD_1 to PERIOD_3 after those of the mesh.
+// Their displacements are the differences over a period along x, y and z, so the forces on them are mean stresses times
+// sides of the cell.
+// Conduction becomes a steady heat transfer, in mW and degrees Celsius, with results NT, RFL and HFL. Currents are
+// written as heat: potentials are temperatures, and mA are mW.
+// Names are in capitals, with _ for characters that decks do not take. Cut bricks have properties times the share
+// inside. `type` is the kind of hexahedra in mechanics. With `prints` results go as text to job.dat, for calculix.h.
 void write_inp(const ModelView& model, const Conditions& conditions, BrickType type, const std::string& title,
                const Sink& sink, bool prints = false);
 

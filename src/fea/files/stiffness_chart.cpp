@@ -1,4 +1,4 @@
-// Diagrams of a stiffness.
+// Draws polar diagrams of a stiffness.
 #include <cmath>
 
 #include "base/math/math.h"
@@ -8,7 +8,7 @@
 namespace ombre::fea {
 namespace {
 
-constexpr double radius = 100, gap = 40, top = 50;  // of a diagram, in the picture's units
+constexpr double radius = 100, gap = 40, top = 50;  // lengths in the picture's units
 constexpr int directions = 180, rings = 4;
 
 struct ChartPlane {
@@ -23,7 +23,8 @@ std::string text_at(double x, double y, const std::string& text, const char* anc
   return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text + "</text>\n";
 }
 
-// So that the outermost of the rings has a simple number: 1, 2 or 5 times a power of 10, times the number of rings.
+// Returns the step between rings. The outermost ring has a simple number: 1, 2 or 5 times a power of 10, times the
+// number of rings.
 double step_for(double greatest) {
   if (!(greatest > 0)) return 1;
   double power = 1;

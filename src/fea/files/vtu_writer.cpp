@@ -27,10 +27,10 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-// The arrays that follow the XML, each with its length before it.
+// The arrays after the XML, each with its length before it.
 class Appended {
  public:
-  // `write` is called later, with a function that takes its bytes.
+  // Adds an array. `write` is called later, with a function that takes the array's bytes.
   std::string add(std::string_view type, const std::string& name, size_t components, uint64_t bytes,
                   std::function<void(const Sink&)> write) {
     const std::string tag = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + escaped(name) +

@@ -8,8 +8,8 @@
 
 namespace ombre::fea {
 
-// Hexahedra or tetrahedra, with values of elements as cell data and of nodes as point data, in floats, and the nodes in
-// doubles; raw bytes after the XML. Units stand behind the names of fields that have one: "stress [MPa]".
+// Writes hexahedra or tetrahedra, with values of elements as cell data and values of nodes as point data. Values are
+// floats, nodes doubles, as raw bytes after the XML. A unit follows the name of its field: "stress [MPa]".
 void write_vtu(const MeshView& mesh, const std::vector<ValueField>& of_elements,
                const std::vector<ValueField>& of_nodes, const Sink& sink);
 

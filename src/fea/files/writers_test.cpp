@@ -20,7 +20,7 @@ Model two_sections() {
   return model;
 }
 
-// A deck as its lines say it, by hand.
+// The expected lines of the deck were written by hand.
 TEST(InpWriter, DecksAreComplete) {
   std::string deck;
   const Conditions conditions{{{0, 2, 0}, {5, 0, -0.25}}, {{11, 1, 3.5}}};
@@ -69,7 +69,7 @@ S, E
 )");
 }
 
-// The deck has conduction with a film, a named set, and a number that is longer than what CalculiX reads.
+// The deck has conduction with a film, a named set, and a number that is longer than CalculiX reads.
 TEST(InpWriter, ConductionIsInMilliwatts) {
   MeshModel model{
       {ElementKind::c3d4, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3}}, {{"wall", {}, 0.25}}, {0}, {}};
@@ -100,7 +100,7 @@ HFL
 )");
 }
 
-// The numbers of an array, found by its offset.
+// Returns the numbers of an array, which its offset locates.
 template <class T>
 std::vector<T> array(const std::string& file, const std::string& name) {
   const size_t tag = file.find("Name=\"" + name + "\"");

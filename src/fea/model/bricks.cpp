@@ -34,8 +34,8 @@ size_t Bricks::find(const Cell& cell) const { return find_in(cells, cell); }
 Bricks make_bricks(Vec3 origin, Vec3 size_mm, std::vector<Cell> cells, const Cell& period, const StopFlag* stop) {
   Bricks bricks{origin, size_mm, std::move(cells), {}, {}, period, {}};
   bricks.corners.reserve(bricks.cells.size() * 2);
-  // Layer by layer, so that no more than two layers' corners are there several times; those of the first layer come
-  // again at the end where the mesh repeats along z.
+  // Corners are gathered layer by layer, so that only corners of two layers are ever there several times. If the mesh
+  // repeats along z, those of the first layer come again at the end.
   std::vector<Cell> found;
   const auto take = [&](int32_t below) {
     check_stop(stop);

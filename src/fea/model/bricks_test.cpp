@@ -21,7 +21,8 @@ TEST(Bricks, NodesAreSharedAndInOrder) {
   EXPECT_EQ(places.size(), bricks.node_count());
 }
 
-// The volume by the corners' order: positive where the lower face turns counter-clockwise as seen from above.
+// Returns the volume by the order of corners; it is positive if the lower face turns counter-clockwise as seen from
+// above.
 TEST(Bricks, CornersTurnAsAbaqusAndVtkHaveThem) {
   const Bricks bricks = block({2, 2, 2}, {1, 2, 3});
   for (const auto& n : bricks.nodes) {

@@ -1,4 +1,4 @@
-// What a study means for the nodes of a mesh.
+// Finds what a study means for the nodes of a mesh.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,8 +10,8 @@
 namespace ombre::fea {
 namespace {
 
-// A node counts as inside of a box, or on a side, if it lies no farther off than this share of an element. Tetrahedra
-// come as near to the surface as this.
+// Tolerance, as a share of an element, within which a node counts as inside of a box or on a side. Nodes of tetrahedra
+// come this near to the surface.
 constexpr double slack_of_brick = 1e-6, slack_of_tetrahedron = 0.02;
 
 double slack_of(const MeshView& mesh) {
@@ -20,7 +20,7 @@ double slack_of(const MeshView& mesh) {
 
 struct Chosen {
   std::vector<bool> nodes;
-  std::vector<OuterSide> sides;  // all of whose nodes are chosen
+  std::vector<OuterSide> sides;  // sides all of whose nodes are chosen
 
   std::vector<uint32_t> list() const {
     std::vector<uint32_t> numbers;
@@ -30,7 +30,7 @@ struct Chosen {
   }
 };
 
-// Finds the nodes of a selection; a diagnostic when there are none.
+// Finds the nodes of a selection, and adds a diagnostic if there are none.
 class Selector {
  public:
   Selector(const ModelView& model, const ChooseNodes& choose, Diagnostics& diagnostics)
@@ -78,7 +78,7 @@ class Selector {
     return sides_;
   }
 
-  // Chooses elements by material: in a drawn model those whose section has the name, else those with most of it.
+  // Chooses elements by material: in a drawn model those whose section has the name, else those that have most of it.
   std::vector<bool> of_material(const PlacedText& name) {
     const std::string wanted = to_lower(name.text);
     std::vector<bool> nodes(mesh_.node_count());
@@ -134,15 +134,15 @@ class Selector {
   Diagnostics& diagnostics_;
   Box bounds_;
   double slack_;
-  std::vector<OuterSide> sides_;  // all, once they are needed
+  std::vector<OuterSide> sides_;  // all outer sides, once they are needed
 };
 
-// Forces at all nodes, or heat in their x.
+// Forces at all nodes; heat is in their x.
 class NodeForces {
  public:
   explicit NodeForces(const MeshView& mesh) : mesh_(mesh), at_(mesh.node_count()) {}
 
-  // Over the sides, by their areas; without any, evenly over the nodes.
+  // Distributes a force over the sides by their areas, or, without sides, evenly over the nodes.
   void add(const Chosen& chosen, Vec3 force) {
     double area = 0;
     for (const OuterSide& side : chosen.sides)
@@ -182,7 +182,7 @@ class NodeForces {
   }
 
  private:
-  // N or W for each mm2.
+  // Distributes a traction in N/mm2, or a heat flux in W/mm2, over a side.
   void share(const OuterSide& side, Vec3 traction) {
     for (const NodeShare& here : side_shares(mesh_, side)) at_[here.node] = at_[here.node] + here.share * traction;
   }
@@ -191,7 +191,8 @@ class NodeForces {
   std::vector<Vec3> at_;
 };
 
-// The moves of a rigid body at a node's degree of freedom: three along the axes, three turns about the point.
+// Returns the displacements of the six rigid motions at a node's degree of freedom: three translations along the axes,
+// three rotations about the point.
 std::array<double, 6> rigid_moves(Vec3 from_center, uint8_t axis) {
   const Vec3 r = from_center;
   std::array<double, 6> moves{};
@@ -201,7 +202,7 @@ std::array<double, 6> rigid_moves(Vec3 from_center, uint8_t axis) {
   return moves;
 }
 
-// Do the held degrees of freedom of a piece leave no move of a rigid body? By elimination with pivots.
+// True if the held degrees of freedom of a piece prevent all rigid motions. Eliminates with pivots.
 bool is_held(std::array<std::array<double, 6>, 6> products) {
   constexpr double least_pivot = 1e-9;
   std::array<double, 6> scale{};
@@ -241,7 +242,7 @@ struct LooseWords {
   const char *one, *many, *hint;
 };
 
-// An error when some pieces are not held.
+// Reports an error when some pieces are not held.
 void report_loose(const Study& study, const MeshView& mesh, const Pieces& pieces, const std::vector<bool>& is_fixed,
                   const LooseWords& words, Diagnostics& diagnostics) {
   const auto loose = static_cast<size_t>(std::ranges::count(is_fixed, false));
@@ -257,11 +258,11 @@ void report_loose(const Study& study, const MeshView& mesh, const Pieces& pieces
       is_one ? words.hint : std::string("support each, or choose smaller elements, so that they hang together"));
 }
 
-// Each piece of the mesh must be held by its own supports.
+// Checks that each piece of the mesh is held by supports of its own.
 void check_held(const Study& study, const MeshView& mesh, const Conditions& conditions, Diagnostics& diagnostics) {
   const Pieces pieces(mesh);
   std::vector<std::array<std::array<double, 6>, 6>> products(pieces.first.size());
-  // Lengths in elements, so that moves and turns are of one size.
+  // Lengths are measured in elements, so that translations and rotations are of similar size.
   const double per_mm = 1 / mesh.typical_size_mm();
   for (const Prescribed& here : conditions.displacements) {
     const uint32_t piece = pieces.of_node[here.node];
@@ -277,7 +278,7 @@ void check_held(const Study& study, const MeshView& mesh, const Conditions& cond
                diagnostics);
 }
 
-// Each piece needs a value or a medium somewhere.
+// Checks that each piece has a prescribed value or a medium somewhere.
 void check_decided(const Study& study, const MeshView& mesh, const Conditions& conditions, Diagnostics& diagnostics) {
   const Pieces pieces(mesh);
   std::vector<bool> is_fixed(pieces.first.size());
@@ -368,7 +369,7 @@ class ConditionMaker {
   Selector selector_;
   NodeForces forces_;
   Conditions made_;
-  std::map<std::pair<uint32_t, uint8_t>, double> held_;  // what is said last counts
+  std::map<std::pair<uint32_t, uint8_t>, double> held_;  // the last of several values counts
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr std::array<Side, 4> tetrahedron_sides{
 constexpr std::array<Side, 6> hexahedron_sides{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
-// For each axis, a brick's lower and upper side that are perpendicular to it.
+// For each axis, the numbers of a brick's lower and upper side that are perpendicular to it.
 constexpr std::array<std::array<uint8_t, 2>, 3> brick_sides{{{5, 3}, {2, 4}, {0, 1}}};
 
 constexpr std::array<std::array<uint8_t, 2>, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
@@ -31,13 +31,13 @@ uint32_t first_of_piece(std::vector<uint32_t>& parents, uint32_t n) {
   return n;
 }
 
-// The angle between the two sides of a tetrahedron that meet in the edge ab, degrees.
+// Returns the angle in degrees between the two sides of a tetrahedron that meet in the edge ab.
 double dihedral(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 u = cross(b - a, c - a), v = cross(b - a, d - a);
   return std::atan2(length(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
 }
 
-// What acts at a place of a brick, by the trilinear functions of its nodes; coordinates go from 0 to 1.
+// Distributes an amount at a place of a brick to its nodes by their trilinear functions; coordinates go from 0 to 1.
 void add_at(const Bricks& bricks, size_t brick, Vec3 at, double amount, std::vector<NodeShare>& shares) {
   for (size_t c = 0; c < 8; ++c) {
     double weight = amount;
@@ -72,7 +72,7 @@ class Surface {
   }
 
  private:
-  // At the first part inside, of this brick or of one behind it.
+  // Adds an area at the first part inside, of this brick or of one behind it.
   void add_column(size_t a, size_t b, double area, std::vector<NodeShare>& shares) const {
     std::array<size_t, 3> part{};
     part[(axis_ + 1) % 3] = a;
@@ -139,7 +139,7 @@ double MeshView::volume_mm3(size_t element) const {
   if (bricks_) return bricks_->share(element) * bricks_->volume_mm3();
   const auto n = nodes(element);
   if (shape().corners == 4) return tetrahedron_volume(node(n[0]), node(n[1]), node(n[2]), node(n[3]));
-  // Six tetrahedra around the diagonal 1-7.
+  // A hexahedron is divided into six tetrahedra around the diagonal 1-7.
   constexpr std::array<std::array<size_t, 2>, 6> pairs{{{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}};
   double volume = 0;
   for (const auto& [a, b] : pairs) volume += tetrahedron_volume(node(n[0]), node(n[a]), node(n[b]), node(n[6]));
@@ -170,7 +170,7 @@ std::vector<OuterSide> outer_sides(const MeshView& mesh) {
       outer.push_back({face.brick, brick_sides[face.axis][face.is_upper ? 1 : 0]});
     return outer;
   }
-  // Sides with the same corners stand together once they are in order.
+  // After sorting, sides with the same corners are neighbours.
   constexpr auto none = ~uint32_t{0};
   struct Entry {
     std::array<uint32_t, 4> corners;
@@ -219,7 +219,7 @@ std::vector<NodeShare> side_shares(const MeshView& mesh, const OuterSide& side) 
   const double area = length(side_area(mesh, side));
   std::vector<NodeShare> shares;
   for (const uint32_t node : side_nodes(mesh, side)) shares.push_back({node, 0});
-  // The integrals of shape functions: corners of a quadratic triangle have none.
+  // Shares are integrals of shape functions; those of the corners of a quadratic triangle are 0.
   const size_t first = shares.size() == 6 ? 3 : 0;
   for (size_t n = first; n < shares.size(); ++n) shares[n].share = area / static_cast<double>(shares.size() - first);
   return shares;
@@ -300,7 +300,7 @@ MeshQuality quality_of(const MeshView& mesh) {
     }
     for (uint8_t side = 0; side < 4; ++side)
       largest_side = std::max(largest_side, length(side_area(mesh, {static_cast<uint32_t>(element), side})));
-    // A regular tetrahedron's height is sqrt(2/3) of its edge.
+    // The height of a regular tetrahedron is sqrt(2/3) of its edge.
     const double height = 3 * std::abs(volume) / largest_side;
     quality.worst_aspect = std::max(quality.worst_aspect, longest * std::sqrt(2.0 / 3) / height);
   }

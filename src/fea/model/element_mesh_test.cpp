@@ -23,7 +23,7 @@ TEST(Mesh, ElementsFillTheirBlock) {
   }
 }
 
-// All outer sides look outwards: the divergence theorem gives the volume, and the sum of the areas is zero.
+// All outer sides look outwards: by the divergence theorem they give the volume, and the sum of their areas is zero.
 TEST(Mesh, OuterSidesEncloseTheVolume) {
   for (const ElementKind kind : kinds) {
     const Mesh mesh = block_of(kind, {3, 2, 2}, {1, 1, 2}, 0.1);
@@ -63,7 +63,7 @@ TEST(Mesh, MiddleNodesLieInTheMiddleOfTheirEdges) {
       EXPECT_EQ(mesh.points[nodes[4 + edge]],
                 0.5 * (mesh.points[nodes[edges[edge][0]]] + mesh.points[nodes[edges[edge][1]]]));
   }
-  // Corners and edges of the cut cubes: each once.
+  // Corners and edges of the cut cubes are counted once.
   EXPECT_EQ(mesh.points.size(), 125U);
 }
 

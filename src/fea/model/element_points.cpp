@@ -5,9 +5,9 @@
 namespace ombre::fea {
 namespace {
 
-// One over the square root of three: Gauss' points of a hexahedron, whose coordinates go from -1 to 1.
+// Coordinate of Gauss' points of a hexahedron, 1 / sqrt(3); coordinates go from -1 to 1.
 constexpr double gauss = 0.57735026918962576;
-// The barycentric coordinates of the four points of a tetrahedron that integrate polynomials of degree 2.
+// Barycentric coordinates of the four points of a tetrahedron that integrate polynomials of degree 2.
 constexpr double near_corner = 0.58541019662496852, far_corner = 0.13819660112501051;
 
 // Gradients of the barycentric coordinates of a tetrahedron, and its volume.
@@ -41,7 +41,7 @@ ElementPoint quadratic_at(const Barycentric& tetrahedron, const std::array<doubl
 ElementPoint hexahedron_at(const MeshView& mesh, size_t element, Vec3 at, double weight) {
   const auto nodes = mesh.nodes(element);
   std::array<Vec3, 8> natural;
-  std::array<Vec3, 3> columns{};  // of the map's derivative
+  std::array<Vec3, 3> columns{};  // columns of the map's derivative
   for (size_t n = 0; n < 8; ++n) {
     std::array<double, 3> sign{}, factor{};
     for (size_t axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Points at which elements are integrated, with the gradients of shape functions.
+// Integration points of elements, with the gradients of shape functions.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 namespace ombre::fea {
 
 struct ElementPoint {
-  double volume_mm3 = 0;             // that the point stands for; negative where the element is inside out
-  std::array<Vec3, 10> gradients{};  // of the nodes' shape functions, 1/mm
+  double volume_mm3 = 0;             // volume that the point stands for; negative if the element is inverted
+  std::array<Vec3, 10> gradients{};  // gradients of the nodes' shape functions, 1/mm
 };
 
 struct ElementPoints {
@@ -17,9 +17,10 @@ struct ElementPoints {
   std::array<ElementPoint, 8> points{};
 };
 
-// C3D4: one point, C3D10: four, C3D8: eight; exact for straight edges and parallelepipeds.
+// Finds the integration points: one for C3D4, four for C3D10, eight for C3D8. They are exact for straight edges and
+// parallelepipeds.
 void find_points(const MeshView& mesh, size_t element, ElementPoints& found);
-// The one in the middle, which stands for all of it.
+// Returns the point in the middle, which stands for the whole element.
 ElementPoint middle_point(const MeshView& mesh, size_t element);
 
 }  // namespace ombre::fea

@@ -11,7 +11,7 @@ void each_part(Fill fill, const Body& body) {
         if (has_part(fill, x, y, z)) body(x, y, z);
 }
 
-// The integrals of 1, a and a^2 over a part along its axis, as shares of the brick's length.
+// Returns the integrals of 1, a and a^2 over a part along its axis, as shares of the brick's length.
 std::array<double, 3> along(size_t part) {
   constexpr double step = 2.0 / parts_along;
   const double high = 1 - step * static_cast<double>(part), low = high - step;

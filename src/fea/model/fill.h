@@ -1,4 +1,4 @@
-// Which parts of a brick are inside a solid.
+// Records which parts of a brick are inside a solid.
 #pragma once
 
 #include <array>
@@ -10,12 +10,13 @@
 
 namespace ombre::fea {
 
-// A brick is cut into so many parts along each axis. Bit x + 4 y + 16 z is 1 where that part is inside.
+// Number of parts of a brick along each axis. Bit x + 4 y + 16 z is 1 if that part is inside.
 inline constexpr size_t parts_along = 4;
 inline constexpr size_t parts_of_brick = 64;
 using Fill = uint64_t;
 inline constexpr Fill full_fill = ~Fill{0};
-// Bricks of which less is inside are left out: they would hold nothing, and make equations badly conditioned.
+// Least share inside. Bricks with less are left out: they would hardly carry load, and make equations badly
+// conditioned.
 inline constexpr double least_fill = 1.0 / 16;
 
 inline double fill_share(Fill fill) { return static_cast<double>(std::popcount(fill)) / parts_of_brick; }
@@ -24,13 +25,13 @@ inline bool has_part(Fill fill, size_t x, size_t y, size_t z) {
   return ((fill >> (x + parts_along * (y + parts_along * z))) & 1) != 0;
 }
 
-// The mean place of what is inside; each coordinate goes from 0 to 1 in the brick.
+// Returns the centroid of the part inside; each coordinate goes from 0 to 1 in the brick.
 Vec3 fill_centre(Fill fill);
 
-// The box around what is inside, from 0 to 1 in the brick.
+// Returns the bounding box of the part inside, from 0 to 1 in the brick.
 Box fill_box(Fill fill);
 
-// Integrals of a^i b^j c^k over what is inside, as a share of the brick's volume, for i, j and k up to 2. The
+// Integrals of a^i b^j c^k over the part inside, as a share of the brick's volume, for i, j and k up to 2. The
 // coordinates a, b, c are 1 at a brick's lower sides, and -1 at its upper ones.
 struct FillMoments {
   std::array<double, 27> values{};

@@ -1,5 +1,4 @@
-// The model of a finite-element job: elements, their materials, and what holds and pulls them.
-//
+// The model of a finite-element job: elements, their materials, supports and loads.
 // Units: mm, N, MPa; densities in tonne/mm3, so that mm/s2 times tonne is N. Heat: W, degrees Celsius; currents: A, V.
 #pragma once
 
@@ -13,7 +12,7 @@
 
 namespace ombre::fea {
 
-// Linear, isotropic.
+// The properties of a linear, isotropic material.
 struct Elastic {
   double modulus_mpa = 0, poissons_ratio = 0;
   double density_t_mm3 = 0;  // 0: unknown
@@ -30,14 +29,14 @@ inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
   return {modulus_mpa / (2 * (1 + poissons_ratio)), modulus_mpa / (3 * (1 - 2 * poissons_ratio))};
 }
 
-// Elements of the same properties.
+// Elements with equal properties.
 struct Section {
   std::string name;
   Elastic elastic;
   double conductivity = 0;  // of heat, W/(m K), or of electricity, S/m; 0: unknown
 };
 
-// A value for each element or node, or `components` values one after the other.
+// A field of values for elements or nodes; each has `components` values one after the other.
 struct ValueField {
   std::string name, unit;
   size_t components = 1;
@@ -47,30 +46,30 @@ struct ValueField {
 struct Model {
   Bricks bricks;
   std::vector<Section> sections;
-  std::vector<uint16_t> section_of;  // of each brick
-  std::vector<ValueField> fields;    // of bricks: fractions, attributes
-  double design_mm3 = 0;             // the volume of what the bricks stand for, where it was looked at; else 0
+  std::vector<uint16_t> section_of;  // number of the section of each brick
+  std::vector<ValueField> fields;    // values of bricks: fractions, attributes
+  double design_mm3 = 0;             // volume of the design within the bricks, if it was measured; else 0
 
   const Elastic& elastic(size_t brick) const { return sections[section_of[brick]].elastic; }
 };
 
-// The same of any elements.
+// A model on a mesh of any elements.
 struct MeshModel {
   Mesh mesh;
   std::vector<Section> sections;
-  std::vector<uint16_t> section_of;  // of each element
-  std::vector<ValueField> fields;    // of elements
+  std::vector<uint16_t> section_of;  // number of the section of each element
+  std::vector<ValueField> fields;    // values of elements
 
   const Elastic& elastic(size_t element) const { return sections[section_of[element]].elastic; }
 };
 
-// A model as writers, studies and solvers see it: of bricks or of another mesh, which must live as long.
+// A view of a model for writers, studies and solvers: on bricks or on another mesh, which must outlive it.
 struct ModelView {
   ModelView(const Model& model)  // NOLINT: a view of what is handed over
       : mesh(model.bricks), sections(model.sections), section_of(model.section_of), fields(model.fields) {}
   ModelView(const MeshModel& model)  // NOLINT
       : mesh(model.mesh), sections(model.sections), section_of(model.section_of), fields(model.fields) {}
-  // With other sections.
+  // Makes a view with other sections.
   ModelView(const ModelView& model, const std::vector<Section>& others, const std::vector<uint16_t>& other_of)
       : mesh(model.mesh), sections(others), section_of(other_of), fields(model.fields) {}
 
@@ -86,7 +85,7 @@ struct ModelView {
 // A value that is prescribed at a node along an axis.
 struct Prescribed {
   uint32_t node = 0;
-  uint8_t axis = 0;  // 0 where there is one unknown for each node
+  uint8_t axis = 0;  // 0 if a node has one unknown
   double value = 0;  // displacement, mm; or force, N; temperature, degrees Celsius, or heat that enters, W; V or A
 };
 
@@ -103,18 +102,18 @@ struct Film {
   double coefficient_w_m2k = 0, ambient_c = 0;
 };
 
-// Nodes that a support or a load is on, by the name that a deck gives them.
+// The nodes of a support or a load, with their name in a deck.
 struct NodeSet {
   std::string name;
   std::vector<uint32_t> nodes;  // ascending
 };
 
-// Both lists are in ascending order of nodes, then axes, and name no place twice.
+// Supports and loads of nodes. Both lists are in ascending order of nodes, then axes, without duplicates.
 struct Conditions {
   std::vector<Prescribed> displacements, forces;
   std::vector<NodeSet> sets = {};
   Physics physics = Physics::mechanics;
-  std::vector<Film> films = {};  // of heat
+  std::vector<Film> films = {};  // only for heat
   std::optional<Repeat> repeat = {};
 };
 

@@ -22,7 +22,7 @@ std::array<double, 6> mean_stress(const MeshView& mesh, const std::vector<std::a
 }
 
 std::vector<Tie> ties_of(const MeshView& mesh, Vec3 period_mm) {
-  constexpr double parts = 1 << 20;  // of a period: places in the same one are alike
+  constexpr double parts = 1 << 20;  // parts of a period; places in the same part count as equal
   std::map<std::array<int64_t, 3>, uint32_t> first;
   std::vector<Tie> ties;
   for (uint32_t node = 0; node < mesh.node_count(); ++node) {

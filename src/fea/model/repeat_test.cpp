@@ -26,7 +26,7 @@ TEST(Repeat, AFullCellHasOneNodeForEachBrick) {
 }
 
 TEST(Repeat, ACopyNeedsNoOriginalInTheCell) {
-  // The two bricks touch the upper end of y alone: what repeats are their ends along x.
+  // The two bricks touch only the upper end of y, so only their ends along x repeat.
   const Bricks bricks = make_bricks({}, {1, 1, 1}, {{0, 1, 0}, {1, 1, 0}});
   const std::vector<Tie> ties = ties_of(bricks, {2, 4, 4});
   ASSERT_EQ(ties.size(), 4U);
@@ -40,7 +40,7 @@ TEST(Repeat, ShearsAreTwiceTheTensors) {
   EXPECT_LT(length(repeat.displacement_mm(2) - Vec3{0.9, 0.6, 9}), 1e-12);
 }
 
-// A layer of half the cell under stress: half of it is the mean.
+// Half of the cell is a layer under stress, so the mean is half of that stress.
 TEST(Repeat, MeanStressesAreOfTheWholePeriod) {
   const Bricks bricks = make_bricks({}, {1, 1, 1}, {{0, 0, 0}});
   const std::array<double, 6> stress{8, 6, 4, 2, 1, -2};

@@ -55,7 +55,7 @@ class StudyReader {
     diagnostics_.error(data.where, "expected " + expected + ", not " + describe(data), hint);
   }
 
-  // Are these the only members of an object? Else a diagnostic says so.
+  // True if an object has no other members than these; otherwise a diagnostic says so.
   bool members(const Data& data, const std::string& what, const std::vector<std::string>& known) {
     if (!data.members()) {
       fail(data, what + " in braces", "its members are " + join(known, ", "));

@@ -1,4 +1,4 @@
-// Studies: what is held and what pulls, as a JSON file says it, and what that means for the nodes of a mesh.
+// Studies: materials, supports and loads, as a JSON file has them, and their meaning for the nodes of a mesh.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace ombre::fea {
 
-// A plane through a point; the nodes on it are meant.
+// A plane through a point, which chooses the nodes on it.
 struct Plane {
-  Vec3 point, normal;  // mm; of length one
+  Vec3 point, normal;  // mm; the normal has length one
 };
 
-// Outer sides that look along a direction.
+// Chooses outer sides that look along a direction.
 struct Facing {
   Vec3 direction;  // of length one
   double most_degrees = 0;
@@ -31,50 +31,50 @@ struct PlacedText {
   SourceRange where;
 };
 
-// Chooses nodes of a mesh: those that everything which is given here holds for.
+// Chooses nodes of a mesh that meet all conditions that are given.
 struct Selection {
-  std::optional<std::pair<int, bool>> side;  // of the bounding box: axis, and whether the upper one
+  std::optional<std::pair<int, bool>> side;  // of the bounding box: axis, and true for the upper side
   std::optional<Box> box;                    // mm
   std::optional<Plane> plane;
   std::optional<Facing> facing;
-  std::optional<PlacedText> material;  // nodes of elements that are made of it, or most of all of it
+  std::optional<PlacedText> material;  // nodes of elements that are made of it, or have most of it
   std::optional<PlacedText> part;      // nodes of elements whose middle is in this part of the design
-  std::optional<PlacedText> formula;   // not 0 at the node
+  std::optional<PlacedText> formula;   // nodes where the formula is not 0
   SourceRange where;
 };
 
 struct Support {
   Selection on;
-  std::array<std::optional<double>, 3> displacement_mm;  // along x, y, z; what is missing is free
+  std::array<std::optional<double>, 3> displacement_mm;  // along x, y, z; a missing one is free
   double value = 0;                                      // in conduction: degrees Celsius, or V
-  std::string name;                                      // of its nodes, in decks
+  std::string name;                                      // name of its nodes in decks
 };
 
 struct Load {
   enum class Kind : uint8_t {
     force,
     pressure,
-    flow,        // heat or current that enters, in all
-    flux,        // the same for each mm2 of outer sides
-    convection,  // to a medium around
+    flow,        // total heat or current that enters
+    flux,        // heat or current for each mm2 of outer sides
+    convection,  // exchange with a medium around
   } kind = Kind::force;
   Selection on;
-  Vec3 force_n;             // shared out over the outer sides there, by area; or else evenly over the nodes
+  Vec3 force_n;             // distributed over the outer sides there by area, or else evenly over the nodes
   double pressure_mpa = 0;  // towards the solid
-  double flow = 0;          // W or A; or for each mm2
+  double flow = 0;          // W or A; for a flux per mm2
   double film_w_m2k = 0, ambient_c = 0;
   std::string name;
 };
 
 struct Study {
   Physics physics = Physics::mechanics;
-  std::map<std::string, Elastic> materials;      // by name, before those of the materials file
-  std::map<std::string, double> conductivities;  // the same, W/(m K) or S/m, as physics has it
+  std::map<std::string, Elastic> materials;      // by name; they take precedence over those of the materials file
+  std::map<std::string, double> conductivities;  // W/(m K) or S/m, depending on the physics
   std::vector<Support> supports;
   std::vector<Load> loads;
   Vec3 gravity_mm_s2;
-  // The mesh is a cell that repeats, without supports and loads: xx, yy, zz, xy, yz, zx, the last three as twice the
-  // tensor's.
+  // Mean strain of a periodic cell, which has no supports and loads: xx, yy, zz, xy, yz, zx, the last three as twice
+  // the tensor's.
   std::optional<std::array<double, 6>> mean_strain;
   SourceRange where;
 };
@@ -91,21 +91,22 @@ struct Study {
 //            {"on": "ymax", "film_w_m2k": 10, "ambient_c": 20}]}
 // {"physics": "electric", "materials": {"soft": {"conductivity_s_m": 100}},
 //  "supports": [{"on": "zmin", "potential_v": 0}], "loads": [{"on": "zmax", "current_a": 0.1}]}
-// Nothing, and diagnostics with places, when it is wrong.
+// Returns nothing, and adds diagnostics with places, when it is wrong.
 std::optional<Study> read_study(const Data& data, Diagnostics& diagnostics);
 
-// Properties as a materials file has them beside a colour: "modulus_mpa" and so on. Nothing when there is none of them;
-// a diagnostic at `data` when one is wrong or missing.
+// Reads properties as a materials file has them beside a colour: "modulus_mpa" and so on. Returns nothing if there is
+// none of them; adds a diagnostic at `data` if one is wrong or missing.
 std::optional<Elastic> read_elastic(const DataMembers& members, const SourceRange& where, Diagnostics& diagnostics);
-// The same of "conductivity_w_mk" or "conductivity_s_m", as physics has it.
+// Reads "conductivity_w_mk" or "conductivity_s_m", depending on the physics, with the same results.
 std::optional<double> read_conductivity(const DataMembers& members, Physics physics, Diagnostics& diagnostics);
 
-// Chooses the nodes of a part or by a formula, as the design has them. Nothing, and diagnostics, when it is wrong.
+// A function that chooses the nodes of a part, or those by a formula, in the design. It returns nothing, and adds
+// diagnostics, if the text is wrong.
 using ChooseNodes =
     std::function<std::optional<std::vector<bool>>(const Selection& selection, Diagnostics& diagnostics)>;
 
-// Nothing, and diagnostics, when a selection holds no node, or a piece of the mesh is free to move as a whole, or its
-// temperature is not decided. Without `choose`, selections by part and formula are errors.
+// Applies a study to a model. Returns nothing, and adds diagnostics, if a selection holds no node, a piece of the mesh
+// can move as a whole, or its temperature is undetermined. Without `choose`, selections by part and formula are errors.
 std::optional<Conditions> conditions_of(const Study& study, const ModelView& model, Diagnostics& diagnostics,
                                         const ChooseNodes& choose = nullptr);
 

@@ -15,7 +15,7 @@ std::optional<Study> study_of(const std::string& text, Diagnostics& diagnostics)
   return data ? read_study(*data, diagnostics) : std::nullopt;
 }
 
-// What is said of a wrong study.
+// Returns the message about a wrong study.
 std::string complaint(const std::string& text) {
   Diagnostics diagnostics;
   EXPECT_FALSE(study_of(text, diagnostics));
@@ -70,7 +70,7 @@ TEST(Study, ForcesAreSharedByArea) {
   ASSERT_TRUE(conditions) << to_text(diagnostics);
   EXPECT_EQ(conditions->displacements.size(), 27U);
   EXPECT_NEAR(length(sum(conditions->forces) - Vec3{1, 2, -16}), 0, 1e-12);
-  // A corner of the four faces has a quarter of one, the middle all four quarters.
+  // A corner of the four faces has a quarter of a face, the middle all four quarters.
   for (const Prescribed& force : conditions->forces) {
     if (force.axis != 2) continue;
     const Vec3 p = model.bricks.node(force.node);
@@ -125,7 +125,8 @@ TEST(Study, LoosePartsAndEmptySelectionsAreErrors) {
     return to_text(diagnostics);
   };
   EXPECT_NE(error("{}", cube()).find("free to move"), std::string::npos);
-  // Held along z only, it may still slide and turn about z; held in two corners, turn about the line between them.
+  // A cube that is held along z only may slide and turn about z; held in two corners, it may turn about the line
+  // between them.
   EXPECT_NE(error(R"({"supports": [{"on": "zmin", "fix": "z"}]})", cube()).find("free to move"), std::string::npos);
   EXPECT_NE(error(R"({"supports": [{"on": {"box": [0, 0, 0, 2, 0, 0]}, "fix": "xyz"}]})", cube()).find("free to move"),
             std::string::npos);
@@ -136,7 +137,7 @@ TEST(Study, LoosePartsAndEmptySelectionsAreErrors) {
   EXPECT_NE(error(std::string("{") + held_below + "}", two).find("1 of the mesh's 2 pieces"), std::string::npos);
 }
 
-// The nodes that a selection of a cube of 2 x 2 x 2 mm chooses, and what is said of a wrong one.
+// Returns the number of nodes that a selection chooses of a cube of 2 x 2 x 2 mm, and the message about a wrong one.
 size_t chosen_by(const std::string& selection, const ModelView& model, std::string* complaint = nullptr) {
   Diagnostics diagnostics;
   const auto study =
@@ -171,7 +172,7 @@ TEST(Study, SelectionsCombine) {
   EXPECT_NE(complaint.find("no node of the mesh lies there"), std::string::npos);
 }
 
-// A pressure on a chosen surface acts along its sides, not on those that only share its nodes.
+// A pressure on a chosen surface acts on its own sides, not on those that only share its nodes.
 TEST(Study, PressureActsOnWhatFacesIt) {
   Diagnostics diagnostics;
   const auto pressed = conditions_in(

@@ -1,4 +1,4 @@
-// Blocks of any elements for tests.
+// Makes blocks of any elements for tests.
 #pragma once
 
 #include <random>
@@ -8,8 +8,8 @@
 
 namespace ombre::fea::test {
 
-// A block with a corner in the origin; nodes within are moved by up to `shift` of a cell. Tetrahedra come six to a cell
-// (Kuhn's), around its diagonal.
+// Returns a block with a corner in the origin; inner nodes are moved by up to `shift` of a cell. Tetrahedra come six to
+// a cell (Kuhn's), around its diagonal.
 inline Mesh block_of(ElementKind kind, Cell count, Vec3 size_mm, double shift = 0) {
   const Bricks bricks = block(count, size_mm);
   std::mt19937 random(5);
@@ -34,7 +34,7 @@ inline Mesh block_of(ElementKind kind, Cell count, Vec3 size_mm, double shift = 
   return kind == ElementKind::c3d10 ? with_middle_nodes(mesh) : mesh;
 }
 
-// A model of one material.
+// Returns a model of one material.
 inline MeshModel mesh_model_of(Mesh mesh, Elastic elastic) {
   MeshModel model{std::move(mesh), {{"one", elastic}}, {}, {}};
   model.section_of.assign(MeshView(model.mesh).count(), 0);

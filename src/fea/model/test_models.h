@@ -1,4 +1,4 @@
-// Blocks of bricks for tests.
+// Makes blocks of bricks for tests.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ inline Bricks block(Cell count, Vec3 size_mm, Vec3 origin = {}) {
   return make_bricks(origin, size_mm, std::move(cells));
 }
 
-// A block from the origin that ends anywhere, as bricks with their fill.
+// Returns a block from the origin of any size, as bricks with their fill.
 inline Bricks cut_block(Vec3 block_mm, double brick_mm) {
   const auto part_is_inside = [&](const Cell& cell, const std::array<size_t, 3>& part) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -46,14 +46,15 @@ inline Bricks cut_block(Vec3 block_mm, double brick_mm) {
   return bricks;
 }
 
-// A model of one material.
+// Returns a model of one material.
 inline Model model_of(Bricks bricks, Elastic elastic) {
   Model model{std::move(bricks), {{"one", elastic}}, {}, {}};
   model.section_of.assign(model.bricks.count(), 0);
   return model;
 }
 
-// Displacements by a function of the node's place, where another says so; axes that it leaves are NaN.
+// Prescribes displacements by a function of the node's place, at nodes for which `where` is true; axes with NaN stay
+// free.
 inline Conditions held(const MeshView& mesh, const std::function<bool(Vec3)>& where,
                        const std::function<Vec3(Vec3)>& displacement) {
   Conditions conditions;

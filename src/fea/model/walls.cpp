@@ -36,7 +36,7 @@ class Runs {
 
   int32_t place(size_t n) const { return bricks_.cells[order_[n]][axis_]; }
 
-  // Of a mesh that repeats, the line's last run may go on in its first.
+  // If the mesh repeats, the last run of the line may continue in the first.
   void mark_line(size_t begin, size_t end) {
     std::vector<size_t> starts;
     for (size_t n = begin; n < end; ++n)

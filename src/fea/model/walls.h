@@ -1,4 +1,4 @@
-// How many bricks lie across the walls of a solid.
+// Finds thin walls of a solid by counting the bricks across them.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace ombre::fea {
 
 inline constexpr double few_bricks = 3;
 
-// 1 for bricks that lie in a wall of fewer than `few_bricks`: along some axis, those from one surface to the other have
-// less inside, counted in bricks.
+// Returns 1 for bricks in a wall of fewer than `few_bricks`: along some axis, the filled length from one surface to the
+// other, counted in bricks, is less.
 std::vector<uint8_t> bricks_of_thin_walls(const Bricks& bricks);
 
-// The share of the volume that lies in such walls.
+// Returns the share of the volume that lies in such walls.
 double share_of_thin_walls(const Bricks& bricks);
 
 }  // namespace ombre::fea

@@ -19,7 +19,7 @@ size_t colour_of(const Cell& cell, const Cell& period) {
   return colour;
 }
 
-// forces += a packed matrix times displacements.
+// Computes forces += packed matrix times displacements.
 void add_product(const double* matrix, size_t size, const double* displacements, double* forces) {
   for (size_t row = 0; row < size; ++row) {
     double sum = 0;
@@ -146,7 +146,7 @@ void BrickOperator::add_own(uint32_t brick, const Vector& displacements, Vector&
     for (size_t n = 0; n < unknowns_; ++n) forces[unknowns_ * nodes[c] + n] += f[unknowns_ * c + n];
 }
 
-// Bricks of one colour.
+// Adds the forces of some bricks of one colour.
 void BrickOperator::add_of(const uint32_t* begin, const uint32_t* end, const Vector& displacements,
                            Vector& forces) const {
   if (unknowns_ == 1) {
@@ -164,7 +164,7 @@ void BrickOperator::all_forces(const Vector& displacements, Vector& forces) cons
   for (const std::vector<uint32_t>& colour : own_colours_) add_all(colour, true, displacements, forces);
 }
 
-// All of one colour, which either have a matrix of their own or not.
+// Adds the forces of all bricks of one colour that have, or do not have, a matrix of their own.
 void BrickOperator::add_all(const std::vector<uint32_t>& colour, bool is_own, const Vector& displacements,
                             Vector& forces) const {
   const auto work = [&](size_t piece) {
@@ -177,7 +177,7 @@ void BrickOperator::add_all(const std::vector<uint32_t>& colour, bool is_own, co
   pieces <= 1 ? work(0) : run_parallel(pieces, threads_, work);
 }
 
-// Displacements of what is held are zero in all that is passed here.
+// Displacements of held unknowns must be zero.
 void BrickOperator::forces(const Vector& displacements, Vector& forces) const {
   all_forces(displacements, forces);
   for_pieces(forces.size(), threads_, [&](size_t begin, size_t end) {

@@ -12,16 +12,16 @@
 
 namespace ombre::fea {
 
-// A number for each degree of freedom: x, y, z of node 0, and so on; of conduction one for each node.
+// A number for each degree of freedom: x, y, z of node 0, and so on; in conduction one for each node.
 using Vector = std::vector<double>;
 
-// Of conduction read temperatures or potentials for displacements, flows for forces; a brick's shear modulus is its
-// conductivity in W/(mm K) or S/mm, and its bulk modulus means nothing.
+// The operator of a mesh of bricks. In conduction, displacements are temperatures or potentials, forces are flows, a
+// brick's shear modulus is its conductivity in W/(mm K) or S/mm, and its bulk modulus has no meaning.
 class BrickOperator {
  public:
-  // `free` is 1 for degrees of freedom that are solved for, else 0; the others count as held at zero. It has three for
-  // each node, or one in conduction. `more_diagonal` is what comes to the diagonal, at all degrees of freedom; empty:
-  // 0. Moduli of bricks with a matrix of their own are means over the whole brick, for coarser grids.
+  // `free` is 1 for degrees of freedom that are solved for, else 0; the others count as held at zero. There are three
+  // for each node, in conduction one. `more_diagonal` is added to the diagonal of all degrees of freedom; empty: 0.
+  // Moduli of bricks with a matrix of their own are means over the whole brick, for coarser grids.
   BrickOperator(Bricks bricks, std::vector<Moduli> moduli, std::vector<uint8_t> free, int threads,
                 Vector more_diagonal = {}, OwnMatrices own = {});
 
@@ -30,17 +30,17 @@ class BrickOperator {
   const std::vector<uint8_t>& free() const { return free_; }
   const Vector& more_diagonal() const { return more_diagonal_; }
   size_t size() const { return free_.size(); }
-  size_t unknowns() const { return unknowns_; }  // of a node: 3 or 1
+  size_t unknowns() const { return unknowns_; }  // unknowns of a node: 3 or 1
   int threads() const { return threads_; }
   bool has_own_matrix(size_t brick) const { return own_.of(brick) != nullptr; }
-  // The forces of displacements of a brick's nodes, as many as it has unknowns.
+  // Computes the forces from the displacements of a brick's nodes; both have as many numbers as the brick has unknowns.
   void brick_forces(size_t brick, const double* displacements, double* forces) const;
 
-  // The forces of these displacements; at all degrees of freedom, of all displacements.
+  // Computes the forces at all degrees of freedom, from all displacements.
   void all_forces(const Vector& displacements, Vector& forces) const;
-  // The same between free ones alone; 0 at the others.
+  // Computes the forces at free degrees of freedom from free displacements; the others are 0.
   void forces(const Vector& displacements, Vector& forces) const;
-  // One over the diagonal; 0 where it is held.
+  // Returns one over the diagonal; 0 where it is held.
   const Vector& inverse_diagonal() const { return inverse_diagonal_; }
 
  private:
@@ -67,9 +67,9 @@ class BrickOperator {
   Vector inverse_diagonal_;
 };
 
-// Work on long vectors; sums are made in one order, whatever the number of threads.
+// Products of long vectors. Sums are made in one order, whatever the number of threads.
 double dot(const Vector& a, const Vector& b, int threads);
-// body(begin, end) for pieces of [0, count).
+// Calls body(begin, end) for pieces of [0, count).
 void for_pieces(size_t count, int threads, const std::function<void(size_t, size_t)>& body);
 
 }  // namespace ombre::fea

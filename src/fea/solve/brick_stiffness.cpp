@@ -9,7 +9,7 @@ namespace {
 
 using Strain = std::array<double, 6>;  // xx, yy, zz, and the engineering shears xy, yz, zx
 
-// The strain that a displacement of one along the axis gives, less its mean of xx, yy and zz.
+// Returns the strain of a displacement of one along the axis, less its mean of xx, yy and zz.
 Strain deviator_of(Vec3 gradient, int axis) {
   Strain strain{};
   strain[static_cast<size_t>(axis)] = gradient[axis];
@@ -21,27 +21,27 @@ Strain deviator_of(Vec3 gradient, int axis) {
   return strain;
 }
 
-// Twice the energy's density of two deviators for a shear modulus of one.
+// Returns twice the energy density of two deviators for a shear modulus of one.
 double product(const Strain& a, const Strain& b) {
   return 2 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
 
 constexpr std::array<size_t, 3> axis_bits{1, 2, 4};
 
-// A corner's place among patterns: a bit for each axis along which it is the upper one.
+// Returns a corner's place among patterns: a bit for each axis along which it is the upper one.
 constexpr size_t bits_of(size_t corner) {
   const Cell& at = brick_corners[corner];
   const int place = at[0] + 2 * at[1] + 4 * at[2];
   return static_cast<size_t>(place);
 }
 
-// 1, or -1 where the pattern turns an odd number of times on the way to the corner.
+// Returns -1 if the pattern changes its sign an odd number of times on the way to the corner, else 1.
 double sign_of(size_t pattern, size_t bits) {
   const size_t both = pattern & bits;
   return ((both ^ (both >> 1) ^ (both >> 2)) & 1) != 0 ? -1 : 1;
 }
 
-// From corners to eight times the patterns, and back to the corners from patterns.
+// Transforms values at corners to eight times the patterns, and patterns back to corners.
 template <class T>
 inline void transform(std::array<T, 8>& v) {
   for (size_t n = 0; n < 8; n += 2) {
@@ -61,7 +61,7 @@ inline void transform(std::array<T, 8>& v) {
   }
 }
 
-// The displacements along `axis` that belong to a block have this pattern.
+// Returns the pattern of displacements along `axis` that belongs to a block.
 size_t pattern_of(size_t block, size_t axis) { return block ^ axis_bits[axis]; }
 
 void find_patterns(BrickStiffness& stiffness) {
@@ -75,13 +75,13 @@ void find_patterns(BrickStiffness& stiffness) {
     stiffness.dilation_pattern[a % 3] += stiffness.dilation[a] / 8 * sign_of(pattern_of(0, a % 3), bits_of(a / 3));
 }
 
-// Where the points of Gauss' rule lie along an axis, from 0 to 1.
+// Returns the place of a Gauss point along an axis, from 0 to 1.
 double gauss_point(const Cell& corner, size_t axis) {
-  const double offset = 0.5 / std::sqrt(3.0);  // from the middle
+  const double offset = 0.5 / std::sqrt(3.0);  // distance from the middle
   return 0.5 + (corner[axis] == 1 ? offset : -offset);
 }
 
-// For double, or for four of them.
+// Works on doubles, or on four of them at once.
 template <class T>
 inline void add_forces_of(const BrickStiffness& brick, const T& shear_mpa, const T& bulk_mpa,
                           const std::array<T, 24>& u, std::array<T, 24>& forces) {

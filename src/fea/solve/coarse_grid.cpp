@@ -11,10 +11,10 @@ namespace {
 constexpr double nodes_of_coarse_node = 40;
 constexpr double least_coarse_nodes = 60, most_coarse_nodes = 1000;
 constexpr double finer_each_try = 1.25;
-// Added to the diagonal, as a share: some functions may be the same at all nodes that they reach.
+// Share that is added to the diagonal, since some functions may be equal at all nodes that they reach.
 constexpr double regularisation = 1e-8;
 
-// The corners of a node's cell, and how much of each the node has.
+// A corner of a node's cell, and the node's share of its function.
 struct Share {
   Cell corner{};
   double weight = 0;
@@ -39,7 +39,7 @@ std::array<Share, 8> shares_at(Vec3 p, Vec3 origin, double cell_mm) {
   return shares;
 }
 
-// The grid's nodes that have nodes of the mesh in a cell beside them.
+// The nodes of the grid that have nodes of the mesh in a cell beside them.
 struct Grid {
   Vec3 origin;
   double cell_mm = 0;
@@ -51,7 +51,7 @@ Grid grid_over(const MeshView& mesh) {
   const double wanted = std::clamp(count / nodes_of_coarse_node, least_coarse_nodes, most_coarse_nodes);
   const Box bounds = mesh.bounds();
   Grid grid{bounds.lo, std::cbrt(mesh.total_volume_mm3() / wanted), {}};
-  // Half a cell off, so that no plane of nodes lies on one of the grid.
+  // The grid is offset by half a cell, so that no plane of nodes lies on one of the grid.
   for (;; grid.cell_mm *= finer_each_try) {
     grid.origin = bounds.lo - Vec3{0.5 * grid.cell_mm, 0.5 * grid.cell_mm, 0.5 * grid.cell_mm};
     grid.numbers.clear();

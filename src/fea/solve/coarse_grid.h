@@ -1,4 +1,5 @@
-// A coarse grid over a mesh: what iterations on its nodes find slowly, found at once on few unknowns.
+// A coarse grid over a mesh. It solves directly, with few unknowns, for errors that iterations on the nodes reduce
+// slowly.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -12,13 +13,13 @@ namespace ombre::fea {
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 // Trilinear functions on a grid of some thousand nodes around the mesh, and the matrix between them (an auxiliary space
-// as Xu, 1996, has them; two levels of additive Schwarz as Dryja and Widlund, 1987).
+// after Xu, 1996; two levels of additive Schwarz after Dryja and Widlund, 1987).
 class CoarseGrid {
  public:
-  // `numbers` are those of the matrix's rows for each unknown of each node; -1 where it is held.
+  // `numbers` are the rows of the matrix for each unknown of each node; -1 for held ones.
   CoarseGrid(const MeshView& mesh, size_t unknowns, const std::vector<int>& numbers, const RowMatrix& matrix);
 
-  // x += about the solution for `right`, as far as the grid can tell.
+  // Adds to x an approximate solution for `right`, within the functions of the grid.
   void add_solution(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
 
  private:

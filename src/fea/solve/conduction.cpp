@@ -8,14 +8,14 @@ namespace {
 
 constexpr double per_mm_of_per_m = 1e-3, per_mm2_of_per_m2 = 1e-6;
 
-// W/K that each node of a film's side loses.
+// Returns the W/K that each node of a film's side loses.
 std::vector<NodeShare> film_shares(const MeshView& mesh, const Film& film) {
   std::vector<NodeShare> shares = side_shares(mesh, film.side);
   for (NodeShare& here : shares) here.share *= film.coefficient_w_m2k * per_mm2_of_per_m2;
   return shares;
 }
 
-// What flows into nodes, what is held, and what films take.
+// Flows into nodes, prescribed values, and films.
 struct Setup {
   std::vector<uint8_t> free;
   Vector flows, from_films, film_diagonal;  // the last is empty without films
@@ -33,8 +33,8 @@ struct Setup {
   }
 };
 
-// The values that take the flows to all nodes, by what a solver offers: the flows of given values, and the values of
-// free nodes that make given flows.
+// Finds the values at all nodes by a solver that offers two functions: the flows of given values, and the values of
+// free nodes for given flows.
 template <class Solver>
 Conduction solve_with(Solver& solver, const Setup& setup, const ModelView& model, const Conditions& conditions) {
   const MeshView& mesh = model.mesh;
@@ -137,8 +137,8 @@ Conduction conduct(const ModelView& model, const Conditions& conditions, const S
 }
 
 double conduct_bytes(const Bricks& bricks) {
-  // A node takes about twenty vectors and its place in a coarse brick; a brick takes its place, nodes and moduli twice,
-  // and its flux. Coarser levels have a seventh of it.
+  // Bytes of a node: about twenty vectors and its place in a coarse brick. Bytes of a brick: its place, nodes and
+  // moduli twice, and its flux. Coarser levels take a seventh of that.
   constexpr double of_node = 20.0 * sizeof(double) + 24, of_brick = 2.0 * (sizeof(Cell) + 32 + 8) + 24;
   constexpr double all_levels = 8.0 / 7;
   return own_matrix_bytes(bricks, 1) + all_levels * (of_node * static_cast<double>(bricks.node_count()) +

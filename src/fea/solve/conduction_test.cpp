@@ -29,7 +29,7 @@ MeshModel conductor(ElementKind kind, Cell count, Vec3 size_mm, double conductiv
   return model;
 }
 
-// Temperatures that are linear on the border are linear within, and the flux is -k times their gradient.
+// Temperatures that are linear on the border are linear inside, and the flux is -k times their gradient.
 TEST(Conduction, LinearTemperaturesAreExact) {
   const auto linear = [](Vec3 p) { return 20 + 3 * p.x - 2 * p.y + p.z; };
   for (const ElementKind kind : {ElementKind::c3d4, ElementKind::c3d10, ElementKind::c3d8}) {
@@ -66,7 +66,7 @@ TEST(Conduction, MaterialsInSeriesAndParallel) {
   }
 }
 
-// Bricks without a matrix and the same bricks as a mesh with one give the same, with films and two materials.
+// Bricks without a matrix give the same as a mesh of the same bricks with one, with films and two materials.
 TEST(Conduction, BricksGiveWhatAMatrixGives) {
   Model model = model_of(block({7, 5, 9}, {1, 2, 0.5}), {});
   model.sections = {{"one", {}, 0.2}, {"two", {}, 400}};
@@ -104,7 +104,7 @@ TEST(Conduction, MultigridKeepsIterationsFew) {
   }
 }
 
-// Through a wall whose conductivity is exp(z / 10): the difference of temperatures by the integral of 1 / k.
+// In a wall whose conductivity is exp(z / 10), the flux is the difference of temperatures over the integral of 1 / k.
 TEST(Conduction, GradedWallsFollowTheirIntegral) {
   std::vector<double> errors;
   for (const int32_t fine : {10, 20}) {
@@ -126,8 +126,8 @@ TEST(Conduction, GradedWallsFollowTheirIntegral) {
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.1);
 }
 
-// Heat enters below with 0.01 W/mm2 and leaves above to air: the surface is warmer by flux / film, the other side by
-// flux L / k more.
+// Heat enters below with 0.01 W/mm2 and leaves above to air: the surface is warmer than the air by flux / film, the
+// other side by flux L / k more.
 TEST(Conduction, WallsCoolInAir) {
   for (const ElementKind kind : {ElementKind::c3d4, ElementKind::c3d10, ElementKind::c3d8}) {
     const MeshModel model = conductor(kind, {2, 2, 4}, {1, 1, 2.5}, 0.2);
@@ -142,7 +142,7 @@ TEST(Conduction, WallsCoolInAir) {
   }
 }
 
-// 1 A through a bar of 1 mm2 and 8 mm with 100 S/m: 80 V.
+// A current of 1 A through a bar of 1 mm2 and 8 mm with 100 S/m needs 80 V.
 TEST(Conduction, CurrentsFollowOhmsLaw) {
   const MeshModel model = conductor(ElementKind::c3d10, {1, 1, 8}, {1, 1, 1}, 100);
   const Conduction found = conduct(model,

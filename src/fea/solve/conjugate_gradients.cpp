@@ -11,13 +11,14 @@
 namespace ombre::fea {
 namespace {
 
-// After each so many iterations it is judged how many more multigrid needs; more than this are slow.
+// Number of iterations after which the remaining ones with multigrid are estimated; if more than this remain, multigrid
+// counts as slow.
 constexpr size_t between_judgements = 40;
 constexpr double slow = 100;
-// What a brick's part of an iteration with multigrid takes as long as, in operations of a factorisation: measured
-// 100,000 on a processor with wide vectors, less elsewhere.
+// Cost of a brick's part of an iteration with multigrid, in operations of a factorisation: measured 100,000 on a
+// processor with wide vectors, less elsewhere.
 constexpr double operations_of_brick = 5e4;
-// A quicker way is not looked for when all that is left takes less than about a second.
+// Remaining work, in bricks times iterations, below which no quicker way is looked for; about a second.
 constexpr double worth_looking_at = 1e6;
 
 [[noreturn]] void fail_to_converge(const Convergence& solution, bool is_conduction) {
@@ -30,7 +31,8 @@ constexpr double worth_looking_at = 1e6;
                   "too much: choose smaller bricks, or support more of the part");
 }
 
-// In memory where it fits, else with the factor on disk; nothing where that does not fit either.
+// Returns a use with the factor in memory if it fits, else with the factor on disk; nothing if that does not fit
+// either.
 std::optional<DirectUse> use_of(const FactorisationCost& cost, double memory_bytes) {
   if (cost.bytes <= memory_bytes) return DirectUse{cost.operations, cost.bytes, 0};
   if (cost.bytes_on_disk > memory_bytes) return std::nullopt;
@@ -76,13 +78,13 @@ void Gradients::factorise() {
                 "by multigrid, or allow more memory");
 }
 
-// Iterations that are left, should the residual go on to fall as it has fallen since the last judgement.
+// Returns the number of remaining iterations if the residual goes on to fall as it has since the last estimate.
 double Gradients::iterations_left(double residual, double last) const {
   if (!(residual < last)) return static_cast<double>(options_.most_iterations);
   return between_judgements * std::log(options_.tolerance / residual) / std::log(residual / last);
 }
 
-// Takes a factorisation instead of multigrid, where that is quicker than so many iterations.
+// Changes to a factorisation if it is quicker than this number of iterations with multigrid.
 bool Gradients::change(double iterations) {
   const double left = iterations * static_cast<double>(stiffness_.bricks().count());
   if (iterations < slow || left < worth_looking_at) return false;
@@ -98,7 +100,7 @@ bool Gradients::change(double iterations) {
   return take(*use);
 }
 
-// Returns false where there is no factorisation; then it goes on as before.
+// Factorises; returns false if that is not possible, and multigrid goes on.
 bool Gradients::take(const DirectUse& use) {
   if (options_.announce) options_.announce(use);
   is_single_ = prepared_->factorise(use.disk_bytes > 0, Precision::single);

@@ -21,15 +21,15 @@ struct Convergence {
 };
 
 // Conjugate gradients (Hestenes and Stiefel, 1952) with a preconditioner, which is made once for several right sides.
-// What is passed must live as long.
+// All arguments must outlive the object.
 class Gradients {
  public:
-  // Throws Error when a factorisation is asked for that does not fit, and Cancelled.
+  // Throws Error when a requested factorisation does not fit, and Cancelled.
   Gradients(const BrickOperator& stiffness, const SolveOptions& options, Progress* progress, const StopFlag* stop);
 
   ~Gradients();
 
-  // Adds to the displacements `x` what balances the forces `residual`, which are 0 where it is held. Throws Error when
+  // Adds to `x` the displacements that balance the forces `residual`, which are 0 at held unknowns. Throws Error when
   // it does not converge, and Cancelled.
   Convergence run(Vector residual, Vector& x);
 
@@ -48,7 +48,7 @@ class Gradients {
   Progress* progress_;
   const StopFlag* stop_;
   std::unique_ptr<Preconditioner> preconditioner_;
-  std::unique_ptr<Factorisation> prepared_;  // ordered and counted, no more
+  std::unique_ptr<Factorisation> prepared_;  // ordered and counted, but not factorised
   std::optional<DirectUse> direct_;
   bool may_change_ = false, is_single_ = false;
   Stopwatch watch_;

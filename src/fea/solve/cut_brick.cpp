@@ -8,18 +8,18 @@
 namespace ombre::fea {
 namespace {
 
-// A product of the coordinates of FillMoments, with a factor, less its mean where that is taken off.
+// A product of the coordinates of FillMoments, with a factor, less its mean if that is subtracted.
 struct Term {
   double factor = 0;  // 0: no term
   std::array<size_t, 3> powers{};
   double shift = 0;
 };
 
-// The strain of a mode: what a displacement in one of the eight products of coordinates makes, or an enhanced one.
-// Each has at most one of xx, yy, zz.
+// The strain of a mode: that of a displacement by one of the eight products of coordinates, or an enhanced one. Each
+// has at most one of xx, yy, zz.
 struct Mode {
   std::array<Term, 6> strain{};  // xx, yy, zz, xy, yz, zx
-  size_t normal = 3;             // which of the first three it has; 3: none
+  size_t normal = 3;             // index of its normal strain; 3: none
   Term dilation{};
 };
 
@@ -45,7 +45,7 @@ class Integrals {
   FillMoments moments_;
 };
 
-// The derivative along an axis of the product whose powers are the pattern's bits.
+// Returns the derivative along an axis of the product whose powers are the pattern's bits.
 Term derivative(size_t pattern, size_t axis, Vec3 size_mm) {
   if (((pattern >> axis) & 1) == 0) return {};
   const size_t rest = pattern ^ (size_t{1} << axis);
@@ -65,13 +65,13 @@ Mode mode_of(size_t pattern, size_t axis, Vec3 size_mm, const Integrals& integra
   return mode;
 }
 
-// Which strain an enhanced mode is, and along which axis it is linear.
+// Returns the strain component of an enhanced mode, and the axis along which it is linear.
 std::pair<size_t, size_t> enhanced_place(size_t mode) {
   if (mode < 3) return {mode, mode};
   return {3 + (mode - 3) / 2, axes_of_shear[(mode - 3) / 2][(mode - 3) % 2]};
 }
 
-// A strain that is linear along an axis, and 0 on average.
+// Returns a strain that is linear along an axis, and 0 on average.
 Mode enhanced_mode(size_t component, size_t axis, const Integrals& integrals) {
   Mode mode;
   Term& term = mode.strain[component];
@@ -104,7 +104,8 @@ double energy(const Mode& a, const Mode& b, const Integrals& integrals, double s
   return shear * sum + bulk * integrals.product(a.dilation, b.dilation);
 }
 
-// A corner's value in a product of coordinates, an eighth of it: values at corners make products by this.
+// Returns an eighth of a corner's value in a product of coordinates; these factors make products from values at
+// corners.
 double eighth_at(size_t pattern, size_t corner) {
   double value = 1.0 / 8;
   for (size_t axis = 0; axis < 3; ++axis)
@@ -112,7 +113,7 @@ double eighth_at(size_t pattern, size_t corner) {
   return value;
 }
 
-// From products, of which each has `each` unknowns, to corners.
+// Returns the matrix from corners to products, with `each` unknowns for each.
 Eigen::MatrixXd products_from_corners(Eigen::Index each) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(8 * each, 8 * each);
   for (Eigen::Index pattern = 0; pattern < 8; ++pattern)
@@ -132,7 +133,7 @@ Packed packed(const Eigen::MatrixXd& matrix, double factor) {
   return result;
 }
 
-// Energies of pairs of modes, those of displacements first.
+// Returns the energies of pairs of modes, displacements first.
 Eigen::MatrixXd energies_of(Vec3 size_mm, const Integrals& integrals, double shear_mpa, double bulk_mpa) {
   const std::vector<Mode> modes = modes_of(size_mm, integrals);
   constexpr auto all = static_cast<Eigen::Index>(node_modes + enhanced_modes);

@@ -16,7 +16,7 @@ constexpr Module mumps{"ombre_mumps",      "MUMPS",
                        "direct solutions", "libmumps-seq-dev and libmetis-dev",
                        "OMBRE_MUMPS",      "solve by multigrid"};
 
-// Operations a second are so many times those of a product of matrices: measured 0.4 to 0.8.
+// Speed of a factorisation, as a share of that of a product of matrices: measured 0.4 to 0.8.
 constexpr double usual_share = 0.5;
 
 enum class Step : uint8_t { analyse, factorise, solve };
@@ -39,7 +39,7 @@ void number_unknowns(const BrickOperator& stiffness, ElementEquations& equations
   }
 }
 
-// The stiffness of a brick, row by row.
+// Computes the stiffness matrix of a brick, row by row.
 void brick_matrix(const BrickOperator& stiffness, size_t brick, std::vector<double>& matrix) {
   const size_t size = 8 * stiffness.unknowns();
   matrix.resize(size * size);
@@ -51,7 +51,7 @@ void brick_matrix(const BrickOperator& stiffness, size_t brick, std::vector<doub
   }
 }
 
-// What is added to the diagonal comes with the first brick of each node.
+// The addition to a node's diagonal comes with its first brick.
 template <class Real>
 std::vector<Real> element_matrices(const BrickOperator& stiffness, const ElementEquations& equations) {
   std::vector<Real> matrices;
@@ -99,7 +99,7 @@ double element_matrix_bytes(const BrickOperator& stiffness) {
 
 namespace {
 
-// Lives in the helper process.
+// The factorisation within the helper process.
 class Server {
  public:
   Server(const BrickOperator& stiffness, decltype(ombre_make_factoriser)* make) : stiffness_(stiffness), make_(make) {}
@@ -171,7 +171,7 @@ Factorisation::Factorisation(const BrickOperator& stiffness, Progress* progress,
 
 Factorisation::~Factorisation() = default;
 
-// While it waits, progress goes with the time that is expected, if it is known.
+// While it waits, progress follows the expected time, if that is known.
 std::string Factorisation::ask(const std::string& request, const std::string& step, double expected_seconds) {
   const Stopwatch watch;
   const auto tell = [&] {
@@ -202,7 +202,7 @@ bool Factorisation::factorise(bool on_disk, Precision precision) {
 }
 
 void Factorisation::apply(const Vector& forces, Vector& displacements) {
-  // Within what single precision holds, however small they are.
+  // The scale brings numbers into the range of single precision, however small they are.
   double scale = 0;
   for (const double force : forces) scale = std::max(scale, std::abs(force));
   displacements.assign(forces.size(), 0);

@@ -1,5 +1,5 @@
-// The equations of bricks by a factorisation of their matrix as a preconditioner: one to three iterations are enough
-// then, whatever the materials and shapes.
+// Factorises the matrix of bricks as a preconditioner. With it one to three iterations are enough, whatever the
+// materials and shapes.
 #pragma once
 
 #include <memory>
@@ -14,25 +14,25 @@
 
 namespace ombre::fea {
 
-// Is MUMPS in this build? What a person reads where it is not.
+// has_factorisations() is true if this build has MUMPS; the text is for people if it does not.
 bool has_factorisations();
 std::string without_factorisations();
-// And can it be used for these bricks? Not where a brick touches itself.
+// True if these bricks can be factorised: no brick may touch itself.
 bool can_factorise(const BrickOperator& stiffness);
-// The memory that the matrices of the bricks take, less than all that a factorisation takes.
+// Returns the memory that the matrices of the bricks take, which is less than a factorisation takes.
 double element_matrix_bytes(const BrickOperator& stiffness);
 
-// MUMPS cannot be stopped, and says nothing while it works: it runs in a process of its own.
+// A factorisation in a process of its own, since MUMPS cannot be stopped and reports nothing while it works.
 class Factorisation : public Preconditioner {
  public:
-  // Orders and counts. What is passed must live as long, and so must the thread; `progress` and `stop` may be null. A
-  // request to stop ends all members soon with Cancelled.
+  // Orders and counts the operations. The arguments and the thread must outlive the object; `progress` and `stop` may
+  // be null. After a request to stop, all members end soon with Cancelled.
   Factorisation(const BrickOperator& stiffness, Progress* progress, const StopFlag* stop);
   ~Factorisation() override;
 
   const FactorisationCost& cost() const { return cost_; }
-  // Keeps the factor in a temporary folder or in memory. Returns false where the precision is not enough. Throws Error
-  // when memory or the disk is short.
+  // Factorises, and keeps the factor in a temporary folder or in memory. Returns false if the precision is not enough.
+  // Throws Error when memory or the disk is short.
   bool factorise(bool on_disk, Precision precision);
   void apply(const Vector& forces, Vector& displacements) override;
 
@@ -43,7 +43,7 @@ class Factorisation : public Preconditioner {
   Progress* progress_;
   const StopFlag* stop_;
   std::optional<TemporaryFolder> folder_;
-  std::unique_ptr<Helper> helper_;  // ends before its folder goes
+  std::unique_ptr<Helper> helper_;  // declared after its folder, so that it ends first
   FactorisationCost cost_;
 };
 

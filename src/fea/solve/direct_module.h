@@ -1,4 +1,4 @@
-// Between Factorisation and the module that holds MUMPS and METIS.
+// The interface between Factorisation and the module that holds MUMPS and METIS.
 #pragma once
 
 #include <cstdint>
@@ -10,38 +10,38 @@ namespace ombre::fea {
 
 // A symmetric matrix as a sum over elements. Unknowns have numbers from 1.
 struct ElementEquations {
-  size_t nodes = 0, unknowns = 0;  // of a node
-  std::vector<int> numbers;        // of each unknown of each node; 0: held
+  size_t nodes = 0, unknowns = 0;  // `unknowns`: of a node
+  std::vector<int> numbers;        // number of each unknown of each node; 0: held
   size_t nodes_of_element = 0;
-  std::vector<int> element_nodes;       // from 0, of one element after another
-  std::vector<int> begins{1}, members;  // the free unknowns of an element are members[begins[n] - 1] and on
-  // Of one element after another: its lower triangle, column by column; in the precision that is factorised.
+  std::vector<int> element_nodes;       // nodes from 0, of one element after another
+  std::vector<int> begins{1}, members;  // the free unknowns of element n begin at members[begins[n] - 1]
+  // The lower triangle of the matrix of one element after another, column by column, in the precision that is
+  // factorised.
   std::vector<float> matrices;
   std::vector<double> double_matrices;
 
-  int size = 0;  // free unknowns
+  int size = 0;  // number of free unknowns
 };
 
-// Single precision is enough for a preconditioner, unless the equations are too near to having no single solution for
-// it, as those of thin plates are.
+// The precision of a factorisation. Single precision is enough for a preconditioner, unless the equations are too near
+// to singular for it, as those of thin plates are.
 enum class Precision : uint8_t { single, twofold };
 
-// What a factorisation takes, in single precision.
+// The cost of a factorisation in single precision.
 struct FactorisationCost {
-  double operations = 0;                // of floating point
-  double bytes = 0, bytes_on_disk = 0;  // of memory, with the factor in it or on disk
+  double operations = 0;                // floating-point operations
+  double bytes = 0, bytes_on_disk = 0;  // memory, with the factor in memory or on disk
   double factor_bytes = 0;
-  double operations_a_second = 0;  // of a product of matrices on this machine; 0 where it is not known
+  double operations_a_second = 0;  // speed of a product of matrices on this machine; 0 if unknown
 };
 
-// Throws Error from all of them.
+// A factorisation of element equations. All members throw Error.
 class Factoriser {
  public:
   virtual ~Factoriser() = default;
-  // Of what is analysed when it is made: matrices may be empty until factorise().
+  // Returns the cost by the analysis that the constructor makes; matrices may be empty until factorise().
   virtual FactorisationCost cost() const = 0;
-  // With a folder the factor is kept in files there.
-  // Returns false where the precision is not enough.
+  // Factorises. With a folder the factor is kept in files there. Returns false if the precision is not enough.
   virtual bool factorise(const std::string& folder, Precision precision) = 0;
   // Replaces the right side by the solution.
   virtual void solve(std::vector<double>& values) = 0;
@@ -49,6 +49,6 @@ class Factoriser {
 
 }  // namespace ombre::fea
 
-// The function that the module exports: orders and analyses equations, which must live as long.
+// The function that the module exports: orders and analyses equations, which must outlive the factoriser.
 extern "C" void ombre_make_factoriser(ombre::fea::ElementEquations* equations,
                                       std::unique_ptr<ombre::fea::Factoriser>* made);

@@ -24,7 +24,7 @@ constexpr Elastic rigid{2850, 0.39, 0};
 
 bool is_near(double a, double b) { return std::abs(a - b) < 1e-9; }
 
-// The patch test: displacements that are linear on the border are linear within, whatever the shape of the bricks.
+// The patch test: displacements that are linear on the border are linear inside, whatever the shape of the bricks.
 TEST(Elastic, LinearDisplacementsAreExact) {
   const Model model = model_of(block({4, 3, 5}, {1, 0.5, 2}, {-3, 1, 7}), rigid);
   const auto linear = [](Vec3 p) {
@@ -39,7 +39,7 @@ TEST(Elastic, LinearDisplacementsAreExact) {
     const Vec3 wanted = linear(model.bricks.node(n)), got = solution.displacement_mm[n];
     EXPECT_LT(length(got - wanted), 1e-8);
   }
-  // Hooke's law for these strains.
+  // Hooke's law for these strains gives the expected stresses.
   const double lambda = 2850 * 0.39 / (1.39 * 0.22), mu = 2850 / (2 * 1.39), trace = 3e-3;
   for (const auto& stress : solution.stress_mpa) {
     EXPECT_NEAR(stress[0], lambda * trace + 2 * mu * 1e-3, 1e-5);
@@ -51,7 +51,7 @@ TEST(Elastic, LinearDisplacementsAreExact) {
   }
 }
 
-// A bar under tension: F / (E A) long, nu of it narrower, and its energy is half the work.
+// A bar under tension stretches by F / (E A) of its length, narrows by nu of that, and its energy is half the work.
 TEST(Elastic, BarsStretchByHookesLaw) {
   const Model model = model_of(block({2, 2, 10}, {1, 1, 1}), rigid);
   Conditions conditions;
@@ -78,8 +78,8 @@ TEST(Elastic, BarsStretchByHookesLaw) {
   EXPECT_NEAR(reaction, -400, 1e-5);
 }
 
-// Two materials without lateral contraction, one above the other and side by side: their compliances add up, or their
-// stiffnesses.
+// Two materials without lateral contraction lie one above the other, so their compliances add up, or side by side, so
+// their stiffnesses do.
 TEST(Elastic, MaterialsInSeriesAndParallel) {
   for (const bool in_series : {true, false}) {
     Model model = model_of(block({4, 4, 4}, {0.5, 0.5, 0.5}), {1000, 0, 0});
@@ -97,7 +97,7 @@ TEST(Elastic, MaterialsInSeriesAndParallel) {
   }
 }
 
-// How far the end of a cantilever of 40 x 4 x 4 mm sinks under 1 N, with so many bricks along its height.
+// Returns the deflection at the end of a cantilever of 40 x 4 x 4 mm under 1 N, with `fine` bricks along its height.
 double end_sinks(double e, double nu, int32_t fine) {
   const double l = 40, h = 4, size = h / fine;
   const Model model = model_of(block({10 * fine, fine, fine}, {size, size, size}), {e, nu, 0});
@@ -106,7 +106,7 @@ double end_sinks(double e, double nu, int32_t fine) {
       [&](Vec3 p) {
         return Vec3{0, is_near(p.y, h / 2) ? 0 : free_axis, is_near(p.z, h / 2) ? 0 : free_axis};
       });
-  const auto share = [&](Vec3 p) {  // of the end's area
+  const auto share = [&](Vec3 p) {  // share of the end's area
     const auto along = [&](double at) { return (is_near(at, 0) || is_near(at, h) ? 0.5 : 1.0) / fine; };
     return is_near(p.x, l) ? along(p.y) * along(p.z) : 0;
   };
@@ -119,7 +119,7 @@ double end_sinks(double e, double nu, int32_t fine) {
   return sinks;
 }
 
-// F L^3 / (3 E I) + F L / (kappa G A), kappa = 10 (1 + nu) / (12 + 11 nu) (Timoshenko; Cowper, 1966).
+// Returns F L^3 / (3 E I) + F L / (kappa G A) with kappa = 10 (1 + nu) / (12 + 11 nu) (Timoshenko; Cowper, 1966).
 double end_sinks_in_theory(double e, double nu) {
   const double l = 40, h = 4, kappa = 10 * (1 + nu) / (12 + 11 * nu), g = e / (2 * (1 + nu));
   return l * l * l / (3 * e * h * h * h * h / 12) + l / (kappa * g * h * h);
@@ -157,7 +157,7 @@ TEST(Elastic, NearlyIncompressibleBlocksDoNotLock) {
   EXPECT_LT(forces[1], 1.1 * forces[0]);
 }
 
-// Draws of two materials that differ 10,000 times, as dithered prints have them.
+// Random draws of two materials whose moduli differ 10,000 times, as in dithered prints.
 Model dithered(int32_t count) {
   Model model = model_of(block({count, count, count}, {0.3, 0.3, 0.3}), rigid);
   model.sections.push_back({"soft", {0.285, 0.45, 0}});
@@ -212,7 +212,7 @@ TEST(Elastic, MultigridKeepsIterationsFew) {
   EXPECT_LT(iterations[2], iterations[0] + 10);
 }
 
-// Thin struts of materials that differ 7,400 times, which coarse grids do not see.
+// Thin struts of materials that differ 7,400 times, which coarse grids do not resolve.
 Model graded_lattice() {
   constexpr int32_t size = 16, cell = 8;
   std::vector<Cell> cells;
@@ -231,7 +231,7 @@ Model graded_lattice() {
   return model;
 }
 
-// The sum of what holds the bottom.
+// Returns the sum of the reactions at the bottom.
 double force_of(const Solution& solution, const Bricks& bricks) {
   double force = 0;
   for (const Prescribed& here : solution.reactions_n)
@@ -239,7 +239,7 @@ double force_of(const Solution& solution, const Bricks& bricks) {
   return force;
 }
 
-// The deflection of a strip's end under a force of 1 N, by the work of the force.
+// Returns the deflection of a strip's end under a force of 1 N, by the work of the force.
 double deflection(const Model& model) {
   Diagnostics diagnostics;
   const auto data = parse_json(make_source("strip.json", R"({
@@ -253,8 +253,9 @@ double deflection(const Model& model) {
   return work;
 }
 
-// Timoshenko's beam of 20 x 4 x 1 mm and 1000 MPa, without Poisson's effect: F L^3 / (3 E I) = 8 mm, and 0.012 of
-// shear, F L / (5/6 G A). Bricks as thick as the strip, or twice, bend as it does, since they have linear strains.
+// Timoshenko's beam of 20 x 4 x 1 mm and 1000 MPa, without Poisson's effect, bends by F L^3 / (3 E I) = 8 mm, and by
+// 0.012 from shear, F L / (5/6 G A). Bricks as thick as the strip, or twice as thick, bend as it does, since they have
+// linear strains.
 TEST(Elastic, StripsBendByTheirThicknessWhateverTheBricks) {
   for (const double brick_mm : {2.0, 1.0, 0.8, 0.5}) {
     const Model model = model_of(test::cut_block({20, 4, 1}, brick_mm), {1000, 0});
@@ -263,13 +264,13 @@ TEST(Elastic, StripsBendByTheirThicknessWhateverTheBricks) {
   }
 }
 
-// A strip of full bricks, of which one lies across, is as thick as they are, and too stiff.
+// A strip of full bricks, one across, is as thick as they are, and too stiff.
 TEST(Elastic, FullBricksAreAsThickAsTheyAre) {
   const double wanted = 4.0 * 20 * 20 * 20 / (1000 * 4.0 * 8);
   EXPECT_NEAR(deflection(model_of(block({10, 2, 1}, {2, 2, 2}), {1000, 0})), wanted, 0.15 * wanted);
 }
 
-// An even strain gives an even stress, however bricks are cut.
+// A uniform strain gives a uniform stress, however bricks are cut.
 TEST(Elastic, CutBricksPassThePatchTest) {
   Bricks bricks = block({3, 3, 3}, {1, 1.5, 0.75});
   for (size_t n = 0; n < bricks.count(); ++n) bricks.fills.push_back(n % 2 == 0 ? full_fill : full_fill << (n + 1));
@@ -306,7 +307,7 @@ TEST(Elastic, AFactorisationGivesWhatMultigridGives) {
   ASSERT_TRUE(quick.direct);
   options.threads = 1;
   EXPECT_EQ(solve(model, compressed(model.bricks), options).displacement_mm, quick.displacement_mm);
-  // Less memory than the factor takes: it goes to the disk.
+  // The memory is less than the factor takes, so it goes to the disk.
   options.memory_bytes = quick.direct->memory_bytes - 1;
   const Solution beside = solve(model, compressed(model.bricks), options);
   EXPECT_NEAR(beside.energy_mj, quick.energy_mj, 1e-7 * quick.energy_mj);
@@ -343,7 +344,7 @@ TEST(Elastic, ThinPlatesAreFactorisedInDoublePrecision) {
     const Solution found = solve(model, *conditions, {1e-9, 20000, 2, solver});
     EXPECT_NEAR(found.energy_mj, slow.energy_mj, 1e-5 * slow.energy_mj);
   }
-  // Without room for it multigrid goes on.
+  // If there is no room for the factor, multigrid goes on.
   EXPECT_NEAR(solve(model, *conditions, {1e-9, 20000, 2, Solver::automatic, 1e5}).energy_mj, slow.energy_mj,
               1e-5 * slow.energy_mj);
 }

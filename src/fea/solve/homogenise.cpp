@@ -38,22 +38,23 @@ Matrix6 isotropic(const Moduli& moduli) {
   return matrix;
 }
 
-// Inverts a symmetric matrix; nothing where it is not positive definite but for rounding.
+// Inverts a symmetric matrix; returns nothing if it is not positive definite within rounding.
 std::optional<Matrix6> inverse(const Matrix6& matrix) {
-  constexpr double least_share = 1e-9;  // of the greatest number, that a pivot must have
+  constexpr double least_share = 1e-9;  // least pivot, as a share of the greatest number
   const Eigen::LDLT<Matrix6> factor(matrix);
   const double greatest = matrix.cwiseAbs().maxCoeff();
   if (!(factor.vectorD().minCoeff() > least_share * greatest)) return std::nullopt;
   return factor.solve(Matrix6::Identity());
 }
 
-// Displacements of an even strain.
+// Returns the displacement of a uniform strain.
 Vec3 even(const Strain& e, Vec3 p) {
   return {e[0] * p.x + 0.5 * (e[3] * p.y + e[5] * p.z), e[1] * p.y + 0.5 * (e[3] * p.x + e[4] * p.z),
           e[2] * p.z + 0.5 * (e[5] * p.x + e[4] * p.y)};
 }
 
-// Displacements of a brick's nodes under an even strain; about its middle, since forces do not depend on where it is.
+// Returns displacements of a brick's nodes under a uniform strain, about its middle, since forces do not depend on its
+// place.
 BrickVector even_in_brick(const Strain& strain, Vec3 size_mm) {
   BrickVector u{};
   for (size_t c = 0; c < 8; ++c) {
@@ -87,14 +88,14 @@ class Cell6 {
       add_column(load, strain, x, cells * bricks.volume_mm3(), result.stiffness_mpa);
       if (progress_) progress_->update({load + 1, 6});
     }
-    // The two halves differ by what the iterations left.
+    // The two halves of the matrix differ by the error that iterations leave, so their mean is taken.
     const Matrix6 found = matrix_of(result.stiffness_mpa);
     result.stiffness_mpa = stiffness_of(0.5 * (found + found.transpose()));
     return result;
   }
 
  private:
-  // One node is held, since even displacements change nothing.
+  // One node is held, since uniform displacements change nothing.
   static BrickOperator operator_of(const Model& model, int threads) {
     std::vector<Moduli> moduli;
     for (size_t n = 0; n < model.bricks.count(); ++n)
@@ -111,7 +112,7 @@ class Cell6 {
     return f;
   }
 
-  // Returns the forces that an even strain lacks to balance.
+  // Returns the forces that are missing for balance under a uniform strain.
   Vector forces_of(const Strain& strain) const {
     Vector forces(operator_.size());
     const BrickVector u = even_in_brick(strain, model_.bricks.size_mm);
@@ -124,7 +125,7 @@ class Cell6 {
     return forces;
   }
 
-  // Mean stresses are the work that even strains do on the forces.
+  // Computes a column of the stiffness: mean stresses are the work of uniform strains on the forces.
   void add_column(size_t load, const Strain& strain, const Vector& x, double volume_mm3, Stiffness& stiffness) const {
     std::array<BrickVector, 6> tests;
     for (size_t n = 0; n < 6; ++n) {
@@ -203,7 +204,7 @@ double modulus_along(const Stiffness& stiffness, Vec3 direction) {
   const auto compliance = inverse(matrix_of(stiffness));
   if (!compliance) return 0;
   const Vec3 d = (1 / length(direction)) * direction;
-  // The strain along d of a pull of 1 along it.
+  // The result is one over the strain along d under a stress of 1 along d.
   Eigen::Matrix<double, 6, 1> pull;
   pull << d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.y * d.z, d.z * d.x;
   return 1 / pull.dot(*compliance * pull);

@@ -8,7 +8,7 @@ namespace {
 
 using BrickValues = std::array<double, 8>;
 
-// Values at a brick's nodes that rise by 1 for each mm along an axis; about its middle.
+// Returns values at a brick's nodes that rise by 1 for each mm along an axis, about its middle.
 BrickValues rising(size_t axis, Vec3 size_mm) {
   BrickValues values{};
   for (size_t c = 0; c < 8; ++c) values[c] = (brick_corners[c][axis] - 0.5) * size_mm[static_cast<int>(axis)];
@@ -26,7 +26,7 @@ class ConductingCell {
   void add_column(size_t axis, HomogenisedConductivity& result) {
     Vector x(operator_.size());
     result.iterations += gradients_.run(flows_lacking(axis), x).iterations;
-    // Mean fluxes are the work that even gradients do on the flows.
+    // Mean fluxes are the work of uniform gradients on the flows.
     for (size_t n = 0; n < model_.bricks.count(); ++n) {
       BrickValues values = rising_[axis];
       for (size_t c = 0; c < 8; ++c) values[c] += x[model_.bricks.nodes[n][c]];
@@ -55,7 +55,7 @@ class ConductingCell {
     return 1.0 * period[0] * period[1] * period[2];
   }
 
-  // One node is held, since an even value changes nothing.
+  // One node is held, since a uniform value changes nothing.
   static BrickOperator operator_of(const Model& model, int threads) {
     std::vector<Moduli> conductivities;
     for (size_t n = 0; n < model.bricks.count(); ++n)
@@ -76,7 +76,7 @@ class ConductingCell {
     return flows;
   }
 
-  // Returns the flows that an even gradient lacks to balance.
+  // Returns the flows that are missing for balance under a uniform gradient.
   Vector flows_lacking(size_t axis) const {
     Vector lacking(operator_.size());
     for (size_t n = 0; n < model_.bricks.count(); ++n) {
@@ -105,7 +105,7 @@ HomogenisedConductivity homogenise_conductivity(const Model& model, const SolveO
     cell.add_column(axis, result);
     if (progress) progress->update({axis + 1, 3});
   }
-  // The two halves differ by what the iterations left.
+  // The two halves of the matrix differ by the error that iterations leave, so their mean is taken.
   for (size_t a = 0; a < 3; ++a)
     for (size_t b = 0; b < a; ++b)
       result.conductivity[a][b] = result.conductivity[b][a] =

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// A block that repeats, whose bricks get their section, or none, by a rule.
+// Returns a periodic block; a rule gives each cell its section, or none.
 Model periodic(Cell count, const std::vector<Section>& sections, const std::function<int(Cell)>& section_at,
                Vec3 size_mm = {1, 1, 1}) {
   std::vector<Cell> cells;
@@ -57,7 +57,7 @@ TEST(Homogenise, OneMaterialIsItself) {
   EXPECT_NEAR(modulus_along(found.stiffness_mpa, {1, 2, -3}), 2850, 1e-2);
 }
 
-// Layers across z (Backus, 1962): their stresses along z and strains in the plane are even.
+// For layers across z (Backus, 1962) stresses along z and strains in the plane are uniform.
 TEST(Homogenise, LayersAreExact) {
   const Elastic stiff{2850, 0.39, 0}, soft{10, 0.2, 0};
   const auto is_stiff = [](Cell cell) { return cell[2] < 2; };  // 2 of 8 layers
@@ -119,7 +119,7 @@ TEST(Homogenise, BallsLieBetweenTheBoundsOfHashinAndShtrikman) {
   EXPECT_GT(constants->universal_anisotropy, 0);
 }
 
-// Columns along z are held together by nothing: they bear their own load, and none across.
+// Columns along z are not connected: they carry load along z, and none across.
 TEST(Homogenise, VoidBearsNothing) {
   const Elastic elastic{100, 0, 0};
   const Homogenised found =
@@ -132,7 +132,7 @@ TEST(Homogenise, VoidBearsNothing) {
 
 Section conducting(double conductivity) { return {"one", {}, conductivity}; }
 
-// Across layers resistances add, along them conductances.
+// Resistances add across layers, conductances along them.
 TEST(Homogenise, LayersConductInSeriesAndParallel) {
   const HomogenisedConductivity found = homogenise_conductivity(
       periodic({3, 6, 8}, {conducting(15), conducting(0.2)}, [](Cell c) { return c[2] < 2 ? 0 : 1; }, {1, 2, 0.5}),
@@ -146,8 +146,8 @@ TEST(Homogenise, LayersConductInSeriesAndParallel) {
   EXPECT_NEAR(found.harmonic_mean, across, 1e-12);
 }
 
-// Balls that conduct better than the matrix lie between the bounds of Hashin and Shtrikman (1962), of which the lower
-// one is also Maxwell's formula for thinly spread balls, and so close.
+// The conductivity of balls that conduct better than the matrix lies between the bounds of Hashin and Shtrikman (1962).
+// The lower one is also Maxwell's formula for sparse balls, and so close.
 TEST(Homogenise, ConductingBallsLieBetweenTheBoundsOfHashinAndShtrikman) {
   constexpr int32_t n = 24;
   size_t inside = 0;
@@ -171,7 +171,7 @@ TEST(Homogenise, ConductingBallsLieBetweenTheBoundsOfHashinAndShtrikman) {
   EXPECT_NEAR(found.conductivity[2][2], k, 1e-6);
 }
 
-// Columns along z conduct along themselves alone.
+// Columns along z conduct only along z.
 TEST(Homogenise, VoidConductsNothing) {
   const HomogenisedConductivity found = homogenise_conductivity(
       periodic({4, 4, 4}, {conducting(8)}, [](Cell c) { return c[0] < 2 && c[1] < 2 ? 0 : -1; }), {1e-12});

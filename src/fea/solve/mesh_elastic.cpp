@@ -17,14 +17,14 @@ LameModuli lame_moduli(const Elastic& elastic) {
   return {e / (2 * (1 + nu)), e / (3 * (1 - 2 * nu))};
 }
 
-// block += a times the product of two vectors.
+// Adds a times the outer product of two vectors to block.
 void add_outer(double a, Vec3 row, Vec3 column, NodeBlock& block) {
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 3; ++j) block[3 * i + j] += a * row[static_cast<int>(i)] * column[static_cast<int>(j)];
 }
 
-// The stiffness between node a and all: shear at each point, less its part of the change of volume, which hexahedra
-// have as a mean.
+// Adds the stiffness between node a and all nodes. The shear part at each point has no change of volume; hexahedra have
+// the mean change of volume.
 void add_stiffness(const LameModuli& moduli, bool has_mean_volume, const ElementPoints& points, size_t node_count,
                    size_t a, std::array<NodeBlock, 10>& blocks) {
   std::array<Vec3, 10> means{};

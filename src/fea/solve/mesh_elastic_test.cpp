@@ -34,7 +34,7 @@ TEST(MeshElastic, LinearDisplacementsAreExact) {
     const Solution solution = solve_mesh(model, held(model.mesh, on_border, linear), {});
     for (size_t n = 0; n < model.mesh.points.size(); ++n)
       EXPECT_LT(length(linear(model.mesh.points[n]) - solution.displacement_mm[n]), 1e-9);
-    // Hooke's law for these strains.
+    // Hooke's law for these strains gives the expected stresses.
     const double lambda = 2850 * 0.39 / (1.39 * 0.22), mu = 2850 / (2 * 1.39), trace = 3e-3;
     for (const auto& stress : solution.stress_mpa) {
       EXPECT_NEAR(stress[0], lambda * trace + 2 * mu * 1e-3, 1e-5);
@@ -67,7 +67,7 @@ TEST(MeshElastic, BricksGiveWhatMultigridGives) {
     EXPECT_NEAR(multigrid.reactions_n[n].value, assembled.reactions_n[n].value, 1e-6);
 }
 
-// A bar under its own weight: its end sinks by density g L^2 / (2 E), its upper end holds the weight.
+// A bar hangs under its own weight: its end sinks by density g L^2 / (2 E), and its upper end carries the weight.
 TEST(MeshElastic, BarsHangUnderTheirWeight) {
   for (const ElementKind kind : all_kinds) {
     const MeshModel model = mesh_model_of(block_of(kind, {2, 2, 20}, {1, 1, 1}), {100, 0, 2e-9});
@@ -91,13 +91,13 @@ TEST(MeshElastic, BarsHangUnderTheirWeight) {
   }
 }
 
-// F L^3 / (3 E I) + F L / (kappa G A), kappa = 10 (1 + nu) / (12 + 11 nu) (Timoshenko; Cowper, 1966).
+// Returns F L^3 / (3 E I) + F L / (kappa G A) with kappa = 10 (1 + nu) / (12 + 11 nu) (Timoshenko; Cowper, 1966).
 double tip_in_theory(double e, double nu) {
   const double l = 20, h = 4, kappa = 10 * (1 + nu) / (12 + 11 * nu), g = e / (2 * (1 + nu));
   return l * l * l / (3 * e * h * h * h * h / 12) + l / (kappa * g * h * h);
 }
 
-// How far the end of a cantilever of 20 x 4 x 4 mm sinks under 1 N.
+// Returns the deflection at the end of a cantilever of 20 x 4 x 4 mm under 1 N.
 double tip_sinks(ElementKind kind, int32_t fine) {
   const double size = 4.0 / fine;
   const MeshModel model = mesh_model_of(block_of(kind, {5 * fine, fine, fine}, {size, size, size}), {1000, 0, 0});
@@ -121,11 +121,11 @@ double tip_sinks(ElementKind kind, int32_t fine) {
   double work = 0;
   for (const Prescribed& force : conditions->forces)
     work += force.value * solution.displacement_mm[force.node][force.axis];
-  return work;  // of 1 N
+  return work;  // work of a force of 1 N
 }
 
-// Plain tetrahedra are too stiff, hexahedra less so; both come nearer with the square of their size. Quadratic ones are
-// near at once.
+// Plain tetrahedra are too stiff, hexahedra less so; the errors of both fall with the square of their size. Quadratic
+// tetrahedra are close at once.
 TEST(MeshElastic, CantileversBendAsTheorySays) {
   const double theory = tip_in_theory(1000, 0);
   const auto error = [&](ElementKind kind, int32_t fine) { return tip_sinks(kind, fine) / theory - 1; };
@@ -138,7 +138,7 @@ TEST(MeshElastic, CantileversBendAsTheorySays) {
 }
 
 // Kirsch's plate under tension along x (Timoshenko and Goodier: Theory of Elasticity, 1951): a quarter of a ring of
-// radii 1 and 4, plane strain, whose outer border moves as that of an endless plate.
+// radii 1 and 4 in plane strain, whose outer border moves as in an infinite plate.
 Vec3 kirsch(Vec3 p, double shear, double nu) {
   const double r = std::hypot(p.x, p.y), t = std::atan2(p.y, p.x), k = 3 - 4 * nu, r3 = r * r * r;
   const double x =
@@ -148,7 +148,7 @@ Vec3 kirsch(Vec3 p, double shear, double nu) {
   return {x / (8 * shear), y / (8 * shear), 0};
 }
 
-// The mean error of the nodes' displacements in those of the border.
+// Returns the mean error of the nodes' displacements, relative to those of the border.
 double plate_error(ElementKind kind, int32_t fine) {
   const double nu = 0.3, shear = 1000 / (2 * (1 + nu));
   Mesh mesh =
@@ -178,7 +178,7 @@ double plate_error(ElementKind kind, int32_t fine) {
   return std::sqrt(sum / scale);
 }
 
-// Displacements converge with the square of the size at least.
+// Displacements converge at least with the square of the size.
 TEST(MeshElastic, KirschsPlateConverges) {
   for (const ElementKind kind : all_kinds) {
     const double coarse = plate_error(kind, 8), fine = plate_error(kind, 16);
@@ -187,8 +187,8 @@ TEST(MeshElastic, KirschsPlateConverges) {
   }
 }
 
-// A nearly incompressible block under a plate that cannot slip: quadratic tetrahedra come near to bricks with the mean
-// change of volume; plain ones lock.
+// A nearly incompressible block lies under a plate that cannot slip: quadratic tetrahedra come near to bricks with the
+// mean change of volume; plain ones lock.
 TEST(MeshElastic, QuadraticTetrahedraHoldUpTo049) {
   const auto force = [](ElementKind kind) {
     const MeshModel model = mesh_model_of(block_of(kind, {4, 4, 4}, {1, 1, 1}), {1, 0.49, 0});

@@ -10,10 +10,10 @@
 namespace ombre::fea {
 namespace {
 
-constexpr size_t most_direct_nodes = 300;  // of a level that is solved at once
-constexpr size_t degree = 3;               // of the smoothing polynomial
-constexpr double smoothed_share = 0.1;     // of the spectrum, from its upper end, is left as it is
-constexpr double spectrum_room = 1.1;      // above the estimate
+constexpr size_t most_direct_nodes = 300;  // nodes of a level that is solved directly
+constexpr size_t degree = 3;               // degree of the smoothing polynomial
+constexpr double smoothed_share = 0.1;     // the smoother reduces the spectrum from this share of its upper end on
+constexpr double spectrum_room = 1.1;      // safety factor on the estimated spectrum
 constexpr int power_rounds = 12;
 
 // A fine node's place in a coarse brick: its offset in fine bricks from the brick's least corner, 0 to 2 along each
@@ -29,7 +29,7 @@ bool can_halve(const Cell& period) {
   return std::ranges::none_of(period, [](int32_t along) { return (along & 1) != 0; });
 }
 
-// Shares of a fine node that the corners of its parent have.
+// Returns the weights of the corners of the coarse brick at a fine node.
 std::array<double, 8> weights_at(const std::array<uint8_t, 3>& offset) {
   std::array<double, 8> weights{};
   for (size_t c = 0; c < 8; ++c) {
@@ -42,7 +42,7 @@ std::array<double, 8> weights_at(const std::array<uint8_t, 3>& offset) {
   return weights;
 }
 
-// The coarse bricks, their moduli, and where fine nodes lie in them.
+// The coarse bricks, their moduli, and the places of fine nodes in them.
 struct Coarse {
   Bricks bricks;
   std::vector<Moduli> moduli;
@@ -51,7 +51,7 @@ struct Coarse {
   Vector more_diagonal;
 };
 
-// What comes to the diagonal of a node's own comes to the coarse nodes around by their shares.
+// Distributes a node's addition to the diagonal to the coarse nodes around by their weights.
 void coarsen_diagonal(const BrickOperator& fine, Coarse& coarse) {
   if (fine.more_diagonal().empty()) return;
   const size_t unknowns = fine.unknowns();
@@ -89,7 +89,7 @@ Coarse coarsen(const BrickOperator& fine) {
         of_node.offset[axis] = static_cast<uint8_t>(bricks.cells[n][axis] + brick_corners[c][axis] - 2 * cell[axis]);
     }
   }
-  // A coarse node is held as the fine node in its place.
+  // A coarse node is held if the fine node in its place is.
   const size_t unknowns = fine.unknowns();
   coarse.free.assign(unknowns * coarse.bricks.node_count(), 1);
   for (size_t node = 0; node < bricks.node_count(); ++node) {
@@ -104,7 +104,7 @@ Coarse coarsen(const BrickOperator& fine) {
   return coarse;
 }
 
-// Numbers from -0.5 to 0.5 with all frequencies, by the last step of splitmix64 (Steele, Lea and Flood, 2014).
+// Returns numbers from -0.5 to 0.5 with all frequencies, by the last step of splitmix64 (Steele, Lea and Flood, 2014).
 double noise(uint64_t n) {
   n = (n + 1) * 0x9e3779b97f4a7c15U;
   n = (n ^ (n >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -114,7 +114,7 @@ double noise(uint64_t n) {
 
 using Factor = Eigen::LDLT<Eigen::MatrixXd>;
 
-// Unknowns that are held, or that nothing decides, have pivots of 0, and become 0.
+// Factorises a level. Unknowns that are held or undetermined have pivots of 0, and become 0.
 Factor factor_of(const BrickOperator& level) {
   const auto size = static_cast<Eigen::Index>(level.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
@@ -134,10 +134,10 @@ Factor factor_of(const BrickOperator& level) {
 
 struct Multigrid::Level {
   const BrickOperator* fine = nullptr;
-  std::unique_ptr<BrickOperator> own;  // of all but the finest
-  std::vector<Parent> parents;         // of its nodes in the next level
-  std::optional<Factor> direct;        // of the last
-  double spectrum = 0;                 // the greatest eigenvalue of diagonal^-1 stiffness, about
+  std::unique_ptr<BrickOperator> own;  // operator of all levels but the finest
+  std::vector<Parent> parents;         // places of its nodes in the next level
+  std::optional<Factor> direct;        // factor of the last level
+  double spectrum = 0;                 // about the greatest eigenvalue of diagonal^-1 stiffness
   Vector residual, step, forces, below, coarse_forces, coarse_displacements;
 
   void find_spectrum(const StopFlag* stop) {
@@ -155,8 +155,7 @@ struct Multigrid::Level {
     }
   }
 
-  // Chebyshev's polynomial in the stiffness and its diagonal (Adams et al., 2003), from displacements that are 0 at
-  // first or `x`.
+  // Applies Chebyshev's polynomial in the stiffness and its diagonal (Adams et al., 2003), from displacements 0 or `x`.
   void smooth(const Vector& right, Vector& x, bool from_zero) {
     const double upper = spectrum_room * spectrum, lower = smoothed_share * spectrum;
     const double middle = 0.5 * (upper + lower), radius = 0.5 * (upper - lower);
@@ -183,7 +182,7 @@ struct Multigrid::Level {
     }
   }
 
-  // residual = right - stiffness x
+  // Computes residual = right - stiffness x.
   void subtract_forces(const Vector& right, const Vector& x) {
     fine->forces(x, forces);
     residual.resize(right.size());
@@ -230,7 +229,7 @@ Multigrid::Multigrid(const BrickOperator& finest, const StopFlag* stop) : stop_(
     const BrickOperator& fine = *levels_.back()->fine;
     if (!can_halve(fine.bricks().period)) break;
     Coarse coarse = coarsen(fine);
-    if (coarse.bricks.count() == fine.bricks().count()) break;  // single bricks far apart
+    if (coarse.bricks.count() == fine.bricks().count()) break;  // only single bricks that lie far apart are left
     levels_.back()->parents = std::move(coarse.parents);
     auto next = std::make_unique<Level>();
     next->own =

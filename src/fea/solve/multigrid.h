@@ -1,5 +1,5 @@
-// A multigrid preconditioner for bricks (Briggs, Henson and McCormick: A Multigrid Tutorial, 2000): each level joins
-// two by two by two bricks, whose moduli are means, of void as 0.
+// A multigrid preconditioner for bricks (Briggs, Henson and McCormick: A Multigrid Tutorial, 2000). Each level joins
+// two by two by two bricks, whose moduli are means in which void is 0.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,12 @@ namespace ombre::fea {
 
 class Multigrid : public Preconditioner {
  public:
-  // The operator must live as long, and `stop` if given: it and apply() throw Cancelled soon after a request.
+  // The operator, and `stop` if given, must outlive the object. The constructor and apply() throw Cancelled soon after
+  // a request.
   explicit Multigrid(const BrickOperator& finest, const StopFlag* stop = nullptr);
   ~Multigrid() override;
 
-  // One V-cycle.
+  // Applies one V-cycle.
   void apply(const Vector& forces, Vector& displacements) override;
   size_t levels() const { return levels_.size(); }
 

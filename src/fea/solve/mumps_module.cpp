@@ -13,9 +13,9 @@
 #include "base/text/error.h"
 #include "fea/solve/direct_module.h"
 
-// Of OpenBLAS, where that is the BLAS of the system: sums have one order with one thread alone.
+// Limits OpenBLAS, if that is the system's BLAS, to one thread, so that sums are reproducible.
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int threads);
-// Of any BLAS: a product of matrices in single precision.
+// The product of matrices in single precision of any BLAS.
 extern "C" __attribute__((weak)) void sgemm_(const char* of_a, const char* of_b, const int* rows, const int* columns,
                                              const int* inner, const float* alpha, const float* a, const int* a_rows,
                                              const float* b, const int* b_rows, const float* beta, float* c,
@@ -24,14 +24,14 @@ extern "C" __attribute__((weak)) void sgemm_(const char* of_a, const char* of_b,
 namespace ombre::fea {
 namespace {
 
-// Numbers of MUMPS' manual, from 1.
+// Indices of MUMPS' control arrays, numbered from 1 as in its manual.
 enum Control : size_t { errors = 1, diagnostics, information, verbosity, elemental, ordering = 7, out_of_core = 22 };
 constexpr int start = -1, end = -2, analyse = 1, factorise_numbers = 2, solve_for = 3;
 constexpr int positive_definite = 1, order_is_given = 1;
 constexpr double bytes_of_megabyte = 1e6;
 constexpr int out_of_disk = -90, out_of_memory = -13, singular = -10, not_positive = -40;
 
-// The elements at each node; nodes that share one are neighbours.
+// Finds the neighbours of each node: nodes that share an element with it.
 std::vector<idx_t> neighbours_of(const ElementEquations& equations, std::vector<idx_t>& begins) {
   const size_t each = equations.nodes_of_element, count = equations.element_nodes.size() / each;
   std::vector<size_t> first(equations.nodes + 1);
@@ -59,7 +59,7 @@ std::vector<idx_t> neighbours_of(const ElementEquations& equations, std::vector<
   return neighbours;
 }
 
-// The place of each unknown in the order of elimination, from 1.
+// Returns the place of each unknown in the order of elimination, from 1.
 std::vector<int> order_of(const ElementEquations& equations) {
   std::vector<idx_t> begins, neighbours = neighbours_of(equations, begins);
   auto count = static_cast<idx_t>(equations.nodes);
@@ -75,7 +75,7 @@ std::vector<int> order_of(const ElementEquations& equations) {
   return order;
 }
 
-// Measured by a product that takes some milliseconds of processor time, the best of three.
+// Measures the speed by a product that takes some milliseconds of processor time, the best of three.
 double operations_a_second() {
   if (!sgemm_) return 0;
   constexpr int size = 384;
@@ -107,7 +107,7 @@ struct Interface<double> {
   static std::vector<double>& matrices(ElementEquations& equations) { return equations.double_matrices; }
 };
 
-// Equations in one precision, analysed when they are made.
+// Equations in one precision, which the constructor analyses.
 template <class Real>
 class Factors {
  public:
@@ -142,13 +142,13 @@ class Factors {
     cost.operations = mumps_.rinfog[0];
     cost.bytes = bytes_of_megabyte * mumps_.infog[in_core - 1];
     cost.bytes_on_disk = bytes_of_megabyte * mumps_.infog[beside_disk - 1];
-    // Negative numbers are millions.
+    // MUMPS gives large counts as negative numbers of millions.
     const double count = mumps_.infog[entries - 1];
     cost.factor_bytes = sizeof(Real) * (count < 0 ? -1e6 * count : count);
     return cost;
   }
 
-  // Returns false where the equations are no longer positive definite in this precision.
+  // Returns false if the equations are not positive definite in this precision.
   bool factorise(const std::string& folder) {
     if (folder.size() >= sizeof mumps_.ooc_tmpdir)
       throw Error(Code::cannot_write, "the name of the folder " + folder + " is too long");
@@ -172,7 +172,7 @@ class Factors {
  private:
   int& control(Control which) { return mumps_.icntl[which - 1]; }
 
-  // Returns false where a matrix has no inverse.
+  // Returns false if a matrix has no inverse.
   bool call(int job) {
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     mumps_.job = job;

@@ -18,11 +18,12 @@ namespace {
 using Matrix = RowMatrix;
 using EigenVector = Eigen::VectorXd;
 
-// Direct factorisations of more unknowns take longer than iterations; measured with C3D4 and C3D10.
+// Greatest number of unknowns for which a direct factorisation is quicker than iterations; measured with C3D4 and
+// C3D10.
 constexpr size_t most_direct = 4000;
 constexpr size_t nodes_of_task = 256;
 
-// The elements at each node, and the place that the node has in each.
+// The elements at each node, and the node's place in each.
 class ElementsOfNodes {
  public:
   struct Entry {
@@ -60,7 +61,7 @@ void for_nodes(const LinearSystem& system, const std::function<void(size_t)>& bo
   });
 }
 
-// One row of nodes: those that share an element with it, and the blocks between.
+// A row of the matrix: the nodes that share an element with a node, and the blocks between.
 class NodeRow {
  public:
   void make(const LinearSystem& system, const ElementsOfNodes& elements, size_t node) {
@@ -94,7 +95,7 @@ class NodeRow {
   ElementPoints points_;
 };
 
-// The numbers of the free unknowns; -1 of the others.
+// Returns the numbers of the free unknowns; -1 for the others.
 std::vector<int> numbers_of(const std::vector<uint8_t>& free) {
   std::vector<int> numbers(free.size(), -1);
   int next = 0;
@@ -103,11 +104,11 @@ std::vector<int> numbers_of(const std::vector<uint8_t>& free) {
   return numbers;
 }
 
-// The matrix between the free unknowns.
+// Returns the matrix between the free unknowns.
 Matrix matrix_of(const LinearSystem& system, const std::vector<int>& numbers, int size) {
   const ElementsOfNodes elements(system.mesh);
   const size_t u = system.unknowns;
-  // First the length of each row, then the numbers.
+  // The length of each row is counted first, then the numbers are computed.
   std::vector<int> free_of(system.mesh.node_count());
   for (size_t n = 0; n < numbers.size(); ++n) free_of[n / u] += numbers[n] >= 0 ? 1 : 0;
   Matrix matrix(size, size);
@@ -151,7 +152,8 @@ Matrix matrix_of(const LinearSystem& system, const std::vector<int>& numbers, in
   return matrix;
 }
 
-// Eigen hands the residual to its preconditioner in each iteration: a place to look at the stop flag and to report.
+// A preconditioner that watches the iterations: Eigen passes it the residual in each, so it can look at the stop flag
+// and report progress.
 struct Watch {
   const StopFlag* stop = nullptr;
   Progress* progress = nullptr;
@@ -171,7 +173,7 @@ struct Watch {
   }
 };
 
-// An incomplete factorisation for what varies from node to node, and a coarse grid for the rest.
+// An incomplete factorisation for errors that vary from node to node, and a coarse grid for the rest.
 class TwoLevels {
  public:
   using Fine = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
@@ -285,9 +287,10 @@ std::vector<double> solve_system(const LinearSystem& system, const std::vector<d
 }
 
 double system_bytes(const MeshView& mesh, size_t unknowns) {
-  // Nodes that share an element with a node, itself among them: of grids, and of tetrahedra from Delaunay refinement.
+  // Typical numbers of nodes that share an element with a node, itself included: in tetrahedra from Delaunay refinement
+  // and in grids.
   constexpr std::array<double, 3> neighbours{15, 29, 27};
-  // The matrix, half of it in the incomplete factorisation and its copies while that is made.
+  // Bytes of a coefficient: the matrix, half of it in the incomplete factorisation, and the copies while that is made.
   constexpr double of_coefficient = 12 + 3 * 6, of_unknown = 15 * sizeof(double);
   const auto count = static_cast<double>(mesh.node_count() * unknowns);
   const double coefficients = count * neighbours[static_cast<size_t>(mesh.kind())] * static_cast<double>(unknowns);

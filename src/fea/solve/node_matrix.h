@@ -1,4 +1,4 @@
-// Sparse matrices over the nodes of a mesh, assembled from elements; and the solution of their systems.
+// Assembles sparse matrices over the nodes of a mesh from elements, and solves their systems.
 #pragma once
 
 #include <array>
@@ -11,22 +11,23 @@
 
 namespace ombre::fea {
 
-// What one element adds between two of its nodes: of their unknowns, row by row; of one unknown, the first number.
+// The block that one element adds between the unknowns of two of its nodes, row by row; with one unknown only the first
+// number is used.
 using NodeBlock = std::array<double, 9>;
-// Adds the blocks between node `a` of the element and each of its nodes. Called from several threads.
+// Adds the blocks between node `a` of the element and each of its nodes. It is called from several threads.
 using ElementRow =
     std::function<void(size_t element, const ElementPoints& points, size_t a, std::array<NodeBlock, 10>& blocks)>;
 
 struct LinearSystem {
   MeshView mesh;
-  size_t unknowns = 3;  // of each node
+  size_t unknowns = 3;  // unknowns of a node
   ElementRow row;
-  std::vector<uint8_t> free;          // of each unknown; the others are held
-  std::vector<double> more_diagonal;  // added to it, if there is any
+  std::vector<uint8_t> free;          // 1 for each unknown that is solved for; the others are held
+  std::vector<double> more_diagonal;  // added to the diagonal, unless empty
   int threads = 0;
 };
 
-// The elements' rows times `x`, without a matrix; and what is added to the diagonal.
+// Computes the product of the elements' rows and the addition to the diagonal with `x`, without a matrix.
 std::vector<double> product(const LinearSystem& system, const std::vector<double>& x);
 
 struct LinearOptions {
@@ -38,16 +39,15 @@ struct LinearReport {
   double residual = 0;
 };
 
-// Finds x such that the matrix times x is `right`, for the free unknowns; held ones count as 0 and stay so. The
-// matrix must be symmetric and positive definite. Few unknowns by a direct factorisation (Eigen's SimplicialLDLT), else
-// by conjugate gradients with an incomplete one
-// (IncompleteCholesky: Lin and More, 1999) and a coarse grid. Progress counts thousandths
-// of the way to the tolerance. Throws Error when it does not converge or memory is short, and Cancelled.
+// Solves matrix times x = `right` for the free unknowns; held ones are 0. The matrix must be symmetric and positive
+// definite. Few unknowns are solved by a direct factorisation (Eigen's SimplicialLDLT), more by conjugate gradients
+// with an incomplete one (IncompleteCholesky: Lin and More, 1999) and a coarse grid. Progress counts thousandths of the
+// way to the tolerance. Throws Error when it does not converge or memory is short, and Cancelled.
 std::vector<double> solve_system(const LinearSystem& system, const std::vector<double>& right,
                                  const LinearOptions& options, LinearReport& report, Progress* progress,
                                  const StopFlag* stop);
 
-// The memory that solve_system() takes, about.
+// Returns about the memory in bytes that solve_system() takes.
 double system_bytes(const MeshView& mesh, size_t unknowns);
 
 }  // namespace ombre::fea

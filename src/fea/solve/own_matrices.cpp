@@ -8,7 +8,7 @@
 namespace ombre::fea {
 namespace {
 
-// Calls make(fill, section) once for each pair that is wanted.
+// Calls make(fill, section) once for each pair that is needed.
 template <class Wanted, class Make>
 OwnMatrices matrices_of(const Bricks& bricks, const std::vector<uint16_t>& section_of, const Wanted& is_wanted,
                         const Make& make) {

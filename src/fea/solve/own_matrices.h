@@ -1,4 +1,4 @@
-// The matrices of bricks that differ from a full brick's.
+// The matrices of bricks that differ from that of a full brick.
 #pragma once
 
 #include <vector>
@@ -7,27 +7,27 @@
 
 namespace ombre::fea {
 
-// Equal bricks share a matrix, which is packed as in cut_brick.h.
+// Matrices, packed as in cut_brick.h; equal bricks share one.
 struct OwnMatrices {
-  std::vector<uint32_t> number;  // of each brick, from 1; 0: a full brick's. Empty: all are full
+  std::vector<uint32_t> number;  // number of each brick's matrix, from 1; 0: that of a full brick. Empty: all are full
   std::vector<double> values;
-  size_t size = 0;  // of a matrix, in numbers
+  size_t size = 0;  // numbers in a matrix
 
-  // Null for a full brick.
+  // Returns null for a full brick.
   const double* of(size_t brick) const {
     return number.empty() || number[brick] == 0 ? nullptr : values.data() + (number[brick] - 1) * size;
   }
 };
 
-// Of bricks that are cut, and those in walls that are fewer than `few_bricks` across, where a full brick would bend too
-// little. None where the model's bricks have no fill.
+// Makes the matrices of cut bricks and of bricks in walls that are fewer than `few_bricks` across, where a full brick
+// would bend too little. There are none if the model's bricks have no fill.
 OwnMatrices own_stiffness(const Model& model);
-// 1 for bricks that have one of those.
+// Returns 1 for bricks that have such a matrix.
 std::vector<uint8_t> bricks_with_own_stiffness(const Bricks& bricks);
-// Of bricks that are cut, W/(mm K) or S/mm for `per_mm` of the sections' conductivities.
+// Makes the matrices of cut bricks, in W/(mm K) or S/mm; `per_mm` converts the sections' conductivities.
 OwnMatrices own_conductance(const Bricks& bricks, const std::vector<Section>& sections,
                             const std::vector<uint16_t>& section_of, double per_mm);
-// The memory that they take at most.
+// Returns the most memory in bytes that the matrices take.
 double own_matrix_bytes(const Bricks& bricks, size_t unknowns);
 
 }  // namespace ombre::fea

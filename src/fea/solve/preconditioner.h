@@ -1,4 +1,4 @@
-// What conjugate gradients have in place of the inverse of their matrix.
+// The interface of preconditioners of conjugate gradients.
 #pragma once
 
 #include "fea/solve/brick_operator.h"
@@ -8,7 +8,7 @@ namespace ombre::fea {
 class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
-  // About the displacements that these forces make: a symmetric and positive operator. Throws Cancelled.
+  // Computes approximate displacements for these forces, by a symmetric and positive operator. Throws Cancelled.
   virtual void apply(const Vector& forces, Vector& displacements) = 0;
 };
 

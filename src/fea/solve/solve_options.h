@@ -1,4 +1,4 @@
-// How systems of equations are solved.
+// Options of solving systems of equations.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,10 @@ namespace ombre::fea {
 enum class Solver : uint8_t {
   multigrid,
   direct,     // a factorisation (direct.h)
-  automatic,  // multigrid at first; a factorisation, where multigrid is slow and that is expected to be quicker and
-              // fits
+  automatic,  // multigrid at first; a factorisation if that fits and is expected to be quicker
 };
 
-// A factorisation that was made or is about to be.
+// A factorisation that was made or is about to be made.
 struct DirectUse {
   double operations = 0, memory_bytes = 0;
   double disk_bytes = 0;  // 0: the factor is in memory
@@ -26,7 +25,7 @@ struct SolveOptions {
   size_t most_iterations = 20000;
   int threads = 0;  // 0: all cores
   Solver solver = Solver::multigrid;
-  double memory_bytes = 8e9;  // that a factorisation may take
+  double memory_bytes = 8e9;  // memory that a factorisation may take
   std::function<void(const DirectUse&)> announce = {};
 };
 

@@ -1,4 +1,4 @@
-// Strains of displacements, and the stresses that they make.
+// Computes strains of displacements, and their stresses.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace ombre::fea {
 // xx, yy, zz, xy, yz, zx; shear strains are engineering ones.
 using Tensor = std::array<double, 6>;
 
-// At a place of an element with these gradients (1/mm) of its nodes' shape functions; `displacements_mm` are x, y, z of
-// node 0, and so on.
+// Returns the strain at a place of an element with these gradients (1/mm) of its nodes' shape functions;
+// `displacements_mm` are x, y, z of node 0, and so on.
 inline Tensor strain_of(std::span<const uint32_t> nodes, std::span<const Vec3> gradients,
                         std::span<const double> displacements_mm) {
   Tensor strain{};
@@ -30,7 +30,7 @@ inline Tensor strain_of(std::span<const uint32_t> nodes, std::span<const Vec3> g
   return strain;
 }
 
-// Hooke's law; moduli and stresses in MPa.
+// Applies Hooke's law; moduli and stresses are in MPa.
 inline Tensor stress_of(const Tensor& strain, double shear_mpa, double bulk_mpa) {
   const double dilation = strain[0] + strain[1] + strain[2];
   Tensor stress{};

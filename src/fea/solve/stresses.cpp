@@ -13,7 +13,7 @@
 namespace ombre::fea {
 namespace {
 
-// Stresses at up to eight points, and at the corners that they are carried on to.
+// Stresses at up to eight points, and at the corners to which they are extrapolated.
 struct ElementStresses {
   size_t points = 0, corners = 0;
   std::array<Tensor, 8> at_points{}, at_corners{};
@@ -28,13 +28,14 @@ double along(const Box& box, const Cell& corner, int axis, double share) {
   return middle + (corner[static_cast<size_t>(axis)] == 1 ? share : -share) * half;
 }
 
-// The points of Gauss' rule in the box around what is inside, and from there linearly to its corners.
+// Computes stresses at the points of Gauss' rule in the box around the part inside, and extrapolates them linearly to
+// its corners.
 class BrickStresses {
  public:
   BrickStresses(const Bricks& bricks, const std::vector<double>& displacements)
       : bricks_(bricks), displacements_(displacements) {}
 
-  // `is_own` where the brick has a matrix of its own, and enhanced strains with it.
+  // `is_own` is true if the brick has a matrix of its own, and so enhanced strains.
   ElementStresses of(size_t brick, const Moduli& moduli, bool is_own) {
     const Fill fill = bricks_.fill(brick);
     if (!place_ || place_->fill != fill || place_->is_own != is_own || place_->moduli.shear != moduli.shear ||
@@ -53,7 +54,7 @@ class BrickStresses {
       mean += (strains[p][0] + strains[p][1] + strains[p][2]) / 8;
     }
     for (size_t p = 0; p < 8; ++p) {
-      // A full brick's change of volume is the mean.
+      // The change of volume of a full brick is the mean.
       found.at_points[p] = stress_with(strains[p], is_own ? std::nullopt : std::optional(mean), moduli);
     }
     for (size_t c = 0; c < 8; ++c)
@@ -79,8 +80,8 @@ class BrickStresses {
     return stress;
   }
 
-  // How much of a corner's value comes from a point's: each axis of the box has its ends at the square root of three
-  // times the points' distance from the middle.
+  // Returns the weight of a point's value at a corner: along each axis the corners are sqrt(3) times as far from the
+  // middle as the points.
   static double carried(size_t corner, size_t point) {
     double factor = 1;
     for (size_t axis = 0; axis < 3; ++axis)
@@ -105,10 +106,10 @@ class BrickStresses {
 
   const Bricks& bricks_;
   const std::vector<double>& displacements_;
-  std::optional<Place> place_;  // of the brick before, which is often like the next
+  std::optional<Place> place_;  // place of the last brick; the next is often alike
 };
 
-// Four points of a tetrahedron to its corners; one is for all.
+// Extrapolates the four points of a tetrahedron to its corners; a single point stands for all.
 ElementStresses tetrahedron_stresses(const MeshView& mesh, size_t element, const Moduli& moduli,
                                      const std::vector<double>& displacements) {
   ElementPoints points;
@@ -120,7 +121,7 @@ ElementStresses tetrahedron_stresses(const MeshView& mesh, size_t element, const
   return found;
 }
 
-// A corner's barycentric coordinate is 1, that of the point near it 0.585, of the other points 0.138.
+// Extrapolates by barycentric coordinates: they are 1 at the corner, 0.585 at the nearest point, 0.138 at the others.
 Tensor at_corner(const ElementStresses& element, size_t corner) {
   if (element.points == 1) return element.at_points[0];
   constexpr double near_corner = 0.58541019662496852, far_corner = 0.13819660112501051;

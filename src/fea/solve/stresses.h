@@ -1,4 +1,4 @@
-// Stresses of a solution where elements are integrated, and at nodes.
+// Stresses of a solution at integration points and at nodes.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 namespace ombre::fea {
 
 struct Stresses {
-  // Von Mises' stress at the integration point of an element where it is greatest, MPa.
+  // Greatest von Mises stress at the integration points of each element, MPa.
   std::vector<double> greatest_at_points_mpa;
-  // Of nodes, xx, yy, zz, xy, yz, zx: stresses at integration points are carried on linearly to an element's corners,
-  // and corners averaged over the elements around that are of one section, by their volume. Where sections meet, that
-  // of the greatest von Mises stress counts.
+  // Stresses at nodes: xx, yy, zz, xy, yz, zx. They are extrapolated linearly from integration points to an element's
+  // corners, and averaged by volume over the elements around that have one section. Where sections meet, that with the
+  // greatest von Mises stress counts.
   std::vector<std::array<double, 6>> at_nodes_mpa;
 };
 
-// By the displacements. C3D4 has one point, C3D10 four; a brick has 2 x 2 x 2 in the box around what is inside of it,
-// and its corners are those of that box, so that nodes beside the surface have the stress on it.
+// Computes stresses from the displacements. C3D4 has one point, C3D10 four. A brick has 2 x 2 x 2 in the box around its
+// part inside. Its corners are those of that box, so nodes beside the surface have the stress on it.
 Stresses stresses_of(const ModelView& model, const Solution& solution);
 
 }  // namespace ombre::fea

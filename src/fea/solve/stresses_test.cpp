@@ -20,8 +20,8 @@ double greatest_at_nodes(const Stresses& stresses) {
   return greatest;
 }
 
-// A strip of 20 x 4 x 1 mm under 1 N at its end: at its root 6 F L / (b h^2) = 30 MPa on the surface, whatever the
-// bricks. In the middles of bricks of which one lies across there is none, at integration points 1/sqrt(3) of it, less
+// A strip of 20 x 4 x 1 mm under 1 N at its end has 6 F L / (b h^2) = 30 MPa on the surface at its root, whatever the
+// bricks. With one brick across there is no stress in the middles; at integration points it is 1/sqrt(3) of that, less
 // half a brick of the length.
 TEST(Stresses, StripsHaveTheirStressOnTheSurface) {
   for (const double brick_mm : {2.0, 1.0, 0.8, 0.5}) {
@@ -39,7 +39,8 @@ TEST(Stresses, StripsHaveTheirStressOnTheSurface) {
   }
 }
 
-// Two materials side by side, strained alike: each has its own stress, and where they meet the greater one counts.
+// Two materials lie side by side and are strained alike: each has its own stress, and where they meet the greater one
+// counts.
 TEST(Stresses, MaterialsAreNotAveraged) {
   Model model{block({4, 2, 2}, {1, 1, 1}), {{"rigid", {1000, 0}}, {"soft", {10, 0}}}, {}, {}};
   for (size_t n = 0; n < model.bricks.count(); ++n) model.section_of.push_back(model.bricks.cells[n][0] < 2 ? 0 : 1);
@@ -53,7 +54,7 @@ TEST(Stresses, MaterialsAreNotAveraged) {
     EXPECT_NEAR(stresses.at_nodes_mpa[n][2], model.bricks.node(n).x <= 2 ? 10 : 0.1, 1e-9) << n;
 }
 
-// Quadratic displacements of a tetrahedron: its linear stress is exact at its corners and in the middles of edges.
+// A tetrahedron has quadratic displacements: its linear stress is exact at its corners and in the middles of edges.
 TEST(Stresses, TetrahedraCarryLinearStressesOn) {
   Mesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -1,4 +1,4 @@
-// ombre bundle: a design with the files that it reads, in one file.
+// `ombre bundle` writes a design with the files that it reads into one file.
 #include <filesystem>
 #include <memory>
 

@@ -34,7 +34,7 @@ std::string stats(const design::Design& design) {
   return text;
 }
 
-// A line for each pass: its name, how many operations it left, how long it took, and what it does.
+// Returns a line for each pass: its name, the number of operations that it left, its time, and a description.
 std::string pass_table(const design::Design& design) {
   std::string text;
   const auto column = [](std::string word, size_t width) {
@@ -74,7 +74,7 @@ std::string emit(const Loaded& loaded, const std::string& form) {
   if (form.starts_with(after)) return program_after(loaded.design, std::string_view(form).substr(after.size()));
   if (form == "stats") return stats(loaded.design);
   if (loaded.path.ends_with(".json")) return std::string(loaded.source->text());
-  Diagnostics ignored;  // the design was read already
+  Diagnostics ignored;  // the design was read already, so its diagnostics are known
   return lang::print(lang::parse(loaded.source, ignored));
 }
 

@@ -1,4 +1,4 @@
-// Intermediate forms of a design as text.
+// Prints intermediate forms of a design as text.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace ombre::compile {
 
-// One intermediate form as text: "ast", "tree", "program", "stats", "json", "passes" for a table of the passes that a
-// program goes through before it slices, or "program=after-NAME" for what one of them made.
+// Names of the forms: "ast", "tree", "program", "stats", "json", "passes" for a table of the passes that a program goes
+// through before it slices, or "program=after-NAME" for the result of one of them.
 const std::vector<std::string>& emit_forms();
 std::string emit(const Loaded& loaded, const std::string& form);
 

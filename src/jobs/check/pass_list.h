@@ -1,4 +1,4 @@
-// What becomes of a design's program on its way to the slicer, pass by pass.
+// Runs the passes that a design's program goes through on its way to the slicer.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@ namespace ombre::compile {
 
 struct PassResult {
   std::string name, sentence;
-  program::Program program;  // what it made
+  program::Program program;  // the result of the pass
   double seconds = 0;
 };
 
-// As plan_slice() does it for the design's box and stochastic dithering. Ends early, without a word, where the design
-// has no box or is too large.
+// Runs the passes as plan_slice() does for the design's box and stochastic dithering. Ends early, without a message, if
+// the design has no box or is too large.
 std::vector<PassResult> slicing_passes(const design::Design& design);
 
-// The names of all passes there are, in their order.
+// Returns the names of all passes, in their order.
 std::vector<std::string> slicing_pass_names();
 
 }  // namespace ombre::compile

@@ -17,7 +17,7 @@ TEST(PassList, EveryPassIsListedInOrder) {
   EXPECT_EQ(names, slicing_pass_names());
 }
 
-// The sign of a distance to a ball needs no root; turning is a sum of products.
+// The sign of a distance to a ball needs no root; a rotation is a sum of products.
 TEST(PassList, FormsPrintWhatAPassMade) {
   Diagnostics diagnostics;
   const LoadedPtr ball = load_text("sphere(5);", diagnostics);

@@ -1,4 +1,4 @@
-// What jobs tell, as data for programs.
+// Passes the events of jobs on as data for programs.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,8 @@
 
 namespace ombre::jobs {
 
-// Texts in the words of a front end. Functions are called from several threads, and must stay callable as long.
+// Makes texts in the spelling of a front end. The functions are called from several threads, and must stay callable as
+// long as the object exists.
 class DataEvents final : public Events {
  public:
   using OnEvent = std::function<void(const DataMembers& event)>;

@@ -1,4 +1,4 @@
-// What a job tells whoever started it: text for people, or data for programs.
+// Events of a job for its caller: text for people, or data for programs.
 #pragma once
 
 #include <memory>
@@ -10,35 +10,35 @@
 
 namespace ombre::jobs {
 
-// What a job counts. Steps may take unequal times, so no rate is told.
+// The unit of a job's progress. Steps may take unequal times, so they have no rate.
 enum class Counted { voxels, steps };
 
-// Progress that is shown until it is finished, or updated again.
+// Progress that is shown until it is finished or updated again.
 class ShownProgress : public Progress {
  public:
-  // Ends what is shown, so that other text can follow.
+  // Removes the shown line, so that other text can follow.
   virtual void finish() = 0;
 };
 
-// Methods may be called from several threads.
+// The receiver of a job's events. Methods may be called from several threads.
 class Events {
  public:
   virtual ~Events() = default;
 
-  // Whether events are wanted in place of text.
+  // True if data are wanted instead of text.
   virtual bool wants_data() const = 0;
   // Takes a result that is text, such as a listing or the bytes of an image.
   virtual void print(const std::string& text) const = 0;
-  // Whether texts and events go to the same place, so that the bytes of an image cannot be told from events.
+  // True if texts and events go to the same place, so that the bytes of an image cannot be told from events.
   virtual bool prints_among_events() const = 0;
-  // Takes data that belong to a name, as {"event": name, ...members}.
+  // Takes data under a name, as {"event": name, ...members}.
   virtual void event(const std::string& name, DataMembers members) const = 0;
   // Takes a remark for people.
   virtual void say(const Phrase& text) const = 0;
   virtual void warn(const Phrase& message, Code code = Code::design) const = 0;
   virtual void error(Code code, const Phrase& message, const CodeValues& values = {}) const = 0;
   virtual void diagnose(const Diagnostics& diagnostics) const = 0;
-  // Shows how far the work is; what is destroyed is finished.
+  // Returns an object that shows progress until it is destroyed.
   virtual std::unique_ptr<ShownProgress> progress(Counted counted) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The design of a job, and how it is sampled.
+// Loads the design of a job, and makes the options by which it is sampled.
 #pragma once
 
 #include <optional>
@@ -16,12 +16,13 @@ using DesignArguments = compile::DesignOptions;
 std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling, const Session& session,
                                                  Diagnostics& diagnostics, const compile::ImageOptions& images = {});
 
-// Makes plan options for a job of this session: with its threads, memory and stop flag.
+// Makes plan options for a job of this session, with its threads, memory and stop flag.
 std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions& sampling,
                                                  const compile::WorkOptions& work, const Session& session,
                                                  Diagnostics& diagnostics, const compile::ImageOptions& images = {});
 
-// On up to `threads` threads; 0: all cores. Null, and diagnostics, when the design is wrong.
+// Loads the design on up to `threads` threads; 0: all cores. Returns null, and adds diagnostics, when the design is
+// wrong.
 compile::LoadedPtr load_design(const DesignArguments& arguments, Session& session, Diagnostics& diagnostics,
                                int threads = 0);
 

@@ -1,5 +1,5 @@
-// A kind of job as data: its name, its options, and what runs it. A command, a method in Python, a form in the studio
-// and a page of the reference come from it.
+// A kind of job as data: its name, its options, and the function that runs it. Commands, methods in Python, forms in
+// the studio and pages of the reference are made from it.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@ namespace ombre::jobs {
 
 struct JobKind {
   std::string name;
-  std::string help;    // a sentence
-  std::string footer;  // what help says below the options: units, examples
+  std::string help;    // one sentence
+  std::string footer;  // text of the help below the options: units, examples
   std::vector<options::Option> options;
-  // Makes a job whose options have their usual values. The options' functions take its address.
+  // Makes a job with default values of its options. The functions of the options take its address.
   std::function<std::shared_ptr<void>()> make;
   // Plans, checks, runs and reports the job at this address. Returns an exit code. Throws WrongArgument, Error and
   // Cancelled.
@@ -27,7 +27,7 @@ struct JobKind {
   std::vector<std::string> endings = {};
 };
 
-// The kind of jobs that are values of the type Choices.
+// Makes the kind whose jobs are values of the type Choices.
 template <class Choices>
 JobKind job_kind(std::string name, std::string help, std::string footer, int (*run)(const Choices&, Session&)) {
   return {std::move(name),

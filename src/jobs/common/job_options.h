@@ -1,4 +1,4 @@
-// Options that several kinds of jobs have: which design, on which voxels, in which images, with what of the machine.
+// Options that several kinds of jobs have: design, voxels, images, use of the machine.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace ombre::compile {
 
-// Which design, and with what it is read.
+// Options that choose the design, and how it is read.
 struct DesignOptions {
   std::string design, materials;
   std::vector<std::string> definitions;
@@ -34,9 +34,9 @@ struct DesignOptions {
   }
 };
 
-// Which voxels.
+// Options that choose the voxels.
 struct SamplingOptions {
-  std::string printer;  // a name or a path; empty: the generic one
+  std::string printer;  // a name or a path; empty: the generic printer
   std::optional<options::Pitches> voxel, dpi;
   std::optional<Pitch> layer_height;
   SamplingRules rules;
@@ -62,7 +62,7 @@ struct SamplingOptions {
   }
 };
 
-// Which images of them.
+// Options that choose the images.
 struct ImageOptions {
   std::optional<ImageFormat> format;
   std::string by;  // empty: images show materials
@@ -90,12 +90,12 @@ struct ImageOptions {
 
 inline constexpr size_t usual_memory = size_t{2} << 30;
 
-// How much of the machine a job may take, which decides no result.
+// Options that limit the use of the machine. They do not change results.
 struct WorkOptions {
   int threads = 0;  // 0: all cores
   size_t memory_bytes = usual_memory;
 
-  // `memory` says what the memory is for, with a full stop left out.
+  // `memory` describes the use of the memory, without a full stop.
   static options::Spec<WorkOptions> options(const std::string& memory) {
     using namespace options;
     return {threads_option(), option("--memory", &WorkOptions::memory_bytes, kind::memory, memory, "SIZE")};
@@ -108,8 +108,8 @@ struct WorkOptions {
   }
 };
 
-// Nothing, and diagnostics, when there is no such printer. Throws options::WrongValue for what does not go together.
-// `program` is for job.json: "ombre 0.1.0".
+// Makes plan options. Returns nothing, and adds diagnostics, when there is no such printer. Throws options::WrongValue
+// for options that exclude each other. `program` is the text for job.json: "ombre 0.1.0".
 std::optional<PlanOptions> plan_options(const std::string& program, const SamplingOptions& sampling,
                                         const ImageOptions& images, Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// The order in which commands that write files go about their work.
+// The steps of commands that write files, in their order.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace ombre::jobs {
 
-// The steps of a command, which are always taken in this order. A step that a command does not have is empty.
+// The steps of a command, which are always taken in this order. A missing step is empty.
 template <class Plan>
 struct JobSteps {
-  // Throws WrongArgument where options do not fit each other, and Error where something is there that may not be
-  // replaced. Nothing is loaded yet: a slip shows at once.
+  // Throws WrongArgument if options exclude each other, and Error if an existing file may not be replaced. Nothing is
+  // loaded yet, so a slip shows at once.
   std::function<void()> refuse;
-  // Loads the design and finds out what there is to do. Nothing, and diagnostics, where the design is wrong.
+  // Loads the design and plans the work. Returns nothing, and adds diagnostics, if the design is wrong.
   std::function<std::optional<Plan>(Diagnostics& diagnostics)> plan;
-  // Reports the plan. Throws Error where the disk or the memory is too small for it.
+  // Reports the plan. Throws Error if the disk or the memory is too small for it.
   std::function<void(const Plan& plan)> check = nullptr;
-  // Does the work, or estimates it (--dry-run), and reports what was done. Returns an exit code.
+  // Does the work, or estimates it (--dry-run), and reports the result. Returns an exit code.
   std::function<int(Plan& plan)> run;
 };
 

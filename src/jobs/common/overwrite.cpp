@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Else writing would fail, once all is computed.
+// Checks the folder early, since writing would otherwise fail after everything is computed.
 void check_folder(const std::string& path) {
   std::error_code error;
   const fs::path folder = fs::absolute(path, error).parent_path();

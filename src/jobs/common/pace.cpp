@@ -39,7 +39,7 @@ std::optional<Pace> PaceMeter::update(const HowFar& how_far) {
   if (!started_) {
     started_ = true;
     start_ = reported_ = now;
-    done_at_start_ = how_far.done;  // what an earlier run finished tells nothing about the pace of this one
+    done_at_start_ = how_far.done;  // work of an earlier run tells nothing about the pace of this one
     return std::nullopt;
   }
   if (!is_due()) return std::nullopt;
@@ -72,7 +72,7 @@ bool PaceMeter::is_due_before_work() {
   return is_due();
 }
 
-// Not more often than anyone wants to know.
+// True at most a few times a second.
 bool PaceMeter::is_due() {
   const auto now = Clock::now();
   if (std::chrono::duration<double>(now - reported_).count() < interval_s_) return false;

@@ -1,4 +1,4 @@
-// How fast work goes, told now and then.
+// Measures the pace of work, and reports it now and then.
 #pragma once
 
 #include <chrono>
@@ -11,19 +11,19 @@
 
 namespace ombre::jobs {
 
-// How far a job is, and how fast.
+// Progress and speed of a job.
 struct Pace {
-  double share = 0;              // of the work, 0 ... 1
+  double share = 0;              // share of the work, 0 ... 1
   double voxels_per_second = 0;  // 0 while unknown
   double seconds_left = -1;      // below 0 while unknown
-  bool is_checking = false;      // what is there already
-  std::string preparing = {};    // what the job needs before its work, if it is computed now
+  bool is_checking = false;      // existing work is being checked
+  std::string preparing = {};    // name of a preparation that is being computed
 };
 
 std::string duration_text(double seconds);  // "0:34", "1:02:03"
 std::string rate_text(double voxels_per_second);
 
-// Measures the pace of one piece of work. Each method returns it when it is time to tell it. Thread-safe.
+// Measures the pace of one piece of work. Each method returns the pace when it is time to report it. Thread-safe.
 class PaceMeter {
  public:
   PaceMeter(Counted counted, double interval_s) : counted_(counted), interval_s_(interval_s) {}

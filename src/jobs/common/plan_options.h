@@ -1,4 +1,4 @@
-// What decides how a design is sampled and drawn, as plan_slice takes it.
+// The options by which plan_slice samples and draws a design.
 #pragma once
 
 #include <array>
@@ -17,26 +17,27 @@ namespace ombre::compile {
 struct ValueChoice {
   std::string of;  // a material, for its fraction, or an attribute
   std::optional<Interval>
-      range;     // from black to white; nothing: from the least to the greatest inside, of a fraction 0-1
-  int bits = 8;  // of a pixel: 8 or 16
+      range;     // from black to white; nothing: from the least to the greatest inside, for a fraction 0-1
+  int bits = 8;  // bits of a pixel: 8 or 16
 };
 
 struct PlanOptions : SamplingRules {
   std::string program;                        // "ombre 0.1.0", for job.json
-  voxel::Printer printer;                     // whose conventions hold
-  bool printer_given = false;                 // then its pitch goes before the design's own
-  std::array<std::optional<Pitch>, 3> pitch;  // goes before both, axis by axis
-  voxel::EvaluatorOptions speed;              // how the evaluator works, but for which it is
-  std::optional<ImageFormat> image;           // else the printer's
-  std::optional<voxel::Placement> place;      // else the printer's; center: the build plate, the part in its middle
+  voxel::Printer printer;                     // gives the conventions of images
+  bool printer_given = false;                 // if true, its pitch takes precedence over the design's own
+  std::array<std::optional<Pitch>, 3> pitch;  // takes precedence over both, axis by axis
+  voxel::EvaluatorOptions speed;              // how the evaluator works, but not which evaluator it is
+  std::optional<ImageFormat> image;           // default: the printer's
+  std::optional<voxel::Placement> place;      // default: the printer's; center: the build plate, the part in its middle
   bool whole_tray = false;                    // the build plate, the part where the design has it
-  int threads = 0;                            // that read the design; 0: all cores
-  size_t memory_bytes = size_t{2} << 30;      // of the job
+  int threads = 0;                            // threads that read the design; 0: all cores
+  size_t memory_bytes = size_t{2} << 30;      // memory of the job
   const StopFlag* stop = nullptr;             // must live as long as the plan
-  Progress* progress = nullptr;               // of planning, where that takes long
-  // Where stages that are computed as a whole keep their values for other jobs; null: nowhere. Must live as long, too.
+  Progress* progress = nullptr;               // progress of planning, if that takes long
+  // Memory that keeps values of stages that are computed as a whole, for other jobs; null: values are not kept. It must
+  // outlive the plan.
   design::SubDesignMemory* memory = nullptr;
-  std::optional<ValueChoice> value;  // shades of gray by this in place of materials
+  std::optional<ValueChoice> value;  // shows this value in shades of gray instead of materials
 };
 
 }  // namespace ombre::compile

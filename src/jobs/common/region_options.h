@@ -10,7 +10,7 @@
 
 namespace ombre::compile {
 
-// "0.25,0.5": numbers that rise.
+// Parses increasing numbers such as "0.25,0.5".
 std::vector<double> parse_borders(const std::string& text, const std::string& name);
 inline constexpr options::Kind<std::vector<double>> rising_numbers_kind{"numbers", parse_borders};
 
@@ -20,8 +20,8 @@ struct RegionOptions {
   int bands = 0;  // 0: not chosen
   std::vector<double> borders;
 
-  // `piece` is what a region becomes, "A body"; `usual` says the regions where none are chosen, and `usual_tolerance`
-  // the tolerance.
+  // `piece` names what a region becomes, "A body"; `usual` names the default regions, and `usual_tolerance` the default
+  // tolerance.
   static options::Spec<RegionOptions> options(const std::string& piece, const std::string& usual,
                                               const std::string& usual_tolerance) {
     using namespace options;
@@ -43,7 +43,7 @@ struct RegionOptions {
                 .excludes({"--bands"})};
   }
   bool are_chosen() const { return !by.empty() || bands > 0 || !borders.empty(); }
-  // Throws options::WrongValue for what does not go together.
+  // Throws options::WrongValue for options that exclude each other.
   RegionRequest request() const;
 };
 

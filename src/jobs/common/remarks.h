@@ -1,4 +1,4 @@
-// What several jobs say.
+// Remarks of several jobs.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace ombre::jobs {
 
-// Warns where `what`, without which the job cannot do, takes more memory than is allowed.
+// Warns if `what`, which the job needs, takes more memory than is allowed.
 void warn_of_memory(const Events& events, const std::string& what, double bytes, size_t allowed);
 
-// Up to six decimals.
+// Formats a length with up to six decimals.
 std::string mm_text(double mm);
 
 }  // namespace ombre::jobs

@@ -1,4 +1,4 @@
-// What becomes of jobs that fail.
+// Runs jobs, and reports those that fail.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace ombre::jobs {
 
-// Does the work, and returns its exit code. What it throws becomes an error among the events, and the exit code that
-// goes with it; after Cancelled nothing is said.
+// Does the work, and returns its exit code. An exception becomes an error among the events, and the exit code that
+// belongs to it; after Cancelled nothing is reported.
 int run_reported(const Events& events, const std::function<int()>& work);
 
 }  // namespace ombre::jobs

@@ -1,4 +1,4 @@
-// The rules by which points become voxels: what people choose of a job that decides its voxels, beside the lattice.
+// The rules by which points become voxels: options, apart from the lattice, that decide the voxels of a job.
 #pragma once
 
 #include "options/option.h"
@@ -6,7 +6,7 @@
 
 namespace ombre::compile {
 
-// job.json holds each of them.
+// The rules, each of which job.json holds.
 struct SamplingRules {
   voxel::Dither dither = voxel::Dither::stochastic;
   voxel::Evaluator evaluator = voxel::Evaluator::batch;

@@ -1,4 +1,4 @@
-// What a job gets from whoever runs it.
+// The environment of a job, which its caller provides.
 #pragma once
 
 #include <functional>
@@ -13,23 +13,23 @@
 
 namespace ombre::jobs {
 
-// Null, and diagnostics, when the design is wrong.
+// A function that loads designs. It returns null, and adds diagnostics, when the design is wrong.
 using DesignLoader = std::function<compile::LoadedPtr(const std::string& path, const compile::LoadOptions& options,
                                                       Diagnostics& diagnostics)>;
 
-// References must live as long as the job.
+// The environment of a job. References must outlive the job.
 struct Session {
   const Events& events;
   const StopFlag& stop;
   DesignLoader load;
-  sources::SourceCache& cache;  // of the files that designs name
+  sources::SourceCache& cache;  // cache of the files that designs name
   std::string program;          // "ombre 0.1.0", for job.json
-  // Makes requests to stop end the program at once, as long as what it returns lives: libraries of others are at work,
-  // which cannot be asked to stop, and nothing has been written. May return null.
+  // Returns an object during whose life a request to stop ends the program at once; may return null. It is for times
+  // when other libraries work, which cannot be asked to stop, and nothing has been written.
   std::function<std::shared_ptr<void>()> quit_at_once = [] { return nullptr; };
 };
 
-// Options that do not go together, in a way that only the job can see; the message says what to write instead.
+// The error about options that only the job can see to exclude each other; the message says what to write instead.
 using WrongArgument = options::WrongValue;
 
 }  // namespace ombre::jobs

@@ -1,4 +1,4 @@
-// Equations that take more memory than a job may have.
+// Refuses equations that take more memory than a job may have.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace ombre::jobs {
 
-// Throws Error where solving takes more than is allowed. `remedy` says what makes it less: "choose larger bricks".
+// Throws Error if solving takes more than is allowed. `remedy` says how to reduce it: "choose larger bricks".
 void refuse_little_memory(double bytes, size_t allowed, const Phrase& remedy);
 
 }  // namespace ombre::jobs

@@ -1,4 +1,4 @@
-// Studies as options give them.
+// Reads studies, which options give as files or texts.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace ombre::jobs {
 
-// Whether the option holds the study itself, {"materials": ...}, in place of the path of a file.
+// True if the option holds the study itself, {"materials": ...}, instead of the path of a file.
 bool is_study_text(const std::string& study);
-// The text of a study, by whichever of both. Throws Error where the file cannot be read.
+// Returns the text of a study, from the option or the file. Throws Error if the file cannot be read.
 SourcePtr study_source(const std::string& study);
-// The folder in which relative paths of the study begin: that of its file, or the working folder.
+// Returns the folder in which relative paths of the study begin: that of its file, or the working folder.
 std::string study_folder(const std::string& study);
 
 }  // namespace ombre::jobs

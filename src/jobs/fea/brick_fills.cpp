@@ -18,7 +18,7 @@ constexpr auto along = static_cast<int64_t>(parts_along);
 
 Fill bit_of(size_t x, size_t y, size_t z) { return Fill{1} << (x + parts_along * (y + parts_along * z)); }
 
-// Squared, in parts, times four.
+// Returns four times the squared distance from the centre, in parts.
 int64_t off_centre(size_t x, size_t y, size_t z) {
   const auto square = [](size_t n) {
     const int64_t off = 2 * static_cast<int64_t>(n) + 1 - along;
@@ -27,7 +27,7 @@ int64_t off_centre(size_t x, size_t y, size_t z) {
   return square(x) + square(y) + square(z);
 }
 
-// Returns where a part's point lies in its brick, from 0 to 1 along each axis. No two of the 64 points share a
+// Returns the place of a part's point in its brick, from 0 to 1 along each axis. No two of the 64 points share a
 // coordinate.
 Vec3 point_of(size_t x, size_t y, size_t z) {
   const auto within = [](size_t part, size_t a, size_t b) {
@@ -45,7 +45,7 @@ void each_part(const Body& body) {
       for (size_t x = 0; x < parts_along; ++x) body(x, y, z);
 }
 
-// Layers of bricks, as a grid of their parts comes slab by slab.
+// Gathers layers of bricks from a grid of their parts, which comes slab by slab.
 class Gatherer {
  public:
   explicit Gatherer(const voxel::Lattice& parts) : nx_(parts.count[0] / along), ny_(parts.count[1] / along) {}
@@ -71,7 +71,7 @@ class Gatherer {
   struct Gathered {
     Fill fill = 0;
     MaterialId drawn = 0;
-    int64_t off = 0;  // of the part that was drawn, from the centre
+    int64_t off = 0;  // distance from the centre of the part that was drawn
   };
 
   void take(const voxel::FieldTile& tile, int64_t first) {
@@ -91,7 +91,7 @@ class Gatherer {
     const auto x = static_cast<size_t>(part[0] % along), y = static_cast<size_t>(part[1] % along),
                z = static_cast<size_t>(part[2] % along);
     const Fill bit = bit_of(x, y, z);
-    // The nearest part, of equal ones that with the lowest bit, whatever comes first.
+    // Takes the nearest part, and of equally near ones that with the lowest bit, in whatever order they come.
     const int64_t off = off_centre(x, y, z) * static_cast<int64_t>(fea::parts_of_brick) + std::countr_zero(bit);
     if (here.fill == 0 || off < here.off) {
       here.off = off;
@@ -105,7 +105,7 @@ class Gatherer {
   std::vector<FilledBrick> found_;
 };
 
-// Looks closer at bricks that the surface may cut.
+// Samples bricks that the surface may cut more finely.
 class Refiner {
  public:
   Refiner(const voxel::Lattice& parts, std::vector<FilledBrick> bricks)
@@ -137,7 +137,7 @@ class Refiner {
     return true;
   }
 
-  // Bricks that are cut, and those beside another one that is empty or cut, on both sides.
+  // Adds bricks that are cut, and those on both sides of a border between full, cut and empty ones.
   void add_near_surface() {
     std::vector<FilledBrick> empty;
     for (size_t n = 0; n < bricks_.size(); ++n) {
@@ -190,11 +190,11 @@ class Refiner {
     }
   }
 
-  // The point inside that is nearest to the middle of all that are.
+  // Returns the point inside that is nearest to the centroid of all points inside.
   Vec3 place_inside(const FilledBrick& brick) const {
     const Vec3 middle = fea::fill_centre(brick.fill);
     Vec3 best;
-    double least = 4;  // more than across a brick
+    double least = 4;  // greater than the diagonal of a brick
     each_part([&](size_t x, size_t y, size_t z) {
       if (!fea::has_part(brick.fill, x, y, z)) return;
       const double off = length(point_of(x, y, z) - middle);
@@ -206,9 +206,9 @@ class Refiner {
   }
 
   const voxel::Lattice& parts_;
-  std::vector<FilledBrick> bricks_;  // by the lattice of parts
-  std::vector<FilledBrick> found_;   // these, and more of the empty ones beside
-  std::vector<size_t> near_;         // which of what is found
+  std::vector<FilledBrick> bricks_;  // bricks by the lattice of parts
+  std::vector<FilledBrick> found_;   // these bricks, and empty ones beside them
+  std::vector<size_t> near_;         // indices in found_
 };
 
 }  // namespace
@@ -219,7 +219,7 @@ std::optional<Plan> plan_parts(const LoadedPtr& loaded, PlanOptions options, con
     const auto part = Pitch::from_ratio(bricks.pitch[axis].numerator, bricks.pitch[axis].denominator * along);
     options.pitch[axis] = part ? *part : *Pitch::from_mm(bricks.pitch[axis].mm() / static_cast<double>(along));
   }
-  Diagnostics again;  // warnings were given with the plan of the bricks
+  Diagnostics again;  // the plan of the bricks gave the same warnings
   auto plan = plan_over(loaded, bricks.box(), options, again);
   if (!plan) diagnostics.add_all(again);
   return plan;

@@ -12,7 +12,7 @@ namespace {
 
 using program::Field;
 
-// Eq. 1 of the 2025 paper; of one material 1.
+// Eq. 1 of the 2025 paper; it is 1 for one material.
 Field heterogeneity(Question& question) {
   program::Builder& builder = question.builder();
   const auto fractions = shares(question.composition());

@@ -1,4 +1,4 @@
-// The wanted size of elements: one for all, or by a formula.
+// The wanted size of elements: constant, or by a formula.
 #pragma once
 
 #include <memory>
@@ -12,21 +12,21 @@
 namespace ombre::compile {
 
 struct SizeRequest {
-  double least_mm = 0, most_mm = 0;  // min_cell and max_cell; the same for one size
-  std::string formula;               // empty: least_mm
+  double least_mm = 0, most_mm = 0;  // min_cell and max_cell; equal for a constant size
+  std::string formula;               // empty: the size is least_mm
 };
 
-// Each thread has one of its own.
+// Evaluates the size of elements; each thread needs an object of its own.
 class ElementSize {
  public:
-  // The formula knows x, y and z and what else formulas know, min_cell and max_cell, the attributes, and h, the
-  // heterogeneity of the mixture (2025 paper, Eq. 1): the distance of the fractions from a mixture of equal shares of
-  // all materials, 1 where there is one material, and 0 where all are equal. Nothing, and diagnostics, when it is
+  // The formula may use the coordinates of all formulas, min_cell and max_cell, the attributes, and h, the
+  // heterogeneity of the mixture (2025 paper, Eq. 1). This is the distance of the fractions from equal shares of all
+  // materials: 1 for one material, and 0 for equal shares. Returns nothing, and adds diagnostics, when the formula is
   // wrong.
   static std::optional<ElementSize> build(const design::Design& design, const Box& box, const SizeRequest& request,
                                           Diagnostics& diagnostics);
 
-  // mm; from least_mm to most_mm.
+  // Returns the size at p in mm, from least_mm to most_mm.
   double at(Vec3 p);
   double least_mm() const { return request_.least_mm; }
   double most_mm() const { return request_.most_mm; }

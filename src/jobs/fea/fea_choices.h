@@ -106,9 +106,9 @@ struct FeaChoices {
   bool solves() const { return solve || rounds > 0; }
   SizeRequest size() const;
   FeaRequest request() const;
-  // On which voxels bricks are, and the seed.
+  // Returns the options that decide the voxels of bricks, and the seed.
   SamplingOptions sampling() const;
-  // Throws options::WrongValue for what does not go together.
+  // Throws options::WrongValue for options that exclude each other.
   void check() const;
 };
 

@@ -10,7 +10,7 @@
 namespace ombre::jobs {
 namespace {
 
-// The names that an output has: with rounds one for each, but for their history.
+// Returns the names of an output's files: one for each round, but a single one for their history.
 std::vector<std::string> names_of(const compile::FeaChoices& a, const std::string& path) {
   if (a.rounds == 0 || ending_of(path) == ".csv") return {path};
   std::vector<std::string> names;

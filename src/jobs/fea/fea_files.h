@@ -1,4 +1,4 @@
-// Names of the files that ombre fea writes.
+// Names of the files that `ombre fea` writes.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace ombre::jobs {
 
-// The file of HDF5 beside an .xdmf file.
+// Returns the name of the file of HDF5 beside an .xdmf file.
 std::string numbers_path(const std::string& path);
 
-// Throws Error where a file is there that --force does not replace.
+// Throws Error if a file exists that --force does not allow to replace.
 void refuse_to_overwrite(const compile::FeaChoices& choices);
 
 }  // namespace ombre::jobs

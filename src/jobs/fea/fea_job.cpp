@@ -19,7 +19,7 @@ using voxel::TileBox;
 
 constexpr int64_t most_bricks_along_axis = int64_t{1} << 30;
 
-// The numbers of one grid in a slab, x fastest, then y, then z.
+// Returns the numbers of one grid in a slab, x fastest, then y, then z.
 std::vector<float> numbers_of(const GridSlab& slab, size_t grid) {
   std::vector<float> numbers(static_cast<size_t>(slab.box.voxels()));
   for (const FieldTile& tile : slab.tiles) {
@@ -100,7 +100,7 @@ class ModelMaker {
     return true;
   }
 
-  // Takes the bricks that are filled in place of those whose centre is inside, and finds materials for the others.
+  // Replaces bricks whose centre is inside by those that are filled, and finds materials for the new ones.
   bool find_fills() {
     auto filled = fill_bricks(design_here(), loaded_, *parts_, request_.threads, diagnostics_, stop_);
     if (!filled) return false;
@@ -128,7 +128,7 @@ class ModelMaker {
     return design;
   }
 
-  // Values of bricks whose centre is outside, where there is nothing, are those of a place inside.
+  // Takes the values of bricks whose centre is outside from a place inside.
   bool mend_fields(fea::Model& model) {
     if (without_centre_.empty()) return true;
     SampleQuery query;
@@ -201,11 +201,11 @@ class ModelMaker {
   Progress* progress_;
   const StopFlag* stop_;
   std::vector<fea::Cell> cells_;
-  double filled_count_ = 0;                              // full bricks that have the volume of what is inside
-  std::vector<fea::Fill> fills_;                         // of each cell, where parts are looked at
-  std::vector<MaterialId> drawn_;                        // of each cell
-  std::vector<std::pair<size_t, Vec3>> without_centre_;  // cells whose centre is outside, and places inside
-  std::vector<MaterialId> fractions_;                    // whose fields come first
+  double filled_count_ = 0;                              // number of full bricks with the volume inside
+  std::vector<fea::Fill> fills_;                         // fill of each cell, if parts are sampled
+  std::vector<MaterialId> drawn_;                        // material of each cell
+  std::vector<std::pair<size_t, Vec3>> without_centre_;  // cells whose centre is outside, with places inside
+  std::vector<MaterialId> fractions_;                    // materials whose fractions are the first fields
 };
 
 fea::ValueField tensors(const std::string& name, const std::string& unit,
@@ -229,7 +229,8 @@ fea::ValueField vectors(const std::string& name, const std::string& unit, const 
   return field;
 }
 
-// Vectors and colours, whose numbers come as fields of their own ("fibre.x", "fibre.y", "fibre.z"), as one field each.
+// Joins the numbers of vectors and colours, which come as fields of their own ("fibre.x", "fibre.y", "fibre.z"), to one
+// field each.
 std::vector<fea::ValueField> with_vectors(const std::vector<fea::ValueField>& fields) {
   const auto count_of = [&](size_t first) -> size_t {
     for (const std::string_view parts : {"xyz", "rgba", "rgb"}) {

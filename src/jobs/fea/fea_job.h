@@ -14,37 +14,38 @@
 
 namespace ombre::compile {
 
-// The voxels of a lattice may become bricks. A finer lattice of their parts says how full each is; where bricks go by
-// their centres, there is none.
+// The plan of a model of bricks: a lattice whose voxels may become bricks, and a finer one of their parts, which shows
+// how full each is. The finer one is missing if centres decide.
 struct BrickPlan {
   Plan bricks;
   std::optional<Plan> parts;
 };
 
-// Nothing, and diagnostics, as plan_slice.
+// Plans a model; returns nothing, and adds diagnostics, in the cases of plan_slice.
 std::optional<BrickPlan> plan_model(const LoadedPtr& loaded, const PlanOptions& options, FeaRequest::Fill fill,
                                     Diagnostics& diagnostics);
 
-// Bricks are those voxels of which at least fea::least_fill is inside, or, without parts, whose centre is. Their fields
-// are the fractions of materials and the attributes in their centre, or, where that is outside, at the place nearest to
-// the middle of what is inside. Properties are those of the study, then those of the materials file. Nothing, and
-// diagnostics, when there is no brick, or properties are missing. Throws Cancelled.
+// Makes a model. Its bricks are the voxels of which at least fea::least_fill is inside, or, without parts, whose centre
+// is. Their fields are the fractions of materials and the attributes at their centre, or, if that is outside, at the
+// place nearest to the centroid of the part inside. Properties of the study take precedence over those of the materials
+// file. Returns nothing, and adds diagnostics, when there is no brick, or properties are missing. Throws Cancelled.
 std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const BrickPlan& plan, const fea::Study& study,
                                     const FeaRequest& request, Diagnostics& diagnostics, Progress* progress = nullptr,
                                     const StopFlag* stop = nullptr);
 
-// What a solver found: nothing, or what belongs to the study's physics.
+// The results of a solver for the study's physics, if any.
 struct FeaResults {
   std::optional<fea::Solution> solution;
-  std::optional<fea::Stresses> stresses;  // of the solution
+  std::optional<fea::Stresses> stresses;  // stresses of the solution
   std::optional<fea::Conduction> conduction;
 };
 
-// The fields of elements: those of the model, its main property, and with a solution stress, von Mises' stress and
-// strain in the middle, and the greatest von Mises stress at integration points; or the flux.
+// Returns the fields of elements: those of the model and its main property; with a solution also stress, von Mises
+// stress and strain in the middle, and the greatest von Mises stress at integration points, or the flux.
 std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea::Physics physics,
                                                 const FeaResults& results);
-// The displacements and recovered stresses, temperatures or potentials of nodes; none without a solution.
+// Returns the fields of nodes: displacements and recovered stresses, or temperatures or potentials; none without a
+// solution.
 std::vector<fea::ValueField> fea_node_fields(fea::Physics physics, const FeaResults& results);
 
 }  // namespace ombre::compile

@@ -44,7 +44,7 @@ std::string solved_text(const compile::FeaChoices& a, size_t iterations, bool is
   return "solved " + way + format_rounded(seconds, 3) + " s";
 }
 
-// The greatest of some values, and which it is.
+// The greatest of some values, with its index.
 struct Greatest {
   size_t number = 0;
   double value = 0;

@@ -1,4 +1,4 @@
-// Tells people and programs about the models and results of ombre fea, in lines and in events.
+// Reports models and results of `ombre fea`, in lines for people and in events for programs.
 #pragma once
 
 #include <string>
@@ -20,18 +20,18 @@ struct Case {
   }
   const compile::TetraModel* tetrahedra() const { return std::get_if<compile::TetraModel>(&made); }
   bool is_mechanics() const { return conditions.physics == fea::Physics::mechanics; }
-  // Bricks have a solver of their own.
+  // Bytes that solving takes; bricks have a solver of their own.
   double solve_bytes() const;
 };
 
 void tell_model(const Events& events, const Case& here);
-// Before equations are factorised.
+// Reports the cost of a factorisation before it begins.
 void tell_factorisation(const Events& events, const fea::DirectUse& use);
 
 void tell_results(const compile::FeaChoices& arguments, const Events& events, const Case& here,
                   const compile::FeaResults& results, double seconds);
 
-// "1 round", "12,092 rounds".
+// Returns texts such as "1 round", "12,092 rounds".
 std::string counted(size_t count, const std::string& what);
 
 }  // namespace ombre::jobs

@@ -12,11 +12,11 @@ namespace {
 
 using fea::Physics;
 
-// Poisson's ratios above this one are taken for it: an incompressible material has no bulk modulus.
+// Upper limit of Poisson's ratios, since the bulk modulus of an incompressible material is infinite.
 constexpr double most_poissons_ratio = 0.49;
-constexpr size_t most_section_count = 60'000;  // numbers of sections have 16 bits
+constexpr size_t most_section_count = 60'000;  // limit of 16-bit numbers of sections
 
-// What a section has beside its name.
+// The properties of a section, without its name.
 struct Property {
   fea::Elastic elastic;
   double conductivity = 0;
@@ -29,7 +29,7 @@ struct Property {
   }
 };
 
-// Properties of materials, of which some are missing, perhaps.
+// The properties of materials, some of which may be missing.
 class Properties {
  public:
   Properties(const design::MaterialTable& table, const fea::Study& study, Diagnostics& diagnostics)
@@ -44,7 +44,7 @@ class Properties {
     for (const auto& [name, conductivity] : study.conductivities) check(name);
   }
 
-  // A diagnostic when there are none.
+  // Returns the properties of a material, and adds a diagnostic when there are none.
   Property of(MaterialId id) {
     const auto known = known_.find(id);
     if (known != known_.end()) return known->second;
@@ -138,7 +138,8 @@ class SectionMaker {
     return is_mechanics_ ? property.elastic.modulus_mpa : property.conductivity;
   }
 
-  // The attribute that is given in place of the materials' main property; null, and a diagnostic, when there is none.
+  // Returns the attribute that replaces the materials' main property; null, and adds a diagnostic, when the design
+  // lacks it.
   const fea::ValueField* given_field() {
     const auto& fields = *materials_.fields;
     for (size_t f = materials_.fractions.size(); f < fields.size(); ++f)
@@ -147,13 +148,13 @@ class SectionMaker {
     return nullptr;
   }
 
-  // Means of the materials by their fractions; the main one perhaps by an attribute.
+  // Returns means of the materials' properties by their fractions; the main property may come from an attribute.
   std::vector<Property> mean_properties() {
     const fea::ValueField* given = attribute_ ? given_field() : nullptr;
     std::vector<Property> means(materials_.count);
     for (size_t f = 0; f < materials_.fractions.size(); ++f) {
       const std::vector<float>& shares = (*materials_.fields)[f].values;
-      // A material that is possible, and that no element has, needs no properties.
+      // A possible material that no element has needs no properties.
       if (std::ranges::all_of(shares, [](float share) { return share == 0; })) continue;
       const Property here = properties_.of(materials_.fractions[f]);
       for (size_t n = 0; n < means.size(); ++n) means[n].add(shares[n], here);
@@ -173,7 +174,7 @@ class SectionMaker {
     return means;
   }
 
-  // Elements of about the same main property become a section, whose properties are their means.
+  // Joins elements of about the same main property to sections, whose properties are their means.
   void mix() {
     std::vector<Property> means = mean_properties();
     if (diagnostics_.has_errors()) return;

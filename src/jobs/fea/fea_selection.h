@@ -1,4 +1,4 @@
-// Selections of a study that only the design can answer.
+// Answers selections of a study that depend on the design.
 #pragma once
 
 #include "fea/model/study.h"
@@ -6,8 +6,9 @@
 
 namespace ombre::compile {
 
-// Nodes of a part are those of elements whose middle lies in it. A formula knows x, y and z and what else formulas
-// know, and the design's attributes; a node is meant where it is not 0. What is handed over must live as long.
+// Returns a function that chooses nodes. Nodes of a part are those of elements whose middle lies in it. A formula, in
+// the coordinates of all formulas and the design's attributes, chooses the nodes where it is not 0. The arguments must
+// outlive the function.
 fea::ChooseNodes node_chooser(const Loaded& loaded, const fea::MeshView& mesh, int threads, const StopFlag* stop);
 
 }  // namespace ombre::compile

@@ -23,7 +23,7 @@ const char* type_of(size_t components) {
   return components == 6 ? "Tensor6" : "Matrix";
 }
 
-// From xx, yy, zz, xy, yz, zx to xx, xy, xz, yy, yz, zz.
+// Reorders components from xx, yy, zz, xy, yz, zx to xx, xy, xz, yy, yz, zz.
 std::vector<float> in_order_of_xdmf(const fea::ValueField& field) {
   if (field.components != 6) return field.values;
   constexpr std::array<size_t, 6> places{0, 3, 5, 1, 4, 2};
@@ -73,7 +73,7 @@ class XdmfWriter {
     arrays_.push_back(std::move(array));
   }
 
-  // The numbers must live until the file is made.
+  // Adds a field; the numbers must live until the file is made.
   void add_field(const fea::ValueField& field, const std::string& centre, std::vector<float>& kept) {
     kept = in_order_of_xdmf(field);
     const std::string name = field.unit.empty() ? field.name : field.name + " [" + field.unit + "]";
@@ -86,7 +86,7 @@ class XdmfWriter {
     text_ += "</Attribute>\n";
   }
 
-  // No two fields have one path.
+  // Returns a path that no other field has.
   std::string path_of(const std::string& centre, std::string name) {
     std::ranges::replace(name, '/', '_');
     std::ranges::replace(name, ':', '_');

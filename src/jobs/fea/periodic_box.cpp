@@ -11,7 +11,7 @@ namespace {
 
 constexpr int32_t most_bricks_of_cell = 4096;
 
-// The nearest number of the form m * 2^k with m up to 7.
+// Returns the nearest number of the form m * 2^k with m up to 7.
 int32_t halvable(double wanted) {
   constexpr double most_odd = 7;
   int32_t twos = 1;

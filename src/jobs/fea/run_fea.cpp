@@ -1,4 +1,4 @@
-// ombre fea: a design as a finite-element model, and what it does under load.
+// `ombre fea` makes finite-element models of designs and solves them.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -73,7 +73,7 @@ std::optional<fea::Study> read_study(const std::string& path, Diagnostics& diagn
   return data ? fea::read_study(*data, diagnostics) : std::nullopt;
 }
 
-// The grid has its name last, so what has it is whole.
+// The text that names the grid is written last, so if it exists the other file is whole.
 void write_xdmf(const std::string& path, const Case& here, const compile::FeaResults& results) {
   const fea::ModelView model = here.view();
   const std::string beside = numbers_path(path);
@@ -106,7 +106,7 @@ std::optional<compile::BrickPlan> plan_bricks(const FeaChoices& a, const compile
   return compile::plan_model(loaded, *options, a.fill, diagnostics);
 }
 
-// The model of a study of this design; with a period it repeats.
+// Makes the model of a study of this design; with a period the model is periodic.
 class ModelMaker {
  public:
   ModelMaker(const FeaChoices& a, const compile::LoadedPtr& loaded, const fea::Study& study,
@@ -118,7 +118,7 @@ class ModelMaker {
     compile::LoadedPtr sampled = loaded_;
     if (period_) {
       sampled = with_repeating_bricks(a_, loaded_, *period_, diagnostics_);
-      own.cell.reset();  // the bricks of the period are the design's own
+      own.cell.reset();  // the period's bricks decide the lattice, not --cell
     }
     if (!sampled) return std::nullopt;
     const auto plan = plan_bricks(own, sampled, session_, diagnostics_);
@@ -153,14 +153,14 @@ class ModelMaker {
   Diagnostics& diagnostics_;
 };
 
-// Nothing where the maker found nothing.
+// Joins a model to its case; returns nothing if there is no model.
 template <class Model>
 std::optional<Case> case_of(std::optional<Model> model) {
   if (!model) return std::nullopt;
   return Case{std::move(*model), {}};
 }
 
-// Tells where bricks are too large for the walls.
+// Warns if bricks are too large for the walls.
 void warn_of_thin_walls(const fea::ModelView& model, const fea::Study& study, Diagnostics& diagnostics) {
   constexpr double many = 0.1;
   if (!model.mesh.bricks()) return;
@@ -173,7 +173,7 @@ void warn_of_thin_walls(const fea::ModelView& model, const fea::Study& study, Di
         "choose a smaller " + spelled::option("--cell") + ", or " + spelled::option("--elements", "tet10"));
 }
 
-// Elements that are too stiff for their material, and meshes that miss some of the part.
+// Warns of elements that are too stiff for their material, and of meshes that miss some of the part.
 void warn_of_mesh(const Case& here, const fea::Study& study, Diagnostics& diagnostics) {
   const fea::ModelView model = here.view();
   const bool locks = std::ranges::any_of(model.sections, [](const fea::Section& section) {
@@ -291,7 +291,7 @@ void write_outputs(const FeaChoices& a, Session& session, const Case& here, cons
   }
 }
 
-// -D for the next round: the file with the results of this one.
+// Returns the -D option for the next round: the file with the results of this one.
 std::string definition_of(const FeaChoices& a, int round) {
   const auto grid = std::ranges::find_if(a.outputs, [](const std::string& path) { return ending_of(path) == ".vtu"; });
   return a.follow + "=" + std::filesystem::absolute(path_of_round(*grid, round)).string();

@@ -9,21 +9,22 @@
 namespace ombre::compile {
 namespace {
 
-constexpr double sharp_cosine = 0.766;   // of 40 degrees, between normals
-constexpr double corner_cosine = 0.766;  // between a line's directions before and after a point
-// Lengths, as multiples of the element size: the shortest line that ends nowhere, and lines that hang together of which
-// one does; lines whose ends are one corner; how far fixed points are from each other, and from the lowest one.
+constexpr double sharp_cosine = 0.766;   // cosine of 40 degrees between normals
+constexpr double corner_cosine = 0.766;  // cosine between a line's directions before and after a corner
+// Lengths, as multiples of the element size. The shortest line with an open end; the shortest sum of connected lines
+// with an open end; the distance at which ends become one corner; distances of fixed points from each other, and from
+// the lowest one.
 constexpr double least_length = 0.5, least_open_length = 4, join_length = 0.05;
 constexpr double spacing = 0.7, reach = 2;
 
 using Key = std::array<double, 3>;
-using Edge = std::pair<uint32_t, uint32_t>;  // the lesser point first
+using Edge = std::pair<uint32_t, uint32_t>;  // the point with the lesser number first
 
-// Points of all bodies, each once.
+// Points of all bodies, without duplicates.
 class Points {
  public:
   uint32_t add(Vec3 p) {
-    // Zero has one sign.
+    // Maps -0 to +0, so that equal keys compare equal.
     const Key key{p.x + 0.0, p.y + 0.0, p.z + 0.0};
     const auto [place, is_new] = numbers_.emplace(key, static_cast<uint32_t>(all.size()));
     if (is_new) all.push_back(p);
@@ -80,7 +81,7 @@ class EdgeFinder {
       neighbours_[b].push_back(a);
       ++degrees_[a], ++degrees_[b];
     }
-    // Open lines begin where not two edges meet; what is left then are rings.
+    // Open lines begin where the number of edges is not two; the remaining edges are rings.
     std::vector<Vertices> lines;
     for (uint32_t n = 0; n < neighbours_.size(); ++n)
       if (degrees_[n] != 2)
@@ -97,7 +98,7 @@ class EdgeFinder {
  private:
   using Vertices = std::vector<uint32_t>;
 
-  // A point and those around it, apart from each other.
+  // Adds a point and some around it, apart from each other.
   void add_patch(const surface::Body& body, const Vertices& vertices, uint32_t middle, std::vector<Vec3>& found) const {
     const auto add = [&](Vec3 p) {
       if (std::ranges::all_of(found, [&](Vec3 q) { return length(p - q) >= spacing * size_mm_; })) found.push_back(p);
@@ -108,8 +109,8 @@ class EdgeFinder {
       if (length(body.vertices[n] - p) < reach * size_mm_) add(body.vertices[n]);
   }
 
-  // Adds the lowest point of each surface without sharp edges, points around it, and the outermost along each axis: a
-  // mesher sees a surface where its points lie close together, and goes on from there.
+  // Adds points of each surface without sharp edges: the lowest point, points around it, and the outermost along each
+  // axis. A mesher sees a surface where its points lie close together, and goes on from there.
   void add_smooth_points(const surface::Body& body, std::vector<uint32_t>& parents, const std::vector<bool>& has_edge) {
     std::map<uint32_t, Vertices> surfaces;
     for (uint32_t n = 0; n < body.vertices.size(); ++n)
@@ -127,7 +128,7 @@ class EdgeFinder {
     }
   }
 
-  // Adds the point of each face that is farthest from its sharp edges, and those around it.
+  // Adds the point of each face that is farthest from its sharp edges, and some around it.
   void add_face_points(const surface::Body& body, const std::map<Edge, std::vector<Vec3>>& normals) {
     std::vector<bool> is_sharp(body.vertices.size());
     std::vector<uint32_t> parents(body.vertices.size());
@@ -160,7 +161,7 @@ class EdgeFinder {
     return least;
   }
 
-  // Among some of the vertices; all would take long.
+  // Returns the farthest of some of the vertices; searching all would take long.
   static uint32_t farthest(const surface::Body& body, const Vertices& vertices, const Vertices& from) {
     constexpr size_t most = 200;
     const size_t step = 1 + vertices.size() / most;
@@ -185,13 +186,13 @@ class EdgeFinder {
     std::erase(neighbours_[b], a);
   }
 
-  // Takes the edges from a point up to the next one where not two meet.
+  // Takes the edges from a point up to the next point where the number of edges is not two.
   std::vector<uint32_t> line_from(uint32_t first) {
     std::vector<uint32_t> line{first};
     uint32_t next = neighbours_[first].front();
     forget(first, next);
     line.push_back(next);
-    // A point in which two edges met has one left.
+    // One edge is left at a point where two met.
     while (degrees_[next] == 2 && neighbours_[next].size() == 1) {
       const uint32_t after = neighbours_[next].front();
       forget(next, after);
@@ -209,8 +210,8 @@ class EdgeFinder {
 
   bool ends_nowhere(const Vertices& line) const { return degrees_[line.front()] == 1 || degrees_[line.back()] == 1; }
 
-  // Rough surfaces have short sharp edges here and there, and no mesh needs them: drops short lines that end nowhere,
-  // and all lines that hang together where some end nowhere and they are short together.
+  // Drops short lines with an open end, and connected lines that are short together if one has an open end. Rough
+  // surfaces have such sharp edges here and there, and no mesh needs them.
   void drop_scraps(std::vector<Vertices>& lines) {
     std::vector<uint32_t> parents(points_.all.size());
     std::iota(parents.begin(), parents.end(), 0U);
@@ -232,7 +233,7 @@ class EdgeFinder {
     });
   }
 
-  // Makes one corner of the two ends of lines that are far shorter than elements, which would have to be as small.
+  // Joins ends of lines that are far shorter than elements to one corner, since elements would have to be as small.
   void join_near_corners(std::vector<Vertices>& lines) {
     std::vector<uint32_t> parents(points_.all.size());
     std::iota(parents.begin(), parents.end(), 0U);
@@ -267,7 +268,7 @@ class EdgeFinder {
     split(simple, is_ring);
   }
 
-  // Slivers of the surface have rings so thin that, made simpler, their sides are the same line. They are no edges.
+  // Drops rings whose simplified sides are the same line. They belong to slivers of the surface, and are no edges.
   void drop_doubled() {
     using Ends = std::pair<Key, Key>;
     const auto key = [](Vec3 p) { return Key{p.x, p.y, p.z}; };
@@ -285,7 +286,7 @@ class EdgeFinder {
     return far - points.begin();
   }
 
-  // Leaves out the points that lie within the tolerance of the line (Douglas and Peucker, 1973).
+  // Leaves out points that lie within the tolerance of the line (Douglas and Peucker, 1973).
   std::vector<Vec3> simplified(const std::vector<Vec3>& points) const {
     std::vector<bool> kept(points.size());
     kept.front() = kept.back() = true;
@@ -317,7 +318,7 @@ class EdgeFinder {
     return dot(a, b) < corner_cosine * length(a) * length(b);
   }
 
-  // Begins another line where this one turns sharply.
+  // Splits a line where it turns sharply.
   void split(std::vector<Vec3> points, bool is_ring) {
     if (is_ring && points.size() > 3) {
       // A ring begins in a corner, if it has any.

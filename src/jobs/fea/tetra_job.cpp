@@ -22,25 +22,27 @@
 namespace ombre::compile {
 namespace {
 
-// The surface, whose sharp edges count, has cells and a tolerance of these shares of the least size, or of an eighth of
-// the part where that is less, but no more than so many cells along an axis.
+// Cells and tolerance of the surface whose sharp edges count, as shares of the least element size, or of an eighth of
+// the part if that is less; and the greatest number of cells along an axis.
 constexpr double cell_share = 0.5, tolerance_share = 0.01, most_cells_along = 500, least_sizes_along = 8;
-// Measured: of the size's third power a tetrahedron has so much, and asks for the region so many times.
+// Measured: the mean volume of a tetrahedron as a share of the cube of the size, and the number of questions for its
+// region.
 constexpr double volume_of_cube = 0.115, questions_of_element = 60;
-constexpr double most_questions = 400;  // of an expected element: then refinement would not end
+constexpr double most_questions = 400;  // questions for each expected element after which refinement counts as endless
 constexpr double bytes_of_element = 700;
-// Elements beside edges are small and grow with the distance by this share; the mesher may then ask so many times more
-// often.
+// Elements beside edges are small and grow with the distance by this share; the mesher may then ask this many times
+// more often.
 constexpr double growth_from_edges = 0.3;
 constexpr uint64_t more_questions = 8;
-// Elements are as large as edges lie apart, unless these are far closer together than their size: then they are left
-// out.
+// Elements are at most as large as the gaps between edges. Edges that are far closer together than the element size are
+// left out instead.
 constexpr double most_of_gap = 1, least_share_of_size = 0.2;
-constexpr double rough_share = 0.2;  // of the size: how far faces may lie from a surface whose edges are cut off
-constexpr double least_share = 0.9;  // of the surface's volume that tetrahedra fill
+// Distance, as a share of the size, between faces and a surface whose edges are cut off.
+constexpr double rough_share = 0.2;
+constexpr double least_share = 0.9;  // share of the surface's volume that tetrahedra must fill
 constexpr double draws = 16777216;   // 2^24
 
-// The box around the design, with room for the mesher.
+// Returns the box around the design, with room for the mesher.
 Box with_room(const Box& box) {
   const Vec3 size = box.size();
   return box.expanded(0.05 * std::max({size.x, size.y, size.z}));
@@ -54,7 +56,7 @@ double distance_to(const std::vector<solids::Polyline>& lines, Vec3 p) {
   return std::sqrt(squared);
 }
 
-// How close lines come to others that do not end where they do.
+// Returns the least distance of lines from others that do not end where they do.
 double least_gap(const std::vector<solids::Polyline>& lines, const std::vector<solids::Polyline>& all) {
   double least = std::numeric_limits<double>::infinity();
   for (const solids::Polyline& line : lines) {
@@ -209,8 +211,8 @@ class TetraMaker {
     return solids::make_tetrahedra(wanted);
   }
 
-  // Again with points on all faces, where much of the volume was not found; without sharp edges where they lie so close
-  // together or are so rough that there is no end.
+  // Makes the mesh, and repeats it if that fails: with points on all faces if much of the volume was not found; without
+  // sharp edges if these lie so close together or are so rough that it does not end.
   solids::Tetrahedra mesh(ElementSize& size, const Box& box, double volume_mm3) {
     std::vector<surface::Body> bodies;
     for (const RegionBody& body : surface_) bodies.push_back(body.body);
@@ -249,8 +251,8 @@ class TetraMaker {
     return made;
   }
 
-  // Thin plates keep their edges, which lie closer together than elements are large, with smaller elements beside
-  // these.
+  // Thin plates keep their edges, although these lie closer together than elements are large; elements beside them are
+  // smaller.
   void keep_edges(solids::TetrahedraRequest wanted, ElementSize& size, solids::Tetrahedra& made) {
     const std::vector<solids::Polyline> edges = made.edges_left_out;
     const double share = most_of_gap * least_gap(edges, wanted.sharp_edges) / size.least_mm();
@@ -300,7 +302,7 @@ class TetraMaker {
     progress_->preparing("tetrahedra", {std::min(questions_, total - 1), total});
   }
 
-  // Takes the tetrahedra whose region is no void, with their regions.
+  // Takes the tetrahedra whose region is not void, with their regions.
   void take(const solids::Tetrahedra& tetrahedra, TetraModel& made) {
     made.model.mesh.kind = fea::ElementKind::c3d4;
     made.model.mesh.points = tetrahedra.points;
@@ -322,7 +324,7 @@ class TetraMaker {
     return check_mixtures(design_, {middles, found.drawn}, request_.sections.threads, stop_, diagnostics_);
   }
 
-  // Fractions without void, whose sum is one, and attributes, in the middles of elements.
+  // Adds fractions without void, whose sum is one, and attributes, at the middles of elements.
   bool add_fields(fea::MeshModel& model) {
     SampleQuery query;
     query.fractions = true;
@@ -365,7 +367,8 @@ class TetraMaker {
     }
   }
 
-  // The paper's draw at the middle of each element; of regions by material that of the region.
+  // Draws a material at the middle of each element, as the paper does; with regions by material, takes that of the
+  // region.
   ElementMaterials materials(const fea::MeshModel& model) {
     ElementMaterials found{fea::MeshView(model.mesh).count(), {}, fractions_, &model.fields};
     const uint32_t row = voxel::row_hash(request_.seed, 0, 0);
@@ -400,8 +403,8 @@ class TetraMaker {
   std::vector<RegionBody> surface_;
   TetraPlan plan_;
   uint64_t questions_ = 0;
-  std::vector<uint32_t> region_of_;    // of each element
-  std::vector<MaterialId> fractions_;  // whose fields come first
+  std::vector<uint32_t> region_of_;    // region of each element
+  std::vector<MaterialId> fractions_;  // materials whose fractions are the first fields
 };
 
 }  // namespace

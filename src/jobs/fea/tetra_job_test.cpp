@@ -48,7 +48,7 @@ class Tetra : public testing::Test {
   }
 };
 
-// A cube's edges and corners are there: its volume is exact, and all of its eight corners are nodes.
+// The edges and corners of a cube are kept: its volume is exact, and all of its eight corners are nodes.
 TEST_F(Tetra, SharpEdgesAreKept) {
   const auto made = tetrahedra_of(design_of("rectprism((10, 10, 10), red);"), of_size(2.5));
   ASSERT_TRUE(made);
@@ -62,8 +62,7 @@ TEST_F(Tetra, SharpEdgesAreKept) {
   EXPECT_EQ(corners, 8U);
 }
 
-// Two cubes, the upper turned by 30 degrees: their edges cross 0.03 mm
-// apart.
+// The upper of two cubes is turned by 30 degrees: their edges cross 0.03 mm apart.
 TEST_F(Tetra, EdgesThatLieTooCloseAreLeftOut) {
   const LoadedPtr loaded = design_of(
       "union() { rectprism((10, 10, 10), red); translate(0, 0, 0.03) rotate(0, 0, 30) rectprism((10, 10, 10), red); }");
@@ -72,7 +71,7 @@ TEST_F(Tetra, EdgesThatLieTooCloseAreLeftOut) {
   ASSERT_TRUE(made) << to_text(diagnostics);
   EXPECT_NE(to_text(diagnostics).find("sharp edges are cut off, since others lie too close"), std::string::npos)
       << to_text(diagnostics);
-  // Two squares turned by t have s^2 * 2 / (1 + sin t + cos t) of s^2 in common.
+  // The common area of two squares of side s turned by t is s^2 * 2 / (1 + sin t + cos t).
   const double common = 100 * 2 / (1 + std::sin(std::numbers::pi / 6) + std::cos(std::numbers::pi / 6));
   const double wanted = 2000 - 9.97 * common;
   EXPECT_NEAR(made->surface_mm3, wanted, 0.001 * wanted);
@@ -80,7 +79,7 @@ TEST_F(Tetra, EdgesThatLieTooCloseAreLeftOut) {
   EXPECT_EQ(made->quality.inverted, 0U);
 }
 
-// A plate half as thick as elements are large: it is as long, wide and thick as it was, to its corners.
+// A plate half as thick as elements are large keeps its length, width and thickness, to its corners.
 TEST_F(Tetra, ThinPlatesKeepTheirEdges) {
   const LoadedPtr loaded = design_of("rectprism((20, 4, 1), red);");
   Diagnostics diagnostics;
@@ -94,7 +93,7 @@ TEST_F(Tetra, ThinPlatesKeepTheirEdges) {
   EXPECT_EQ(to_text(diagnostics).find("cut off"), std::string::npos) << to_text(diagnostics);
 }
 
-// Round surfaces apart from each other, one inside of another, are all found.
+// Round surfaces that are separate, or one inside of another, are all found.
 TEST_F(Tetra, SmoothSurfacesAreAllFound) {
   const auto made = tetrahedra_of(
       design_of("union() { sphere(3, red); translate(12, 0, 0) difference() { sphere(5, red); sphere(3, red); } }"),
@@ -141,7 +140,7 @@ TEST_F(Tetra, MixturesAreDrawnByTheirFractions) {
   EXPECT_NE(tetrahedra_of(loaded, request)->model.section_of, made->model.section_of);
 }
 
-// Eq. 1: small where the mixture is even, large where there is one material.
+// Elements are small where shares are equal, and large where there is one material (Eq. 1).
 TEST_F(Tetra, SizesFollowTheirFormula) {
   TetraRequest request;
   request.size = {0.6, 3, "min_cell + h*(max_cell - min_cell)"};

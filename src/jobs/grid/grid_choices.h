@@ -37,7 +37,7 @@ struct GridChoices {
              "Replace files that are there, and write even if the disk seems too small")};
     return spec;
   }
-  // `usual`: what voxels hold where --what does not say. Sparse grids hold distances near the surface alone. Throws
+  // Reads the options; `usual` stands for a missing --what. Sparse grids hold distances near the surface alone. Throws
   // options::WrongValue.
   GridQuery query(const std::string& usual, bool is_sparse) const;
 };

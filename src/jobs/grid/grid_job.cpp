@@ -1,4 +1,4 @@
-// A design sampled on a part of its lattice: what voxel grids for other programs are made of.
+// Samples a design on a part of its lattice, for voxel grids of other programs.
 #include "jobs/grid/grid_job.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 using voxel::FieldTile;
 using voxel::TileBox;
 
-// Each stretch of a row as a tile.
+// Adds each stretch of a row as a tile.
 void add_row(const RowView& row, std::array<int64_t, 3> at, std::vector<FieldTile>& tiles) {
   const MaterialId* dense = row.dense.data();
   for (const Run& run : row.runs) {
@@ -31,7 +31,7 @@ void add_row(const RowView& row, std::array<int64_t, 3> at, std::vector<FieldTil
   }
 }
 
-// What slicing puts into the voxels, run by run.
+// Returns a producer of the materials that slicing puts into the voxels, run by run.
 TileProducer material_tiles(const RegionProducer& regions) {
   return [regions](const TileBox& region, const StopFlag* stop) {
     std::vector<FieldTile> tiles;
@@ -45,7 +45,7 @@ TileProducer material_tiles(const RegionProducer& regions) {
   };
 }
 
-// The materials of a region's voxels, one after the other.
+// Returns the materials of a region's voxels, one after the other.
 std::vector<float> dense_materials(const TileProducer& materials, const TileBox& region, const StopFlag* stop) {
   std::vector<float> dense(static_cast<size_t>(region.voxels()));
   for (const FieldTile& tile : materials(region, stop)) {
@@ -61,7 +61,7 @@ std::vector<float> dense_materials(const TileProducer& materials, const TileBox&
   return dense;
 }
 
-// A tile of fields with the materials of its voxels before them.
+// Returns a tile of fields with the materials of its voxels before them.
 FieldTile joined_tile(const FieldTile& fields, const std::vector<float>& materials, const TileBox& region) {
   const TileBox& box = fields.box;
   const auto voxels = static_cast<size_t>(box.voxels());
@@ -87,8 +87,8 @@ TileProducer with_materials(const TileProducer& materials, const TileProducer& f
   };
 }
 
-// Around a whole design there is room for the outer half of its band, where nothing is inside. A part that is cut
-// out by a box ends there.
+// Grows the region of a whole design by the outer half of its band, where nothing is inside. A part that is cut out by
+// a box is not grown.
 TileBox with_band(const TileBox& region, const voxel::Lattice& lattice, const design::Design& design) {
   if (design.sampling || region.lo != std::array<int64_t, 3>{} || region.hi != lattice.count) return region;
   const auto more = static_cast<int64_t>(band_voxels) + 1;
@@ -118,13 +118,13 @@ std::optional<TileProducer> field_tiles(const LoadedPtr& loaded, const GridJob& 
   return [loaded, evaluator](const TileBox& region, const StopFlag* stop) { return evaluator->tiles(region, stop); };
 }
 
-// A grid for each number of the attribute, or for the one that is named.
+// Adds a grid for each number of the attribute, or for the named one.
 void add_numbers(const design::AttributeDeclaration& attribute, const std::string& name, std::vector<Grid>& grids) {
   for (const std::string& part : design::parts_of(attribute))
     if (name == attribute.name || name == part) grids.push_back({GridKind::attribute, part, {}, attribute});
 }
 
-// Nothing, and a diagnostic, when the design has none of that name.
+// Returns nothing, and adds a diagnostic, when the design has no such attribute.
 std::optional<std::vector<Grid>> attribute_grids(const design::Design& design, const GridQuery& query,
                                                  Diagnostics& diagnostics) {
   const std::vector<design::AttributeDeclaration> known = declared_attributes(design);
@@ -166,7 +166,7 @@ double largest_pitch_mm(const voxel::Lattice& lattice) {
 constexpr int64_t slab_unit = 8;  // layers
 constexpr double slab_bytes = 64 << 20, window_bytes = 1 << 30;
 
-// A layer of all grids, as it is computed.
+// Returns the bytes of a layer of all grids, as it is computed.
 double layer_bytes(const GridJob& job) {
   return static_cast<double>(job.region.size(0) * job.region.size(1)) * static_cast<double>(job.grids.size()) *
          sizeof(float);
@@ -194,7 +194,7 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   job.grids = requested_grids(plan.request, query);
   const auto attributes = attribute_grids(loaded->design, query, diagnostics);
   if (!attributes) return std::nullopt;
-  // Values of attributes do not say what is inside.
+  // Values of attributes do not show what is inside, so a flag is added.
   job.has_inside_flag = job.grids.empty();
   job.grids.insert(job.grids.end(), attributes->begin(), attributes->end());
   job.metric = whole_solid(loaded->design)->metric();

@@ -1,4 +1,4 @@
-// Grids for other programs against mathematics, slices and the reference.
+// Tests grids for other programs against mathematics, slices and the reference.
 #include "jobs/grid/grid_job.h"
 
 #include <cmath>
@@ -85,7 +85,7 @@ const std::string graded =
 
 std::string temporary(const std::string& name) { return testing::TempDir() + std::to_string(getpid()) + "_" + name; }
 
-// The attribute of a ball of 3 mm: 2 + z, and 7 elsewhere.
+// The attribute of a ball of 3 mm: 2 + z inside, 7 elsewhere.
 const std::string dosed =
     "attribute(\"dose\", \"2 + z\", unit=\"J/cm2\", default=7) { sphere(3, \"red\"); }"
     "attribute(\"heat\", 5) { translate(10, 0, 0) { sphere(1); } }";
@@ -137,7 +137,7 @@ TEST(Grids, NarrowBandsAreCutOff) {
       ASSERT_NEAR(grid.at(0, i, 9, k), std::clamp(length(lattice.center(i, 9, k)) - 4, -0.75, 0.75), 2e-6);
 }
 
-// Where a mesh lies on the border of the lattice too.
+// The mesh lies on the border of the lattice.
 TEST(Grids, BandsOfMeshesHaveNothingInsideBeyondTheLattice) {
   const Sampled grid = sample("mesh(\"" OMBRE_SOURCE_DIR "/examples/models/tetrahedron.off\");",
                               {{false, true, true, true}, pitch(0.3), {}, 2});
@@ -216,7 +216,7 @@ TEST(Grids, BatchesAgreeWithTheReference) {
   }
 }
 
-// 1e30 squared is no float.
+// 1e30 squared does not fit into a float.
 TEST(Grids, WhatFloatsCannotHoldIsComputedInDoubles) {
   const Sampled grid = sample("fgrade([\"(1e30 + x)^2 / 1e60\", \"1\"], [\"red\", \"blue\"]) { sphere(2); }",
                               {fractions(), pitch(0.25), {}, 1});

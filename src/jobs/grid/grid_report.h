@@ -1,4 +1,4 @@
-// Reports about the voxel grids that a job wrote.
+// Reports the voxel grids that a job wrote.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace ombre::compile {
 struct GridReport {
   std::vector<std::string> files;
   uint64_t bytes_written = 0;
-  bool has_inside = false;  // else no voxel's centre is inside the design
+  bool has_inside = false;  // false if no voxel's centre is inside the design
   double seconds = 0;
 };
 

@@ -1,4 +1,4 @@
-// ombre voxels: a design as a voxel grid for other programs.
+// `ombre voxels` writes a design as a voxel grid for other programs.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -58,7 +58,7 @@ constexpr const char* voxels_footer =
     "  ombre voxels scan.nii -o small.nrrd --voxel 1 --box 0,0,0,50,50,40   a scan, on other voxels and cropped; its\n"
     "              number between voxels, or with --what nearest that of the nearest, for labels\n";
 
-// What the ending of the file asks for: dense numbers, or sparse grids.
+// Formats by the ending of the file: dense numbers, or sparse grids.
 struct VtiFormat {};
 using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>;
 
@@ -127,13 +127,13 @@ void warn_of_metric(const Events& events, const compile::GridJob& job) {
     events.warn("of this design's distance only the sign is meant, since a formula gives it; its values are no mm");
 }
 
-// The files of a grid, without descriptions beside them.
+// Returns the files of a grid, without descriptions beside them.
 std::vector<std::string> paths_of(const GridChoices& a, const compile::GridJob& job, const Format& format) {
   const bool is_dense = std::holds_alternative<exporting::VolumeFormat>(format);
   return is_dense ? compile::volume_paths(a.output, job.grids) : std::vector{a.output};
 }
 
-// Files of the grid, and those beside them.
+// Refuses to overwrite files of the grid, and those beside them.
 void refuse_to_overwrite_any(const std::vector<std::string>& paths, const Format& format, bool force) {
   const auto* dense = std::get_if<exporting::VolumeFormat>(&format);
   for (const std::string& path : paths) {
@@ -142,14 +142,14 @@ void refuse_to_overwrite_any(const std::vector<std::string>& paths, const Format
   }
 }
 
-// Only the design says how many grids there are of fractions and attributes.
+// True if one file is certain; otherwise only the design says how many grids of fractions and attributes there are.
 bool has_one_file(const Format& format, const compile::GridQuery& query) {
   if (!std::holds_alternative<exporting::VolumeFormat>(format)) return true;
   const bool is_one = query.materials != query.distance;
   return is_one && !query.fractions && !query.all_attributes && query.attributes.empty();
 }
 
-// Tells the plan, once it is known to be possible.
+// Reports the plan, once it is known to be possible.
 void check(const GridChoices& a, const compile::GridJob& job, const Format& format, Session& session) {
   const std::vector<std::string> paths = paths_of(a, job, format);
   refuse_to_overwrite_any(paths, format, a.force);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Below all numbers that a file may hold.
+// Less than all numbers that a file may hold.
 constexpr const char* least_number = "-1e300";
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Files with volumes (scans, say), where commands take them in place of designs.
+// Loads files with volumes, such as scans, where commands take them instead of designs.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace ombre::jobs {
 
-// Is it a folder, or does its name end like those of files with volumes?
+// True for a folder, or a name with an ending of files with volumes.
 bool is_scan(const std::string& path);
-// The numbers of a volume as a design: a solid that fills the grid, with the attributes "number", linear between
-// voxels, and "nearest". Null, and diagnostics, when it cannot be read.
+// Returns the numbers of a volume as a design: a solid that fills the grid, with the attributes "number", linear
+// between voxels, and "nearest". Returns null, and adds diagnostics, when it cannot be read.
 compile::LoadedPtr load_scan(const compile::DesignOptions& arguments, Session& session, Diagnostics& diagnostics,
                              int threads);
 

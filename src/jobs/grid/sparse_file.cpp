@@ -1,4 +1,4 @@
-// Grids of a job as one sparse file: .vdb and .nvdb.
+// Writes grids of a job as one sparse file: .vdb and .nvdb.
 #include "jobs/grid/sparse_file.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Grids of a job as one sparse file: .vdb and .nvdb.
+// Writes grids of a job as one sparse file: .vdb and .nvdb.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace ombre::compile {
 
-// Keeps in memory what is not uniform. The file gets its name when it is complete. Throws Error and Cancelled; then
-// nothing is left.
+// Writes the file. Blocks that are not uniform are kept in memory. The file gets its name when it is complete. Throws
+// Error and Cancelled, and leaves nothing then.
 GridReport write_sparse(const GridJob& job, const std::string& path, vdb::FileFormat format, int threads,
                         Progress* progress = nullptr, const StopFlag* stop = nullptr);
 

@@ -1,4 +1,4 @@
-// Grids of a job as dense files: raw, .npy and .nrrd.
+// Writes grids of a job as dense files: raw, .npy and .nrrd.
 #include "jobs/grid/volume_files.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Data all_materials(const Sampling& request) {
   return list;
 }
 
-// What the numbers of a grid are.
+// Describes the numbers of a grid.
 DataMembers about(const GridJob& job, const Grid& grid) {
   const Sampling& request = job.request;
   DataMembers members{{"program", request.program}, {"design_hash", request.design_hash}};

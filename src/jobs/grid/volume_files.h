@@ -1,4 +1,4 @@
-// Grids of a job as dense files: raw, .npy and .nrrd.
+// Writes grids of a job as dense files: raw, .npy and .nrrd.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace ombre::compile {
 
-// One file for each grid: `path` itself if it is a single grid of materials, distances or an attribute, else
+// Returns a path for each grid: `path` itself for a single grid of materials, distances or an attribute, else
 // part_red.npy, part_distance.npy and so on.
 std::vector<std::string> volume_paths(const std::string& path, const std::vector<Grid>& grids);
 
-// Of all files, without headers and before compression.
+// Returns the bytes of all files, without headers and before compression.
 uint64_t volume_bytes(const GridJob& job);
 
-// Keeps a few layers in memory. The files get their names when all are complete. Throws Error and Cancelled; then
-// nothing is left.
+// Writes the files, and keeps a few layers in memory. Files get their names when all are complete. Throws Error and
+// Cancelled, and leaves nothing then.
 GridReport write_volumes(const GridJob& job, const std::vector<std::string>& paths, exporting::VolumeFormat format,
                          int threads, Progress* progress = nullptr, const StopFlag* stop = nullptr);
 
@@ -27,7 +27,7 @@ struct VolumeInMemory {
   exporting::Volume volume;
   std::string numbers;
 };
-// All grids, in their order. Throws Cancelled.
+// Returns all grids, in their order. Throws Cancelled.
 std::vector<VolumeInMemory> volumes_in_memory(const GridJob& job, int threads, Progress* progress = nullptr,
                                               const StopFlag* stop = nullptr);
 

@@ -1,4 +1,4 @@
-// Voxel grids for programs that hold them in memory.
+// Makes voxel grids for programs that hold them in memory.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace ombre::jobs {
 
-// Makes what `ombre voxels` would write, whatever the name of the output. Returns an exit code. Throws as jobs do.
+// Makes the grids that `ombre voxels` would write, whatever the name of the output. Returns an exit code. Throws as
+// jobs do.
 int make_voxels(const compile::GridChoices& choices, Session& session, std::vector<compile::VolumeInMemory>& made);
 
 }  // namespace ombre::jobs

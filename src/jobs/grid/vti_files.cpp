@@ -59,7 +59,7 @@ void put(std::string& bytes, size_t at, float value, bool is_float) {
     bytes[at] = static_cast<char>(static_cast<uint8_t>(value));
 }
 
-// The array's numbers in a slab of layers, those of one voxel together.
+// Returns the array's numbers in a slab of layers, those of one voxel together.
 std::string slab_numbers(const GridSlab& slab, const ArrayGrids& array) {
   std::string bytes(static_cast<size_t>(slab.box.voxels()) * array.array.bytes_per_voxel(), '\0');
   for (const FieldTile& tile : slab.tiles)

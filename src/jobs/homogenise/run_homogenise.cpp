@@ -1,4 +1,4 @@
-// ombre homogenise: how stiff a cell of a design is as a material, or how well it conducts.
+// `ombre homogenise` finds the stiffness or the conductivity of a cell of a design as a material.
 #include <memory>
 
 #include "base/system/stopwatch.h"
@@ -85,7 +85,7 @@ std::string text_of(const std::array<double, 3>& values) {
   return format_rounded(values[0], 4) + ", " + format_rounded(values[1], 4) + ", " + format_rounded(values[2], 4);
 }
 
-// The share of the design's own volume beside that of the bricks.
+// Returns a text with the share of the design's own volume beside that of the bricks.
 std::string share_text(double design_share, double brick_share) {
   return percent(design_share) + " of the box is solid, " + percent(brick_share) + " by its bricks";
 }
@@ -95,8 +95,8 @@ double design_share(const fea::Model& model) {
   return model.design_mm3 / (bricks.volume_mm3() * bricks.period[0] * bricks.period[1] * bricks.period[2]);
 }
 
-// Young's moduli with bricks of twice the size, and what follows for bricks of none by Richardson's rule, where errors
-// go with the square of the size.
+// Young's moduli with bricks of twice the size, and Richardson's extrapolation, for errors that go with the square of
+// the size.
 struct Extrapolated {
   std::array<double, 3> coarse{}, limit{}, error{};
 
@@ -184,13 +184,13 @@ void tell(const Events& events, const fea::HomogenisedConductivity& found, bool 
                                {"seconds", seconds}});
 }
 
-// The variable that a share of solid is found by, and its bounds.
+// The variable that is changed to get a share of solid, and its bounds.
 struct Variable {
   std::string name;
   double low = 0, high = 0;
 };
 
-// NAME=LOW:HIGH.
+// Reads NAME=LOW:HIGH.
 Variable variable_of(const HomogeniseChoices& a) {
   const std::vector<std::string> sides = split(a.by, '='), bounds = split(sides.back(), ':');
   const auto low = parse_number(bounds.front()), high = parse_number(bounds.back());
@@ -210,7 +210,7 @@ void check_output(const HomogeniseChoices& a) {
   refuse_to_overwrite(a.output, a.force);
 }
 
-// Throws Error where it takes more than is allowed.
+// Reports the size. Throws Error if solving takes more memory than is allowed.
 void tell_size(const HomogeniseChoices& a, const Events& events, const fea::Bricks& bricks, double bytes) {
   events.say(std::to_string(bricks.period[0]) + " x " + std::to_string(bricks.period[1]) + " x " +
              std::to_string(bricks.period[2]) + " bricks of " + format_rounded(bricks.size_mm.x, 4) + " x " +
@@ -222,7 +222,7 @@ void tell_size(const HomogeniseChoices& a, const Events& events, const fea::Bric
 // A model, and the physics of its study.
 struct HomogenisePlan {
   fea::Model model;
-  std::optional<fea::Model> coarse;  // of bricks of twice the size, where that is the same design
+  std::optional<fea::Model> coarse;  // model of bricks of twice the size, if that is the same design
   fea::Physics physics = fea::Physics::mechanics;
 
   bool is_mechanics() const { return physics == fea::Physics::mechanics; }
@@ -255,7 +255,7 @@ void solve_conductivity(const fea::Model& model, const fea::SolveOptions& option
   tell(session.events, found, is_heat, design_share(model), watch.seconds());
 }
 
-// How much of the box is solid with a value of the variable; a cell without bricks is empty.
+// Finds how much of the box is solid for a value of the variable; a cell without bricks is empty.
 class Shares {
  public:
   Shares(const HomogeniseChoices& a, Variable variable, const fea::Study& study, Session& session,
@@ -287,7 +287,7 @@ class Shares {
   Diagnostics& diagnostics_;
 };
 
-// Finds the variable's value for a density by halving its range: the share of samples leaps, so slopes would mislead.
+// Finds the variable's value for a density by bisection, since the share of samples jumps and slopes would mislead.
 std::optional<HomogeniseChoices> with_density(const HomogeniseChoices& a, const fea::Study& study, Session& session,
                                               Diagnostics& diagnostics) {
   constexpr int most_halves = 30;
@@ -328,7 +328,7 @@ std::optional<HomogenisePlan> plan_job(const HomogeniseChoices& a, Session& sess
   auto model = make_model(*chosen, *study, session, diagnostics);
   if (!model) return std::nullopt;
   HomogenisePlan plan{std::move(*model), std::nullopt, study->physics};
-  // Another draw of a mixture is another design.
+  // Another draw of a mixture would be another design.
   const bool is_drawn = a.assign == compile::FeaRequest::Assign::draw && plan.model.sections.size() > 1;
   if (!plan.is_mechanics() || is_drawn) return plan;
   chosen->cell_mm *= 2;

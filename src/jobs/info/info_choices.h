@@ -1,4 +1,4 @@
-// The options of ombre info.
+// The options of `ombre info`.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ namespace ombre::jobs {
 
 struct InfoChoices {
   std::string file;
-  std::string series;   // of several DICOM series its number or UID, of several grids its name
-  int channel = -1;     // of several values in each voxel, counted from 0; -1: there is one
-  std::string picture;  // to write; empty: none
-  bool force = false;   // replaces one that is there
+  std::string series;   // number or UID of one of several DICOM series, or name of one of several grids
+  int channel = -1;     // index of one of several values in each voxel; -1: there is one
+  std::string picture;  // file to write; empty: none
+  bool force = false;   // replaces an existing file
 
   static const options::Spec<InfoChoices>& options() {
     using namespace options;

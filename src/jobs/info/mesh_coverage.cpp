@@ -15,7 +15,7 @@ namespace {
 using program::Instruction;
 using program::Program;
 
-// All that may read results.
+// Returns a program of everything that may read results.
 std::optional<Program> whole_program(const design::Design& design, Diagnostics& diagnostics) {
   Question question(design);
   program::Outputs outputs{{"inside", question.inside()}};
@@ -29,10 +29,10 @@ std::optional<Program> whole_program(const design::Design& design, Diagnostics& 
   return question.program(outputs, diagnostics);
 }
 
-// Of a mesh, and the place in it.
+// A mesh, and the place in it.
 using Reading = std::tuple<std::string, program::ValueId, program::ValueId, program::ValueId>;
 
-// Puts in place of the outputs, but for the first, one for each reading: 1 in the mesh, else 0.
+// Replaces the outputs, except for the first, by one for each reading: 1 in the mesh, else 0.
 std::vector<Reading> outputs_of_meshes(Program& program) {
   std::vector<Reading> readings;
   program.outputs.resize(1);
@@ -55,7 +55,7 @@ std::vector<Reading> outputs_of_meshes(Program& program) {
   return readings;
 }
 
-// Of the samples inside.
+// Returns a share of the samples inside.
 std::optional<double> share_inside(const std::vector<float>& inside, const std::vector<float>& in_mesh) {
   double all = 0, those = 0;
   for (size_t n = 0; n < inside.size(); ++n) {

@@ -30,7 +30,7 @@ Box box_of_points(const formats::Results& results) {
   return box;
 }
 
-// Encloses the finite values of a component.
+// Returns the range of the finite values of a component.
 Interval range_of_component(const formats::ResultField& field, size_t component) {
   Interval range(Box::inf, -Box::inf);
   for (size_t n = component; n < field.values.size(); n += field.components)

@@ -1,4 +1,4 @@
-// ombre info: what a grid of numbers in a file holds, and the parameters of an OpenSCAD script.
+// `ombre info` describes files with volumes, results and designs, and the parameters of an OpenSCAD script.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -24,7 +24,7 @@ std::string range_text(const std::optional<Interval>& range) {
   return format_rounded(range->lo, 5) + " to " + format_rounded(range->hi, 5);
 }
 
-// "1 lid, 2 bottom"
+// Returns a text such as "1 lid, 2 bottom".
 std::string labels_text(const std::vector<std::string>& labels) {
   std::vector<std::string> numbered;
   for (size_t n = 0; n < labels.size(); ++n) numbered.push_back(std::to_string(n + 1) + " " + labels[n]);
@@ -67,7 +67,7 @@ Data attribute_data(const compile::SurveyedAttribute& attribute) {
                      {"values", std::move(numbers)}};
 }
 
-// "results seat.vtu  99.2 % of the design's volume lies in the mesh"
+// Returns a line such as "results seat.vtu  99.2 % of the design's volume lies in the mesh".
 std::string coverage_text(const std::vector<compile::MeshCoverage>& coverage) {
   std::string text;
   for (const compile::MeshCoverage& mesh : coverage)

@@ -23,11 +23,11 @@ namespace {
 
 struct ValueCounts {
   double least = 0, greatest = 0;
-  std::vector<double> counts;          // of as many equal parts of the range
-  std::map<int64_t, uint64_t> labels;  // how often each number stands there; empty where there are many
+  std::vector<double> counts;          // counts in equal parts of the range
+  std::map<int64_t, uint64_t> labels;  // how often each number occurs; empty if there are many
 };
 
-// Whole numbers that stand there, where they are few enough to be labels; else nothing.
+// Counts whole numbers if there are few enough to be labels; returns none otherwise.
 std::map<int64_t, uint64_t> count_labels(const formats::VoxelVolume& volume) {
   constexpr size_t most_labels = 256;
   return formats::visit_numbers(volume, [&]<class T>(const formats::Numbers<T>& numbers) {
@@ -58,7 +58,7 @@ ValueCounts count_values(const formats::VoxelVolume& volume, size_t parts) {
 
 DataList to_list(Vec3 v) { return {v.x, v.y, v.z}; }
 
-// The step from voxel to voxel along an axis of the grid.
+// Returns the step from voxel to voxel along an axis of the grid.
 Vec3 step_of(const Affine& map, int axis) { return {map.rows[0][axis], map.rows[1][axis], map.rows[2][axis]}; }
 
 std::string placement_text(const formats::VoxelVolume& volume) {
@@ -101,7 +101,7 @@ std::string labels_text(const std::map<int64_t, uint64_t>& labels) {
   return text;
 }
 
-// A segment of a segmentation, and in how many voxels it is.
+// A segment of a segmentation, and its number of voxels.
 struct CountedSegment {
   formats::VolumeSegment segment;
   uint64_t voxels = 0;
@@ -119,7 +119,7 @@ bool is_layered(const std::vector<formats::VolumeSegment>& segments) {
   return std::ranges::any_of(segments, [](const formats::VolumeSegment& segment) { return segment.layer > 0; });
 }
 
-// `read` gives a channel of the file.
+// Counts segments; `read` returns a channel of the file.
 std::vector<CountedSegment> count_segments(const std::vector<formats::VolumeSegment>& segments,
                                            const std::function<formats::VoxelVolume(int channel)>& read) {
   const bool has_layers = is_layered(segments);
@@ -231,7 +231,7 @@ int show_volume(const InfoChoices& arguments, Session& session) {
     return sources::read_volume_parts(path, files_of_volume, {arguments.series, channel}, read, &session.stop,
                                       warnings);
   };
-  // Of a segmentation in layers, the first: all are told of.
+  // A segmentation in layers has segments in all channels, which are all reported.
   const bool has_layers = is_layered(files_of_volume.segments);
   const int channel = has_layers ? std::max(arguments.channel, 0) : arguments.channel;
   const formats::VoxelVolume volume = read_channel(channel);

@@ -6,7 +6,7 @@
 
 namespace ombre::jobs {
 
-// Prints what the file or folder holds; an exit code. Throws Error.
+// Prints the contents of the file or folder; returns an exit code. Throws Error.
 int show_volume(const InfoChoices& choices, Session& session);
 
 }  // namespace ombre::jobs

@@ -44,7 +44,7 @@ class PointMerger {
     }
   };
 
-  // Much wider than rounding, so that few points are near to several cells.
+  // Cells are much wider than rounding, so that few points are near to several cells.
   int64_t cell(double x) const { return static_cast<int64_t>(std::floor(x / (1000 * rounding_))); }
   std::pair<int64_t, int64_t> cells_around(double x) const { return {cell(x - rounding_), cell(x + rounding_)}; }
 
@@ -91,9 +91,9 @@ void leave_out_doubled(std::vector<formats::Beam>& beams) {
   beams.resize(order.size());
 }
 
-constexpr std::array<double, 5> places{0.5, 0.25, 0.75, 0, 1};  // along an axis; the middle first, the ends last
+constexpr std::array<double, 5> places{0.5, 0.25, 0.75, 0, 1};  // places along an axis; the middle first, the ends last
 
-// Fractions at the places along beams.
+// Samples fractions at places along beams.
 class BeamSampler {
  public:
   static std::optional<BeamSampler> build(const design::Design& design, int threads, const StopFlag* stop,
@@ -103,7 +103,7 @@ class BeamSampler {
     return BeamSampler(std::move(*sampler), threads, stop);
   }
 
-  // Checks only the beams from number `first` on.
+  // Samples only the beams from number `first` on.
   void sample(const BeamBody& body, size_t first, size_t count) {
     std::vector<Vec3> points;
     for (size_t n = first; n < first + count; ++n) {
@@ -124,14 +124,14 @@ class BeamSampler {
     return values_[material + 1][beam * places.size() + place];
   }
 
-  // The first that is inside; else the middle.
+  // Returns the first place that is inside; else the middle.
   size_t place_of(size_t beam) const {
     for (size_t place = 0; place < places.size(); ++place)
       if (is_inside(beam, place)) return place;
     return 0;
   }
 
-  // The first of the greatest.
+  // Returns the material with the greatest fraction, the first of equal ones.
   size_t greatest(size_t beam, size_t place) const {
     size_t greatest = 0;
     for (size_t m = 1; m < materials(); ++m)
@@ -158,7 +158,7 @@ class BeamSampler {
   std::vector<std::vector<double>> values_;
 };
 
-// Means of colours by fractions and volumes.
+// Mean of colours by fractions and volumes.
 class MeanColour {
  public:
   void add(design::Rgba colour, double weight) {

@@ -1,4 +1,4 @@
-// Struts as beams between shared vertices, and their materials.
+// Represents struts as beams between shared vertices, with their materials.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,20 @@ namespace ombre::compile {
 
 struct BeamBody {
   std::vector<Vec3> vertices;         // mm
-  std::vector<formats::Beam> beams;   // flat, or with half balls or, where the radii are equal, balls at their ends
+  std::vector<formats::Beam> beams;   // ends are flat, half balls, or, if both radii are equal, balls
   std::vector<MaterialId> materials;  // of the beams, if each has its own
-  design::Rgba colour{};              // of the whole
+  design::Rgba colour{};              // colour of the whole body
   formats::LatticeClipping clipping = formats::LatticeClipping::none;
-  std::optional<size_t> clip;  // which of the clips
+  std::optional<size_t> clip;  // index of the clip
 };
 
-// Ends that agree within rounding become one vertex, beams that are there twice become one.
+// Makes beams. Ends that agree within rounding become one vertex, and equal beams become one.
 BeamBody beams_of(const BeamSet& set);
 
-// Gives each beam the material of the greatest fraction in the middle of its axis, or where it is inside instead, and
-// the body their mean colour; beams of void are left out. Returns how many beams have other fractions, by more than
-// 1 %, at one end than at the other. Nothing, and diagnostics, where the design is too large. Throws Cancelled.
+// Gives each beam the material of the greatest fraction in the middle of its axis, or at another place that is inside,
+// and the body their mean colour; beams of void are left out. Returns the number of beams whose fractions differ by
+// more than 1 % between their ends. Returns nothing, and adds diagnostics, if the design is too large. Throws
+// Cancelled.
 std::optional<size_t> add_materials(const design::Design& design, int threads, BeamBody& body, Diagnostics& diagnostics,
                                     const StopFlag* stop = nullptr);
 

@@ -5,7 +5,7 @@
 namespace ombre::compile {
 namespace {
 
-// The document's number of a material of the design.
+// Returns the document's number of a material of the design.
 uint32_t material_number(const design::Material& material, const MeshedDesign& made, formats::MeshDocument& document) {
   const auto is_of = [&](const RegionBody& body) { return body.region.material == material.id; };
   const auto body = std::ranges::find_if(made.bodies, is_of);

@@ -1,4 +1,4 @@
-// Beams of a design as a mesh file holds them.
+// Puts beams of a design into a document of meshes.
 #pragma once
 
 #include "formats/mesh/mesh_document.h"
@@ -6,7 +6,7 @@
 
 namespace ombre::compile {
 
-// Moves beams and what clips them into a document that has the bodies, and their materials in the same order.
+// Moves beams and their clips into a document that has the bodies, and their materials in the same order.
 void add_beams(MeshedDesign& made, const design::MaterialTable& materials, formats::MeshDocument& document);
 
 }  // namespace ombre::compile

@@ -23,14 +23,15 @@ using nodes::TileCopies;
 
 constexpr double most_struts = 1e8;  // some ten gigabytes
 
-// Struts keep what lies inside of all of `inside` and outside of all of `outside`. In the design's frame.
+// The clips of struts, in the design's frame: struts keep their part inside of all of `inside` and outside of all of
+// `outside`.
 struct Clips {
   std::vector<NodePtr> inside, outside;
   bool operator==(const Clips&) const = default;
   bool operator<(const Clips& other) const { return std::tie(inside, outside) < std::tie(other.inside, other.outside); }
 };
 
-// Struts in a frame of their own, perhaps repeated there.
+// Struts in a frame of their own, and the tile that repeats them there, if any.
 struct Piece {
   std::vector<StrutShape> struts;
   std::optional<TileCopies> copies;
@@ -40,7 +41,7 @@ struct Piece {
 
 struct Split {
   std::vector<Piece> pieces;
-  NodePtr rest;  // null: nothing
+  NodePtr rest;  // null: nothing is left
 };
 
 Box reach(const StrutShape& strut) {
@@ -58,14 +59,14 @@ StrutShape placed(const StrutShape& strut, const Affine& map, double scale) {
   return {map(strut.start), map(strut.end), scale * strut.start_radius, scale * strut.end_radius, strut.has_flat_ends};
 }
 
-// Lengths all change by one factor.
+// Returns the factor of a map that changes all lengths by one factor.
 std::optional<double> scale_of_similarity(const Affine& map) {
   const auto [least, greatest] = stretch(map);
   constexpr double rounding = 1e-9;
   return greatest - least <= rounding * greatest ? std::optional(greatest) : std::nullopt;
 }
 
-// The map from the input's space to the node's, where the node only moves the question by an affine map.
+// Returns the map from the input's space to the node's, if the node only transforms by an affine map.
 std::optional<Affine> here_from_input(const Node& node) {
   program::Builder builder;
   const auto inner = node.inner(program::Point::origin_frame(builder));
@@ -80,7 +81,7 @@ bool is_sharp(const Node& node) {
   return blend < 0 || node.inputs().size() < 2 || node.type().get(node, static_cast<size_t>(blend), false) == Data(0.0);
 }
 
-// The indices of the copies that may meet the box; empty where there are none.
+// Returns the indices of the copies that may meet the box; empty if there are none.
 std::array<Interval, 3> copies_within(const TileCopies& copies, const Box& original, const Box& where) {
   std::array<Interval, 3> found = copies.indices;
   for (int axis = 0; axis < 3; ++axis) {
@@ -177,7 +178,7 @@ class Splitter {
     if (!with_struts_.contains(node.get()) || strut_count_ > most_struts) return {{}, node};
     const size_t lost = lost_.size();
     if (auto split = split_known(node, design_from_here)) return std::move(*split);
-    // A node loses what its inputs lost; a tile repeats that.
+    // A node loses the struts that its inputs lost; a tile repeats that number.
     const bool is_known = lost_.size() > lost && nodes::tile_copies_of(*node);
     const Node* cause = is_known ? lost_[lost].cause : node.get();
     lost_.resize(lost);
@@ -185,7 +186,7 @@ class Splitter {
     return {{}, node};
   }
 
-  // Nothing where struts below this node are no beams.
+  // Returns nothing if struts below this node are no beams.
   std::optional<Split> split_known(const NodePtr& node, const Affine& design_from_here) {
     if (nodes::strut_count(*node) > 0) return split_lattice(*node, design_from_here);
     if (const auto copies = nodes::tile_copies_of(*node)) return split_tile(*node, *copies, design_from_here);
@@ -204,7 +205,7 @@ class Splitter {
   std::optional<Split> split_lattice(const Node& node, const Affine& design_from_here) {
     auto struts = nodes::struts_of(node);
     if (!struts) return std::nullopt;
-    // Ends that floats cannot tell apart would make no beam.
+    // Ends that floats cannot distinguish would make no beam.
     constexpr double rounding = 1e-6;
     for (const StrutShape& strut : *struts) {
       const Vec3 start = design_from_here(strut.start), end = design_from_here(strut.end);
@@ -223,7 +224,7 @@ class Splitter {
     return split;
   }
 
-  // Copies of struts alone, each of which is there as a whole.
+  // Splits a tile whose copies are struts alone and keep their whole length.
   std::optional<Split> split_tile(const Node& node, const TileCopies& copies, const Affine& design_from_here) {
     Split inner = split_node(node.inputs()[0], {});
     const auto is_plain = [](const Piece& piece) { return !piece.copies && piece.clips == Clips{}; };
@@ -298,7 +299,7 @@ class Splitter {
     }
   }
 
-  // The box of `root` cuts what reaches beyond it.
+  // The box of `root` clips struts that reach beyond it.
   void clip_to_samples(Split& split) {
     if (!design_.sampling) return;
     const Box& box = design_.sampling->box;
@@ -318,7 +319,7 @@ class Splitter {
     return known;
   }
 
-  // Both kinds of clips as one solid.
+  // Returns the set of clips with both kinds joined to one solid.
   BeamSet set_of(const Clips& clips) const {
     std::vector<NodePtr> outside = clips.outside;
     std::erase_if(outside, [](const NodePtr& clip) { return clip->bounds(design::design_space()).is_empty(); });
@@ -328,7 +329,7 @@ class Splitter {
     return {{}, LatticeClipping::inside, maker_.joined("difference", outside)};
   }
 
-  // Appends the struts within the box to the set of their clips. False where there are too many.
+  // Appends the struts within the box to the set of their clips. Returns false if there are too many.
   bool add_piece(const Piece& piece, Box box, BeamParts& parts) {
     const auto [known, is_new] = sets_.try_emplace(piece.clips, parts.sets.size());
     if (is_new) {
@@ -361,7 +362,7 @@ class Splitter {
     return true;
   }
 
-  // Struts of which the clip clearly leaves nothing.
+  // Removes struts of which the clip clearly leaves nothing.
   void leave_out_clipped(BeamSet& set) {
     if (!set.clip || set.clip->metric().is_implicit()) return;
     const double lipschitz = set.clip->metric().lipschitz, sign = set.clipping == LatticeClipping::inside ? 1 : -1;
@@ -383,8 +384,8 @@ class Splitter {
     set.struts.resize(kept);
   }
 
-  // How many struts there are below the node within a box of its frame. Nodes that are used more than once are counted
-  // where they are met first.
+  // Counts the struts below the node within a box of its frame. Nodes that are used more than once are counted at their
+  // first use.
   double count_struts(const Node& node, const Box& where) {
     if (!with_struts_.contains(&node)) return 0;
     if (const size_t own = nodes::strut_count(node)) return static_cast<double>(own);
@@ -406,7 +407,7 @@ class Splitter {
     return copies * count;
   }
 
-  // Once for each reason, at the first node that gives it.
+  // Reports each reason once, at the first node that gives it.
   void report_lost(const Box& box) {
     std::map<std::string, double> counts;
     for (const Lost& lost : lost_)
@@ -438,7 +439,7 @@ class Splitter {
   std::vector<Lost> lost_;
   std::unordered_map<const Node*, double> counts_;
   std::map<Clips, size_t> sets_;
-  std::vector<Box> boxes_;                                                    // around what the clips of each set leave
+  std::vector<Box> boxes_;  // boxes around the clipped struts of each set
   std::map<std::pair<const Node*, std::array<double, 12>>, NodePtr> placed_;  // solids in the frame of the design
   double strut_count_ = 0;
 };

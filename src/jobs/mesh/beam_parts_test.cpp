@@ -1,4 +1,4 @@
-// Which struts of designs become beams, counted by hand.
+// Tests which struts of designs become beams; their numbers were counted by hand.
 #include "jobs/mesh/beam_parts.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Found split_text(const std::string& text) {
   return found;
 }
 
-// The one set of beams of a design that has nothing else.
+// Returns the only set of beams of a design that has nothing else.
 BeamSet only_set(const std::string& text) {
   const Found found = split_text(text);
   EXPECT_EQ(found.messages, "");
@@ -99,13 +99,14 @@ TEST(BeamParts, StrutsOneByOneHaveTheirCaps) {
 }
 
 TEST(BeamParts, TilesAreEnumeratedAndJoined) {
-  // Centres, and corners of a grid of 4 x 3 x 2 cells.
+  // The vertices are centres, and corners of a grid of 4 x 3 x 2 cells.
   const BeamBody bcc =
       beams_of(only_set("tile((0.1, 0.3, 0.7), (0, -1, 5), (3, 1, 6)) scale(0.1, 0.1, 0.1)"
                         " rotate(0, 90, 0) lattice(\"bcc\", (7, 3, 1), 0.2);"));
   EXPECT_EQ(bcc.beams.size(), 8u * 24);
   EXPECT_EQ(bcc.vertices.size(), 24u + 5 * 4 * 3);
-  // Halves of edges: along an axis n of them at (n + 1)^2 places. Each cell has 24, many of which are others' too.
+  // The struts are halves of edges: along an axis there are n at (n + 1)^2 places. Each cell has 24, many of which it
+  // shares.
   const BeamBody cubic = beams_of(only_set("tile((5, 5, 5), (0, 0, 0), (2, 2, 2)) lattice(\"cubic\", (5, 5, 5), 1);"));
   EXPECT_EQ(cubic.beams.size(), 2u * 3 * 3 * 16);
   EXPECT_EQ(cubic.vertices.size(), 64u + 3 * 3 * 16);
@@ -134,9 +135,9 @@ TEST(BeamParts, StrutsBesideARoundClipAreLeftOut) {
     return only_set("intersection() { " + clip + " tile() lattice(\"bcc\", (1, 1, 1), 0.01); }").struts.size();
   };
   const size_t cube = count("cube(9.9);"), sphere = count("sphere(4.95);");
-  // 9 cells along each axis and halves of the next ones.
+  // There are 9 cells along each axis and halves of the next ones.
   EXPECT_EQ(cube, 8u * 9 * 9 * 9 + 6u * 4 * 9 * 9 + 12u * 2 * 9 + 8u);
-  // 8 in each mm3: all whose middle lies in the ball, and none that lies farther away than it is long.
+  // There are 8 struts in each mm3: all whose middle lies in the ball, and none that lies farther away than it is long.
   const auto in_ball = [](double radius) { return 8 * 4.18879 * radius * radius * radius; };
   EXPECT_GT(static_cast<double>(sphere), in_ball(4.95));
   EXPECT_LT(static_cast<double>(sphere), in_ball(4.95 + 0.01 + std::sqrt(3) / 4));
@@ -234,7 +235,7 @@ TEST(BeamParts, TooManyStrutsAreAnErrorBeforeTheyAreMade) {
 
 TEST(BeamMaterials, AreThoseInTheMiddleOfAxes) {
   Diagnostics diagnostics;
-  // Red from x = 0 to 4, blue beyond: the first strut is red throughout, the second more blue than red.
+  // The design is red from x = 0 to 4, blue beyond: the first strut is red throughout, the second more blue than red.
   const LoadedPtr loaded = load_text(
       "fgrade([\"x < 4\", \"x >= 4\"], [\"red\", \"blue\"]) lattice(edges=[[(0, 0, 0), (3, 0, 0)], [(3, 0, 0), (9, 0, "
       "0)], [(0, 5, 0), (3, 5, 0)], [(8, 5, 0), (8, 9, 0)]], radius=0.5);",

@@ -1,4 +1,4 @@
-// The options of ombre mesh.
+// The options of `ombre mesh`.
 #pragma once
 
 #include <optional>

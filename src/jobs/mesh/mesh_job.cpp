@@ -41,7 +41,8 @@ MeshPlan plan_mesh(const RegionProgram& program, const Box& box, const Fineness&
   return plan;
 }
 
-// False, and a diagnostic, when it is clearly too much. What is close is decided when the cells are known.
+// Returns false, and adds a diagnostic, if the mesh clearly takes too much memory. Close cases are decided when the
+// cells are known.
 bool fits(const MeshPlan& plan, const MeshRequest& request, const Loaded& loaded, Diagnostics& diagnostics) {
   constexpr double doubt = 1.5;
   const auto allowed = static_cast<double>(request.memory_bytes);
@@ -67,9 +68,9 @@ std::optional<MaterialsInside> materials_of(const design::Design& design, int th
   return box ? find_materials(design, *box, threads, diagnostics) : std::nullopt;
 }
 
-// Bands of all materials but one say of every mixture what it is: the last is what the others leave.
+// Requests bands of all materials but the last, whose fraction follows from the others.
 void separate(const MaterialsInside& materials, MeshRequest& request) {
-  constexpr size_t most_crossed = 4;  // 4^4 bodies are as many as there may be
+  constexpr size_t most_crossed = 4;  // 4^4 bodies are the most that are allowed
   if (materials.names.size() < 2) return;
   const size_t crossed = materials.names.size() - 1;
   if (!materials.are_mixed || request.beams || crossed > most_crossed) {
@@ -82,12 +83,12 @@ void separate(const MaterialsInside& materials, MeshRequest& request) {
   for (size_t n = 1; n < crossed; ++n) request.crossed.push_back({.of = materials.names[n]});
 }
 
-// Meshes for which nobody chose a tolerance may have so many cells at the surface, which take some seconds. A design
-// that would have more gets a tolerance of up to most_coarser times the usual one.
+// Limit of cells at the surface, which take some seconds, for meshes without a chosen tolerance. A design that would
+// have more gets a tolerance of up to most_coarser times the usual one.
 constexpr double usual_cells = 200'000;
 constexpr double most_coarser = 5;
 
-// One run of the mesher, of a design or of what is left of it.
+// A run of the mesher, on a design or on its rest without struts.
 class Mesher {
  public:
   Mesher(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics, Progress* progress,
@@ -143,8 +144,8 @@ class Mesher {
   }
 
  private:
-  // Chooses a tolerance by the design's size, and a coarser one where that would make too many cells. Cells are counted
-  // in a design that is as coarse as it may become, whose stages are soon done.
+  // Chooses a tolerance by the design's size, and a coarser one if that would make too many cells. Cells are counted in
+  // a design that is as coarse as it may become, whose stages take little time.
   std::optional<Fineness> usual_fineness(const design::Design& whole, const Box& box, const design::NodePtr& shape) {
     const auto fine = choose_fineness(whole, box, request_, diagnostics_);
     if (!fine || request_.tolerance_mm || request_.cell_mm) return fine;
@@ -168,7 +169,7 @@ class Mesher {
     return part;
   }
 
-  // All surfaces are as fine as one of the whole design would be.
+  // Sets one fineness for all surfaces: that of the whole design.
   bool take_fineness() {
     const std::optional<Box> box = design_box(loaded_.design, diagnostics_);
     const auto fineness = box ? choose_fineness(loaded_.design, *box, request_, diagnostics_) : std::nullopt;
@@ -210,7 +211,7 @@ class Mesher {
     return true;
   }
 
-  // Of a clip without end, what is near to the struts.
+  // Returns a clip with its bounds; an unbounded one is cut off near the struts.
   design::NodePtr with_end(const BeamSet& set) {
     const Box space = design::design_space(), bounds = set.clip->bounds(space);
     const bool has_end = bounds.lo.x > space.lo.x && bounds.lo.y > space.lo.y && bounds.lo.z > space.lo.z &&

@@ -1,4 +1,4 @@
-// From a design to closed surfaces: of the whole, or of its regions.
+// Makes closed surfaces of a design: of the whole, or of its regions.
 #pragma once
 
 #include <functional>
@@ -14,49 +14,50 @@
 
 namespace ombre::compile {
 
-// What a mesh will take, about: its surface is known from a coarse grid.
+// Estimates for a mesh, from its surface on a coarse grid.
 struct MeshPlan {
   double tolerance_mm = 0, cell_mm = 0;
   double cells = 0;  // at borders, before any are cut
   double memory_bytes = 0;
 };
 
-// Says what becomes of several materials where nobody chose regions.
+// The treatment of several materials if nobody chose regions.
 enum class UsualRegions : uint8_t {
-  as_requested,  // what the request says
-  separate,      // none are joined: a body for each material, or bands of mixtures; where there are beams, materials
+  as_requested,  // the regions of the request
+  separate,      // none are joined: a body for each material, or bands of mixtures; with beams, materials
   joined,        // the whole is one body
 };
 
 struct MeshRequest : RegionRequest {
   UsualRegions usual = UsualRegions::as_requested;  // not with regions of other kinds
-  bool beams = false;                               // struts become beams, where they can; not with bands
+  bool beams = false;                               // struts become beams if possible; not with bands
   bool join_flat = true;                            // cells are joined where the surface is flat
   int threads = 0;
-  size_t memory_bytes = 0;                                       // most that cells may take; 0: no limit
+  size_t memory_bytes = 0;                                       // memory limit of cells; 0: no limit
   std::function<void(const MeshPlan& plan)> announce = nullptr;  // called before each surface; may be empty
 };
 
 struct RegionBody {
   Region region;
-  double share = 0;  // where the region lies among all of the design's, from 0 for the first to 1 for the last
+  double share = 0;  // place of the region among all of the design's, from 0 for the first to 1 for the last
   design::Rgba colour{};
   surface::Body body;
   double volume_mm3 = 0, area_mm2 = 0;
 };
 
 struct MeshedDesign {
-  std::vector<RegionBody> bodies;    // without those that are empty
-  std::vector<BeamBody> beams;       // where beams were wanted; not counted among the bodies
-  std::vector<surface::Body> clips;  // which cut the beams
+  std::vector<RegionBody> bodies;    // without empty ones
+  std::vector<BeamBody> beams;       // only if beams were requested; not counted among the bodies
+  std::vector<surface::Body> clips;  // solids that clip the beams
   double tolerance_mm = 0, cell_mm = 0;
-  bool is_coarser = false;  // than a thousandth of the longest side, since nobody chose and there would be many cells
+  bool is_coarser = false;  // the default tolerance was increased, since there would be many cells
   surface::ContourReport report;
-  MaterialsInside materials;  // where nobody chose regions
-  bool is_by_bands = false;   // of a mixture
+  MaterialsInside materials;  // set if nobody chose regions
+  bool is_by_bands = false;   // bodies are bands of a mixture
 };
 
-// Nothing, and diagnostics, when the design is empty, or cannot be cut so. Throws Cancelled.
+// Makes the surfaces. Returns nothing, and adds diagnostics, when the design is empty, or cannot be cut so. Throws
+// Cancelled.
 std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
                                         Progress* progress = nullptr, const StopFlag* stop = nullptr);
 

@@ -1,4 +1,4 @@
-// ombre mesh: a design as closed surfaces for slicers and other programs.
+// `ombre mesh` writes a design as closed surfaces for slicers and other programs.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -55,7 +55,7 @@ std::string slicer_key(const std::string& attribute) {
   return is_same || attribute.ends_with("_extrusion_width") ? attribute : "";
 }
 
-// The settings that the middles of a body's bands say, unless others were given.
+// Adds the settings of the middles of a body's bands, unless others were given.
 void add_attributes(const compile::Region& region, std::vector<std::pair<std::string, std::string>>& values) {
   for (const auto& [attribute, middle] : region.attributes) {
     const std::string key = slicer_key(attribute);
@@ -77,7 +77,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<S
     values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
   }
   add_attributes(made.bodies[body].region, values);
-  // Bodies of materials and parts print with an extruder each, in their order; bands with the same.
+  // Bodies of materials and parts have an extruder each, in their order; bands share one.
   const bool is_given = std::ranges::any_of(settings, [](const SlicerSetting& s) { return s.key() == "extruder"; });
   if (!is_given && !made.bodies[body].region.material && !is_by_part) values.emplace_back("extruder", "1");
   return values;
@@ -145,7 +145,7 @@ std::string short_list(const std::vector<std::string>& names) {
   return join({names.begin(), names.begin() + most}, ", ") + " and " + std::to_string(names.size() - most) + " more";
 }
 
-// Says what became of several materials where nobody chose regions.
+// Tells how several materials were treated if nobody chose regions.
 void tell_materials(const Events& events, const compile::MeshedDesign& made, const MeshOutput& output) {
   const std::vector<std::string>& names = made.materials.names;
   if (names.size() < 2) return;
@@ -223,7 +223,7 @@ MeshOutput output_of(const MeshChoices& a) {
   return {stem, path, format};
 }
 
-// Colours of vertices say of what materials they are.
+// Colours of vertices already show the materials, so bodies may be joined.
 compile::UsualRegions usual_regions(const MeshChoices& a, const formats::MeshFormat& format) {
   if (a.regions.are_chosen() || a.colour_by == "materials") return compile::UsualRegions::as_requested;
   return format.holds_bodies ? compile::UsualRegions::separate : compile::UsualRegions::joined;

@@ -8,7 +8,7 @@
 namespace ombre::jobs {
 namespace {
 
-// "12.5%" as 12.5 and "%".
+// A number with its unit: "12.5%" is 12.5 and "%".
 struct Amount {
   double number = 0;
   std::string unit;

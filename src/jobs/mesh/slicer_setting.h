@@ -9,17 +9,18 @@
 
 namespace ombre::jobs {
 
-// "fill_density=20%" is for all bodies, "fill_density=10%..60%" goes from the first region to the last,
-// "fill_pattern=grid,gyroid" names a value for each region.
+// A setting: "fill_density=20%" is for all bodies, "fill_density=10%..60%" goes from the first region to the last,
+// "fill_pattern=grid,gyroid" lists a value for each region.
 class SlicerSetting {
  public:
   // Throws WrongArgument.
   explicit SlicerSetting(const std::string& text);
 
   const std::string& key() const { return key_; }
-  // Values listed one by one; 0 where there is one for all.
+  // Returns the number of listed values; 0 if there is one for all.
   size_t listed() const { return values_.size() == 1 ? 0 : values_.size(); }
-  // For region `number`, counted from 0, which lies at `share` between the first (0) and the last (1).
+  // Returns the value for region `number`, counted from 0, which lies at `share` between the first (0) and the last
+  // (1).
   std::string value(size_t number, double share) const;
 
  private:

@@ -17,7 +17,7 @@ uint8_t byte_of(double share) {
   return std::isfinite(share) ? static_cast<uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))) : 0;
 }
 
-// Alpha is full where the attribute has none.
+// Returns the colour that the attribute gives; alpha is full if the attribute has none.
 formats::Rgba own_colour(const Columns& columns, size_t vertex) {
   formats::Rgba colour{0, 0, 0, 255};
   for (size_t part = 0; part < std::min<size_t>(4, columns.size()); ++part)

@@ -1,4 +1,4 @@
-// Colours of the vertices of meshes.
+// Colours the vertices of meshes.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ namespace ombre::compile {
 
 struct VertexColouring {
   std::string by;                 // an attribute; or "materials", for the colours of their mixture
-  std::string palette = {};       // of numbers: one of palettes(); empty: the usual one
-  std::optional<Interval> range;  // that it spans; nothing: from the least to the greatest at the vertices
+  std::string palette = {};       // for numbers: one of palettes(); empty: the default one
+  std::optional<Interval> range;  // range of the palette; nothing: from the least to the greatest at the vertices
 };
 
-// Gives each vertex of the bodies the colour that the design has there: of a colour attribute (or a vector, as red,
-// green and blue) its own, of a number one of the palette. False, and diagnostics, when the design has no such
-// attribute.
+// Gives each vertex of the bodies the colour of the design there. A colour attribute (or a vector, as red, green and
+// blue) gives its own colour, a number one of the palette. Returns false, and adds diagnostics, when the design has no
+// such attribute.
 bool colour_vertices(const Loaded& loaded, const VertexColouring& colouring, formats::MeshDocument& document,
                      Diagnostics& diagnostics, int threads = 0, const StopFlag* stop = nullptr);
 

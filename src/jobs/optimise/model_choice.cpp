@@ -11,7 +11,7 @@ namespace ombre::compile {
 
 namespace {
 
-// A study of `ombre fea`, written here or in a file.
+// Reads a study of `ombre fea`, written in place or in a file.
 std::optional<fea::Study> read_fea(const Data& data, Diagnostics& diagnostics) {
   if (!data.string()) return fea::read_study(data, diagnostics);
   std::filesystem::path path(*data.string());
@@ -21,7 +21,7 @@ std::optional<fea::Study> read_fea(const Data& data, Diagnostics& diagnostics) {
   return read ? fea::read_study(*read, diagnostics) : std::nullopt;
 }
 
-// One number for all axes, or three.
+// Returns one number for all axes, or three.
 std::vector<double> along_axes(const Data& data) {
   if (const double* all = data.number()) return {*all, *all, *all};
   std::vector<double> values;
@@ -67,7 +67,7 @@ std::optional<ModelChoice> read_model_choice(StudyMembers& members, Diagnostics&
     read_cell(*cell, choice, members);
   else
     read_brick_count(*bricks, choice, members);
-  // Draws change by leaps where a design changes little, and mean properties do not.
+  // Mean properties are the default, since draws jump where a design changes little.
   if (members.choice("assign", "mix", {"draw", "mix"}) == "mix") choice.request.assign = FeaRequest::Assign::mix;
   if (members.choice("fill", "exact", {"exact", "centre"}) == "centre") choice.request.fill = FeaRequest::Fill::centre;
   if (members.has("modulus")) choice.request.modulus = members.text("modulus", std::nullopt);

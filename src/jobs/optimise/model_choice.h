@@ -1,4 +1,4 @@
-// How a study of optimisation makes models of designs.
+// Decides how a study of optimisation makes models of designs.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ namespace ombre::compile {
 
 struct ModelChoice {
   std::array<std::optional<Pitch>, 3> cell;           // size of the bricks
-  std::optional<std::array<int64_t, 3>> brick_count;  // or into how many the design's box is cut along each axis
+  std::optional<std::array<int64_t, 3>> brick_count;  // number of bricks along each axis of the design's box
   FeaRequest request;
   fea::Study fea;
 };
 
-// The members "fea", "cell", "bricks", "assign", "modulus" and "sections" of a study.
+// Names of the members of a study that decide its models.
 inline const std::vector<std::string> model_members{"fea", "cell", "bricks", "assign", "modulus", "sections"};
 std::optional<ModelChoice> read_model_choice(StudyMembers& members, Diagnostics& diagnostics);
 

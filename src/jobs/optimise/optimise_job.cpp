@@ -49,7 +49,7 @@ bool lacks_density(const fea::Model& model) {
                              [](const fea::Section& section) { return !(section.elastic.density_t_mm3 > 0); });
 }
 
-// Nothing where the design has not got the material.
+// Returns the share of a material; nothing if the design lacks the material.
 double share_of(const fea::Model& model, const std::string& material) {
   for (const fea::ValueField& field : model.fields) {
     if (to_lower(field.name) != "fraction of " + to_lower(material)) continue;
@@ -86,7 +86,7 @@ double compliance_of(const Solved& solved) {
   return sum;
 }
 
-// The first error as one line.
+// Returns the first error in one line.
 std::string failure_of(const Diagnostics& diagnostics) {
   for (const Diagnostic& diagnostic : diagnostics.list())
     if (diagnostic.severity == Severity::error) return sentence_of(diagnostic);
@@ -192,7 +192,7 @@ bool has_include(const lang::ast::File& file) {
       file.statements, [](const auto& statement) { return statement->kind == lang::ast::Statement::Kind::include; });
 }
 
-// A text of a table: quotes where it has commas or quotes itself.
+// Returns a text for a table, in quotes if it has commas or quotes.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
@@ -227,7 +227,7 @@ void check_variables(const OptimiseStudy& study, const SourcePtr& script, Diagno
   for (const auto& statement : file.statements)
     if (statement->kind == lang::ast::Statement::Kind::assign)
       names.push_back(static_cast<const lang::ast::Assign&>(*statement).name.text());
-  // Assignments in included files are not seen from here.
+  // Assignments in included files are not visible here, so a script with includes is not checked.
   if (has_include(file)) return;
   for (const DesignVariable& variable : study.variables) {
     if (std::ranges::find(names, variable.name) != names.end()) continue;

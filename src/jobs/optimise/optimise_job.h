@@ -1,4 +1,4 @@
-// Evaluates designs with other values of their variables, and keeps what was found.
+// Evaluates designs with other values of their variables, and keeps the results.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,17 @@
 
 namespace ombre::compile {
 
-// Numbers of a design, or why there are none.
+// The measures of a design, or the reason why there are none.
 struct Measured {
   std::vector<double> values;  // in the order of the measures
-  std::string failure;         // empty where the values are known
+  std::string failure;         // empty if the values are known
   double solve_bytes = 0;
 };
 
 using LoadWith = std::function<LoadedPtr(const LoadOptions& options, Diagnostics& diagnostics)>;
 
-// Loads a design with these values and measures it. The plan's options say how, but for the size of bricks. Diagnostics
-// go into the failure. Throws Cancelled, and Error for files.
+// Loads a design with given values and measures it. The plan's options apply, except for the size of bricks.
+// Diagnostics become the failure. Throws Cancelled, and Error for files.
 class DesignMeter {
  public:
   DesignMeter(const OptimiseStudy& study, LoadWith load, LoadOptions options, PlanOptions plan)
@@ -38,22 +38,23 @@ class DesignMeter {
   PlanOptions plan_;
 };
 
-// "name=value" for each variable.
+// Returns "name=value" for each variable.
 std::vector<std::string> definitions_of(const OptimiseStudy& study, const std::vector<double>& values);
 
-// A diagnostic for each variable of the study that the script does not assign.
+// Adds a diagnostic for each variable of the study that the script does not assign.
 void check_variables(const OptimiseStudy& study, const SourcePtr& script, Diagnostics& diagnostics);
 
 // Plans the bricks of a design.
 std::optional<BrickPlan> plan_bricks(const LoadedPtr& loaded, const ModelChoice& choice, PlanOptions options,
                                      Diagnostics& diagnostics);
 
-// A point's values of the variables: within their ranges, whole where they are to be.
+// Returns a point's values of the variables: within their ranges, and whole numbers if the study says so.
 std::vector<double> values_at(const OptimiseStudy& study, const optimise::Point& point);
-// Returns what a search minimises, and how far limits are exceeded, in units of the limit, or of 1 where that is 0.
+// Returns the values that a search minimises, and how far limits are exceeded, in units of the limit, or of 1 if that
+// is 0.
 optimise::Outcome outcome_of(const OptimiseStudy& study, const Measured& measured);
 
-// The designs that were measured, by their values; a table of comma-separated values.
+// The designs that were measured, by their values, as a table of comma-separated values.
 class History {
  public:
   struct Row {
@@ -63,8 +64,7 @@ class History {
 
   explicit History(const OptimiseStudy& study) : study_(study) {}
 
-  // Takes the lines of `text`; those that are not whole are left out. False, and a diagnostic, when it is another
-  // table.
+  // Reads the lines of `text`, and skips incomplete ones. Returns false, and adds a diagnostic, if it is another table.
   bool read(const std::string& path, const std::string& text, Diagnostics& diagnostics);
   const Row* find(const std::vector<double>& values) const;
   void add(Row row);

@@ -1,4 +1,4 @@
-// Studies of optimisation: what may change, what shall become small or stay within limits, and by which method.
+// Studies of optimisation: variables, objectives, limits and the method.
 #pragma once
 
 #include <optional>
@@ -20,19 +20,19 @@ struct DesignVariable {
   SourceRange where;
 };
 
-// A number that a design has.
+// A number that is measured of a design.
 struct Measure {
   enum class Kind : uint8_t {
     volume,        // mm3
     mass,          // g
-    share,         // of a material in the volume, 0 to 1
-    displacement,  // the greatest, mm; along an axis its greatest size; perhaps only of nodes in a box
-    stress,        // the greatest of von Mises' in bricks, MPa; perhaps only with their middle in a box
+    share,         // share of a material in the volume, 0 to 1
+    displacement,  // the greatest, mm, or its greatest size along an axis; if `in` is given, only of nodes in the box
+    stress,        // the greatest von Mises stress in bricks, MPa; if `in` is given, only of those in the box
     compliance,    // the work of the loads, N mm: displacements times forces
     echo,          // a number that the script prints: echo(cost = 3)
   };
   Kind kind = Kind::volume;
-  std::string name;         // of the material, or of what is printed
+  std::string name;         // name of the material, or of the printed number
   std::optional<int> axis;  // 0 to 2
   std::optional<Box> in;    // mm
   SourceRange where;
@@ -57,7 +57,7 @@ struct OptimiseStudy {
   std::vector<DesignVariable> variables;
   std::vector<Objective> objectives;
   std::vector<Limit> limits;
-  std::optional<ModelChoice> model;  // where a measure needs bricks
+  std::optional<ModelChoice> model;  // set if a measure needs bricks
   optimise::SearchOptions search;
 
   std::vector<Measure> measures() const;  // of objectives, then of limits
@@ -68,8 +68,8 @@ struct OptimiseStudy {
 //  "objectives": [{"minimise": "mass"}],
 //  "constraints": [{"measure": "displacement", "axis": "z", "at_most": 0.5}],
 //  "fea": "pull.json", "cell": 1, "method": "cobyla", "evaluations": 100}
-// "fea" is a study of `ombre fea`, or the name of its file, beside this one. Nothing, and diagnostics with places, when
-// it is wrong. Throws Error for a file that cannot be read.
+// "fea" is a study of `ombre fea`, or the name of its file, beside this one. Returns nothing, and adds
+// diagnostics with places, when it is wrong. Throws Error for a file that cannot be read.
 std::optional<OptimiseStudy> read_optimise_study(const Data& data, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

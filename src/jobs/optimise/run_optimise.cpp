@@ -1,4 +1,4 @@
-// ombre optimise: searches for the values of a design's variables that serve it best.
+// `ombre optimise` searches for the best values of a design's variables.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -54,7 +54,7 @@ constexpr const char* optimise_footer =
     "  ombre optimise hook.vcad --study lighter.json -o lighter\n"
     "  ombre optimise hook.vcad --study lighter.json -o lighter --resume\n";
 
-// The folder's files.
+// The files of the folder.
 struct Folder {
   fs::path path;
 
@@ -63,8 +63,8 @@ struct Folder {
   std::string key() const { return file("study.key"); }
 };
 
-// Lists what a search depends on, a line for each part: its name and the hash of its content. Two searches that find
-// the same have equal keys, whatever number of designs each may measure.
+// Lists the data that a search depends on, a line for each part: its name and the hash of its content. Searches with
+// equal results have equal keys, whatever number of designs each may measure.
 class SearchKey {
  public:
   SearchKey(const OptimiseChoices& a, const Data& data, const OptimiseStudy& study) {
@@ -85,7 +85,7 @@ class SearchKey {
 
   std::string text() const { return join(lines_, "\n") + "\n"; }
 
-  // The parts in which an earlier search differs, by name.
+  // Returns the names of the parts in which an earlier search differs.
   std::vector<std::string> differences(const std::string& earlier) const {
     std::vector<std::string> before = split(earlier, '\n'), names;
     const auto missing_in = [&](const std::vector<std::string>& lines, const std::vector<std::string>& others) {
@@ -106,7 +106,7 @@ class SearchKey {
     lines_.push_back(name + " " + hash_bytes(content).hex());
   }
 
-  // The files that the first design reads.
+  // Adds the files that the first design reads.
   void add_files(const OptimiseChoices& a, const OptimiseStudy& study) {
     std::vector<double> start;
     for (const compile::DesignVariable& variable : study.variables) start.push_back(variable.start);
@@ -124,7 +124,7 @@ class SearchKey {
   std::vector<std::string> lines_;
 };
 
-// Makes the folder ready. The history of it counts when it is resumed.
+// Prepares the folder. A resumed search reads its history.
 bool open_folder(const OptimiseChoices& a, const Folder& folder, const SearchKey& key, History& history,
                  Diagnostics& diagnostics) {
   std::error_code problem;
@@ -152,7 +152,7 @@ bool open_folder(const OptimiseChoices& a, const Folder& folder, const SearchKey
   return true;
 }
 
-// Measures designs that are not in the history, several at once where there is memory.
+// Measures designs that are not in the history, several at once if memory allows.
 class Evaluator {
  public:
   Evaluator(const OptimiseChoices& a, const OptimiseStudy& study, const compile::DesignMeter& meter, History& history,
@@ -232,7 +232,7 @@ std::string measures_text(const OptimiseStudy& study, const History::Row& row) {
   return join(parts, ", ");
 }
 
-// Measures of a turned design are those of the script with the same option.
+// Returns the option that turns the script as the measured designs were turned.
 std::string turn_text(const OptimiseChoices& a) {
   if (!a.design.rotate) return "";
   const Vec3 turn = *a.design.rotate;
@@ -241,7 +241,7 @@ std::string turn_text(const OptimiseChoices& a) {
              .text();
 }
 
-// A script that is the design with other values: the last value of a variable counts.
+// Returns a script that is the design with other values: the last value of a variable counts.
 std::string script_of(const OptimiseChoices& a, const OptimiseStudy& study, const Folder& folder,
                       const History::Row& row) {
   const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(folder.path));
@@ -251,7 +251,7 @@ std::string script_of(const OptimiseChoices& a, const OptimiseStudy& study, cons
   return text;
 }
 
-// Some of them, evenly from the first to the last.
+// Returns some of them, evenly from the first to the last.
 std::vector<size_t> some_of(const std::vector<size_t>& front, size_t most) {
   if (front.size() <= most) return front;
   std::vector<size_t> some;
@@ -357,7 +357,7 @@ optimise::Problem problem_of(const OptimiseStudy& study, Evaluator& evaluator) {
   return problem;
 }
 
-// The search, from the design where it starts. That one must have measures: else the study is wrong.
+// Runs the search from the start design. If that has no measures, the study is wrong.
 bool run_search(const OptimiseStudy& study, const History& history, Evaluator& evaluator, Session& session) {
   const optimise::Problem problem = problem_of(study, evaluator);
   evaluator.measure({problem.start});
@@ -375,7 +375,7 @@ bool run_search(const OptimiseStudy& study, const History& history, Evaluator& e
 
 int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, const Data& data, Session& session) {
   const optimise::Method& method = *optimise::find_method(study.search.method);
-  if (!optimise::is_built(method)) optimise::search({}, study.search);  // which says what is missing
+  if (!optimise::is_built(method)) optimise::search({}, study.search);  // throws, and says what is missing
   Diagnostics diagnostics;
   compile::check_variables(study, make_source(a.design.design, formats::read_file(a.design.design)), diagnostics);
   auto plan = plan_options({}, session, diagnostics);

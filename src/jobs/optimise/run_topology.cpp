@@ -29,7 +29,7 @@ struct TopologyCase {
   std::optional<optimise::TopologyGoal> goal;
 };
 
-// The study with the goal's force alone says which nodes move, and how much each counts.
+// Makes the goal. Conditions of the goal's force alone tell which nodes move, and how much each counts.
 std::optional<optimise::TopologyGoal> make_goal(const compile::TopologyStudy& study, const fea::Model& model,
                                                 Diagnostics& diagnostics) {
   fea::Study alone = study.model.fea;
@@ -58,7 +58,7 @@ std::optional<TopologyCase> make_topology_case(const OptimiseChoices& a, const c
   return TopologyCase{study, std::move(*model), std::move(*conditions), std::move(goal)};
 }
 
-// Densities as a grid around the bricks; 0 where there is none.
+// Writes densities as a grid around the bricks; 0 where there is none.
 void write_density(const std::string& path, const fea::Bricks& bricks, const std::vector<float>& density) {
   fea::Cell low = bricks.cells.front(), high = low;
   for (const fea::Cell& cell : bricks.cells)
@@ -89,7 +89,7 @@ void write_density(const std::string& path, const fea::Bricks& bricks, const std
   file.commit();
 }
 
-// A table of the steps, a line of which is written as soon as its step is done.
+// A table of the steps. Each line is written as soon as its step is done.
 class StepTable {
  public:
   StepTable(const std::string& path, bool has_goal) : has_goal_(has_goal), file_(begun(path, has_goal)) {}
@@ -123,7 +123,7 @@ std::string chart_of(const optimise::Topology& topology, bool has_goal) {
   return optimise::chart_svg(chart);
 }
 
-// "the compliance fell from 9 to 3 N mm"
+// Returns a text such as "the compliance fell from 9 to 3 N mm".
 std::string change_of(const optimise::Topology& topology, bool has_goal) {
   const optimise::TopologyStep &first = topology.steps.front(), &last = topology.steps.back();
   const auto from_to = [](double from, double to) {
@@ -134,7 +134,7 @@ std::string change_of(const optimise::Topology& topology, bool has_goal) {
   return "the displacement went" + from_to(first.displacement, last.displacement) + " mm, the compliance" + compliance;
 }
 
-// A design that uses the result: it is solid where the density is above a half.
+// Returns a design that uses the result: it is solid where the density is above a half.
 std::string script_of(const OptimiseChoices& a) {
   const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(a.folder));
   return "// The densities are numbers of a grid, for solids and for mixtures: volume(\"density.nrrd\").value.\n"
@@ -142,7 +142,7 @@ std::string script_of(const OptimiseChoices& a) {
          design.generic_string() + "\nvolume_solid(\"density.nrrd\", level=0.5);\n";
 }
 
-// density.nrrd, topology.vcad, history.csv and chart.svg.
+// Returns the paths of density.nrrd, topology.vcad, history.csv and chart.svg.
 std::vector<std::string> files_of(const OptimiseChoices& a) {
   std::vector<std::string> files;
   for (const char* name : {"density.nrrd", "topology.vcad", "history.csv", "chart.svg"})

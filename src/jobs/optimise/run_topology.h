@@ -1,4 +1,4 @@
-// ombre optimise with a study of topology.
+// Runs `ombre optimise` with a study of topology.
 #pragma once
 
 #include "base/text/data.h"

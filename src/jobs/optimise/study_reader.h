@@ -1,4 +1,4 @@
-// Reads members of JSON studies, each mistake with its place.
+// Reads members of JSON studies, and reports each mistake at its place.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ namespace ombre::compile {
 
 class StudyMembers {
  public:
-  // `what` names the object in messages: "a variable". A diagnostic when it is no object or has other members.
+  // `what` names the object in messages: "a variable". Adds a diagnostic when it is no object or has other members.
   StudyMembers(const Data& data, std::string what, const std::vector<std::string>& known, Diagnostics& diagnostics);
 
   bool has(const std::string& name) const { return data_.find(name) != nullptr; }
   const Data* find(const std::string& name) const { return data_.find(name); }
   const Data& data() const { return data_; }
 
-  // Returns `missing` where there is no such member; adds a diagnostic when there is neither, or it is something else.
+  // Returns `missing` if there is no such member; adds a diagnostic if there is neither, or the member has another
+  // type.
   double number(const std::string& name, std::optional<double> missing, double least, double most);
   bool boolean(const std::string& name, bool missing);
   std::string text(const std::string& name, const std::optional<std::string>& missing);

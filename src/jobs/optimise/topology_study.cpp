@@ -7,7 +7,7 @@
 namespace ombre::compile {
 namespace {
 
-// The place is that of a load of the study, the direction its force.
+// Reads a goal: its place is that of a load, and its direction that of the force.
 std::optional<fea::Load> read_goal(const Data& data, bool& is_greatest, Diagnostics& diagnostics) {
   StudyMembers members(data, "a displacement of a topology", {"on", "direction", "goal"}, diagnostics);
   if (!data.members()) return std::nullopt;

@@ -1,4 +1,4 @@
-// The options of ombre contours.
+// The options of `ombre contours`.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// From a design to outlines, layer by layer.
+// Draws outlines of a design, layer by layer.
 #include "jobs/outline/contour_job.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Pitch chosen_height(const design::Design& design, const ContourRequest& request)
   return design.sampling ? design.sampling->pitch[2] : default_layer_height;
 }
 
-// Those of cells in the plane of each layer.
+// Returns the corners of cells in the plane of each layer.
 voxel::Lattice corners_in_layers(const Box& box, Pitch cell, Pitch height, std::optional<double> z_mm) {
   voxel::Lattice lattice = corners_over(box, cell);
   lattice.pitch[2] = height;
@@ -95,7 +95,7 @@ std::optional<ContourPlan> plan_contours(const Loaded& loaded, const ContourRequ
 
 ContourWork size_contour_work(const ContourPlan& plan, int threads) {
   const auto stages = static_cast<double>(plan.stages->memory_bytes({threads, plan.memory_bytes, nullptr, nullptr}));
-  // Each corner has a label and, as it is computed, a number. Borders take little.
+  // A corner has a label and, while it is computed, a number. Borders take little memory.
   const double layer = static_cast<double>(plan.corners.count[0]) * static_cast<double>(plan.corners.count[1]) *
                        (sizeof(surface::Label) + sizeof(float));
   const double allowed = (static_cast<double>(plan.memory_bytes) - stages) / layer;

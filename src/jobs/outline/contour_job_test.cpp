@@ -1,4 +1,4 @@
-// Outlines of designs against mathematics and against voxels.
+// Tests outlines of designs against mathematics and against voxels.
 #include "jobs/outline/contour_job.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ ContourRequest at(double z, double tolerance = 0.01) {
   return request;
 }
 
-// The only layer of one region.
+// Returns the only layer of one region.
 Polygons outline(const std::string& text, const ContourRequest& request) {
   const Drawn drawn = draw(text, request);
   return drawn.layers.size() == 1 && drawn.layers[0].size() == 1 ? drawn.layers[0][0] : Polygons{};
@@ -62,7 +62,7 @@ std::vector<Edge> edges_of(const LayerRegions& layer) {
   return edges;
 }
 
-// Polygons are closed, go around something, and nothing crosses.
+// Polygons are closed, go around something, and do not cross.
 void expect_sound(const LayerRegions& layer) {
   for (const Polygons& polygons : layer)
     for (const Polygon& polygon : polygons) {
@@ -80,7 +80,7 @@ void expect_sound(const LayerRegions& layer) {
 
 std::array<double, 4> key(const Edge& e) { return {e.first.x, e.first.y, e.second.x, e.second.y}; }
 
-// Edges that have nothing on their other side, and how many have.
+// Counts edges that have no region on their other side, and edges that have one.
 struct Borders {
   std::vector<Edge> outer;
   size_t shared = 0;
@@ -163,7 +163,7 @@ TEST(ContourJob, HalvesShareTheirBorder) {
   EXPECT_GT(borders.shared, 20U);
   EXPECT_NEAR(area_within(borders.outer), 280, 1e-6);
   EXPECT_NEAR(area_of(drawn.layers[0]), 280, 1e-6);
-  // The sine sums to nothing over an even range.
+  // The sine sums to nothing over a symmetric range.
   EXPECT_NEAR(surface::area_mm2(drawn.layers[0][0]), 140, 0.02 * 20);
   expect_sound(drawn.layers[0]);
 }
@@ -218,7 +218,7 @@ TEST(ContourJob, GyroidHasTheAreaOfItsVoxels) {
 }
 
 TEST(ContourJob, ThinFeaturesStaySound) {
-  // Cells are 0.8 mm: a plate of two cells is there, one of a tenth of a cell is lost here and there.
+  // Cells are 0.8 mm: a plate of two cells is kept, and one of a tenth of a cell is lost here and there.
   const Polygons thick = outline("rotate(0, 0, 17) rectprism(20, 1.6, 4);", at(0, 0.1));
   ASSERT_EQ(thick.size(), 1U);
   EXPECT_NEAR(surface::area_mm2(thick), 32, 0.1);

@@ -1,4 +1,4 @@
-// ombre contours: outlines of layers for machines that draw them.
+// `ombre contours` writes outlines of layers for machines that draw them.
 #include <filesystem>
 #include <memory>
 
@@ -54,7 +54,7 @@ formats::OutlineDocument document_of(const compile::ContourPlan& plan, const std
   return document;
 }
 
-// What was drawn so far.
+// Totals of the layers drawn so far.
 struct Totals {
   explicit Totals(size_t regions) : volumes_mm3(regions) {}
   uint64_t polygons = 0, points = 0;

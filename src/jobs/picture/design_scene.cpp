@@ -15,7 +15,7 @@ namespace {
 using program::Field;
 using program::Point;
 
-// What the program's inputs stand for in a perspective view: a depth, and a place (right, down) at that depth.
+// Returns the point in a perspective view for a program's inputs: a depth, and a place (right, down) at that depth.
 Point in_perspective(program::Builder& builder, const render::Camera& camera) {
   const Point view = Point::origin_frame(builder);
   const Field stretch = (view.x + camera.distance_mm) / camera.distance_mm;
@@ -25,7 +25,7 @@ Point in_perspective(program::Builder& builder, const render::Camera& camera) {
 Field within_cuts(Field inside, const Point& p, const SceneOptions& options) {
   const Field coordinates[] = {p.x, p.y, p.z};
   for (const Cut& cut : options.cuts) {
-    std::optional<Field> before;  // one of the planes
+    std::optional<Field> before;  // true in front of one of the planes
     for (const CutPlane& plane : cut) {
       const Field at = coordinates[plane.axis], face = p.constant(plane.mm);
       const Field is_before = plane.sign > 0 ? less_equal(at, face) : less_equal(face, at);
@@ -47,7 +47,7 @@ double opacity_of(const design::Material& material, const SceneOptions& options)
   return options.value || options.numbers ? 1 : material.colour[3] / 255.0;
 }
 
-// The sum of something over the materials, by their fractions.
+// Returns the sum of something over the materials, weighted by their fractions.
 template <class Of>
 Field mean(const design::Composition& composition, const Point& p, Of of) {
   Field sum = p.constant(0);
@@ -55,7 +55,7 @@ Field mean(const design::Composition& composition, const Point& p, Of of) {
   return sum;
 }
 
-// Between which depths the box lies.
+// Finds the least and the greatest depth of the box.
 void find_depths(render::Scene& scene, const Box& box, const render::Camera& camera) {
   scene.near_mm = Box::inf;
   scene.far_mm = -Box::inf;
@@ -65,11 +65,11 @@ void find_depths(render::Scene& scene, const Box& box, const render::Camera& cam
     scene.near_mm = std::min(scene.near_mm, depth);
     scene.far_mm = std::max(scene.far_mm, depth);
   }
-  // Nothing at the eye or behind it.
+  // Places at the eye or behind it are not seen.
   if (!camera.is_orthographic()) scene.near_mm = std::max(scene.near_mm, -0.99 * camera.distance_mm);
 }
 
-// What is to be seen, as a program of all of Scene's outputs.
+// A program of all outputs of a Scene.
 struct Shown {
   program::Program program;
   bool is_translucent = false;
@@ -96,7 +96,7 @@ std::optional<std::array<Field, 3>> own_colour(Question& question, const std::st
   return colour;
 }
 
-// The number of a part, 0 in none, or the id of the material of which there is most.
+// Returns the number of a part (0: none), or the id of the material with the greatest fraction.
 std::optional<Field> number_at(Question& question, const design::Composition& composition, Divided by,
                                Diagnostics& diagnostics) {
   if (by == Divided::parts) return question.attribute(part_label, diagnostics);
@@ -109,7 +109,7 @@ std::optional<Field> number_at(Question& question, const design::Composition& co
   return number;
 }
 
-// One of a few colours that are told apart easily, in turn.
+// Returns one of a few colours that are easy to tell apart, in turn.
 std::array<Field, 3> label_colour(Field label) {
   const auto few = static_cast<double>(label_colours().size()) - 1;  // the first is that of no label
   const Field place = label - few * (ceil(label * (1 / few)) - 1);
@@ -130,7 +130,7 @@ std::array<Field, 3> label_colour(Field label) {
   return colour;
 }
 
-// Linear red, green and blue.
+// Returns linear red, green and blue.
 std::optional<std::array<Field, 3>> colour_at(Question& question, const design::Composition& composition,
                                               const SceneOptions& options, Diagnostics& diagnostics) {
   if (options.numbers) {
@@ -157,7 +157,7 @@ std::optional<std::array<Field, 3>> colour_at(Question& question, const design::
   return std::array{channel(&render::Colour::red), channel(&render::Colour::green), channel(&render::Colour::blue)};
 }
 
-// `further` follow the outputs.
+// `further` outputs come after the others.
 std::optional<Shown> lower(Question& question, const SceneOptions& options, const program::Outputs& further,
                            Diagnostics& diagnostics) {
   const Point& p = question.point();
@@ -186,7 +186,7 @@ std::optional<Shown> lower(Question& question, const SceneOptions& options, cons
 Box scene_box(const Box& design_box, const SceneOptions& options) {
   Box box = options.box ? intersect(design_box, *options.box) : design_box;
   for (const Cut& cut : options.cuts) {
-    if (cut.size() != 1) continue;  // the box of what wedges leave may be the whole
+    if (cut.size() != 1) continue;  // wedges may leave the whole box
     const CutPlane& plane = cut.front();
     if (plane.sign > 0)
       box.hi[plane.axis] = std::min(box.hi[plane.axis], plane.mm);
@@ -198,7 +198,7 @@ Box scene_box(const Box& design_box, const SceneOptions& options) {
 
 std::optional<render::Scene> make_scene(const design::Design& design, const Box& box, const render::Camera& camera,
                                         const SceneOptions& options, Diagnostics& diagnostics) {
-  // In a perspective view the inputs are not the view's point, but a depth and a place on the picture plane.
+  // In a perspective view the inputs are a depth and a place on the picture plane, not the view's point.
   std::optional<Point> view;
   const Frame frame = [&](program::Builder& builder) {
     view = camera.is_orthographic() ? Point::origin_frame(builder) : in_perspective(builder, camera);
@@ -237,7 +237,7 @@ std::shared_ptr<const render::Section> make_section(const design::Design& design
 
 std::optional<std::vector<MaterialId>> materials_within(const design::Design& design, const Box& box, int threads,
                                                         Diagnostics& diagnostics, design::SubDesignMemory* memory) {
-  // What nodes tell comes from the picture's own program, which is as fine as its pixels.
+  // Remarks of nodes come from the picture's own program, which is as fine as its pixels.
   Diagnostics own;
   auto built = build_flat_program(design, own, threads, memory);
   if (!built) {

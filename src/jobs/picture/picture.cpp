@@ -20,7 +20,7 @@
 namespace ombre::compile {
 namespace {
 
-// Towards the eye, if the plane is not seen from its edge: then what is above it.
+// Returns the side towards the eye; if the plane is seen from its edge, the side above it.
 int side_of_eye(int axis, const render::Camera& camera) {
   constexpr double edge_on = 1e-9;
   return camera.forward[axis] > edge_on ? -1 : 1;
@@ -51,7 +51,7 @@ render::ViewOptions turned(render::ViewOptions view, int frame, int frames) {
   return view;
 }
 
-// What the camera sees, and what makes rays of it.
+// The scene and the film of a frame.
 struct Shot {
   render::Camera camera;
   render::Film film;
@@ -59,7 +59,7 @@ struct Shot {
   std::function<render::RayBand(int64_t begin, int64_t end)> cast;
 };
 
-// Ends of rays among what is kept of sub-designs.
+// Keeps ends of rays in the memory of sub-designs.
 class EndsMemory : public render::KnownEnds {
  public:
   explicit EndsMemory(design::SubDesignMemory& memory) : memory_(memory) {}
@@ -114,7 +114,7 @@ class Studio {
     auto options = scene_options(loaded_, request_, diagnostics_);
     if (!options) return false;
     options_ = std::move(*options);
-    // What lies outside of the box that is sampled is not part of the job.
+    // Parts outside of the box that is sampled do not belong to the job.
     if (loaded_.design.sampling) options_.box = options_.box ? intersect(*options_.box, whole_) : whole_;
     if (!request_.by.empty() && !choose_range()) return false;
     width_ = request_.width;
@@ -162,7 +162,7 @@ class Studio {
     return true;
   }
 
-  // By one ray for each pixel.
+  // Finds the numbers of parts or materials by one ray for each pixel.
   std::optional<PictureNumbers> numbers_of(Divided by, int frame) {
     if (by == Divided::parts && part_names(loaded_.design).empty()) {
       report_nameless_parts(loaded_.design, diagnostics_);
@@ -238,7 +238,7 @@ class Studio {
 
   std::string extents() const { return extent(0) + ", " + extent(1) + ", " + extent(2) + " mm"; }
 
-  // The height that every frame fits into.
+  // Returns a height that every frame fits into.
   double common_height(const Box& box) const {
     double height = 0;
     for (int frame = 0; frame < request_.frames; ++frame)
@@ -251,7 +251,7 @@ class Studio {
     return {width_ * samples_, height, camera.height_mm / static_cast<double>(height), samples_};
   }
 
-  // As fine as the picture's pixels.
+  // Returns the design for voxels as fine as the picture's pixels.
   design::Design design_for(const render::Film& film) const {
     const double pixel = film.pixel_mm * static_cast<double>(film.samples);
     return design::for_job(loaded_.design, Vec3{pixel, pixel, pixel});
@@ -325,7 +325,7 @@ class Studio {
     return pixels;
   }
 
-  // Rows of pixels, so that large pictures fit into memory.
+  // Returns the number of rows of pixels in a band, so that large pictures fit into memory.
   int64_t rows_at_once(int64_t samples) const { return std::max<int64_t>(1, most_rays / (width_ * samples * samples)); }
 
   uint64_t rows_in_all() const { return static_cast<uint64_t>(request_.frames) * static_cast<uint64_t>(height_); }
@@ -337,17 +337,17 @@ class Studio {
   Diagnostics& diagnostics_;
   Box whole_;
   SceneOptions options_;
-  std::optional<Interval> shown_range_;  // by colours
-  int64_t width_ = 0, height_ = 0;       // of what is shown, pixels
+  std::optional<Interval> shown_range_;  // range of the colours
+  int64_t width_ = 0, height_ = 0;       // of the shown part, pixels
   int64_t samples_ = request_.samples;
   std::optional<PictureLabels> labels_;
-  bool is_empty_ = true;  // the frame at work
+  bool is_empty_ = true;  // in the current frame
   Progress* progress_;
   Stopwatch watch_;
   uint64_t rows_done_ = 0;
 };
 
-// Bands have always the same size, since their borders show in sums over translucent material.
+// Checks the memory. Bands always have the same size, since their borders show in sums over translucent material.
 void check_memory(const PictureRequest& request) {
   const double row = static_cast<double>(request.width * request.samples * request.samples);
   const double rays = std::max<double>(most_rays, row) * sizeof(render::RayHit);

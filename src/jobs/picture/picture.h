@@ -1,4 +1,4 @@
-// From a design to pictures of it.
+// Takes pictures of a design.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace ombre::compile {
 
-// Calls `take` with each frame; progress counts rows of all frames. False, and diagnostics, when there is nothing to
-// see. Throws Cancelled, and Error where annotations cannot be drawn or memory does not suffice.
+// Calls `take` with each frame; progress counts rows of all frames. Returns false, and adds diagnostics, when there is
+// nothing to see. Throws Cancelled, and Error if annotations cannot be drawn or memory does not suffice.
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics,
                    Progress* progress = nullptr);

@@ -14,7 +14,7 @@
 
 namespace ombre::compile {
 
-// What the texts of options mean, as in options/option_values.h.
+// These functions parse texts of options, as in options/option_values.h.
 std::array<int64_t, 2> parse_size(const std::string& text, const std::string& name);  // "800x600"
 std::array<double, 2> parse_angles(const std::string& text, const std::string& name);
 render::Background parse_background(const std::string& text, const std::string& name);

@@ -1,4 +1,4 @@
-// Axes, scale bar and legend of a design's pictures.
+// Draws axes, scale bar and legend on a design's pictures.
 #include "jobs/picture/picture_labels.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace ombre::compile {
 namespace {
 
-constexpr int64_t smallest_part = 16;  // pixels that are left for it, each way
+constexpr int64_t smallest_part = 16;  // least pixels for the part along each axis
 
 void check_letters(const std::vector<render::Swatch>& legend, const draw::Pen& pen, const SourceRange& where,
                    Diagnostics& diagnostics) {
@@ -24,7 +24,7 @@ void check_letters(const std::vector<render::Swatch>& legend, const draw::Pen& p
   }
 }
 
-// The part's pixels in the left upper corner of a larger picture.
+// Puts the part's pixels into the left upper corner of a larger picture.
 std::vector<uint8_t> on_background(const std::vector<uint8_t>& part, const render::Layout& layout,
                                    const PictureRequest& request) {
   render::Rgba8 colour = request.background.colour;
@@ -36,20 +36,20 @@ std::vector<uint8_t> on_background(const std::vector<uint8_t>& part, const rende
   return pixels;
 }
 
-// Round numbers within the range, some five of them.
+// Returns about five round numbers within the range.
 std::vector<render::ColourBar::Tick> ticks_of(Interval range) {
   if (range.is_point()) return {{0.5, format_rounded(range.lo, 3)}};
   constexpr double most_steps = 6;
   const double width = range.hi - range.lo;
   double step = render::round_length(width / most_steps);
-  if (width / step > most_steps) step = render::round_length(2.5 * step);  // the next
+  if (width / step > most_steps) step = render::round_length(2.5 * step);  // the next step
   std::vector<render::ColourBar::Tick> ticks;
   for (double n = std::ceil(range.lo / step - 1e-9); n * step <= range.hi + 1e-9 * width; ++n)
     ticks.push_back({(n * step - range.lo) / width, format_rounded(n * step, 6)});
   return ticks;
 }
 
-// Nothing where the value is a colour itself.
+// Returns nothing if the value is a colour itself.
 std::optional<render::ColourBar> colour_bar(const design::Design& design, const ValueColours& value) {
   constexpr int colours = 256;
   if (attribute_parts(design, value.of).size() > 1) return std::nullopt;

@@ -1,4 +1,4 @@
-// Axes, scale bar and legend of a design's pictures.
+// Draws axes, scale bar and legend on a design's pictures.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 
 namespace ombre::compile {
 
-// The same room for all frames.
+// Labels that take the same room in all frames.
 class PictureLabels {
  public:
-  // `box` holds what is shown, `value` says what the colours are by. Nothing, and diagnostics, where the picture is too
-  // small; throws Error where there is nothing to draw them with.
+  // `box` holds everything that is shown, and `value` is the value of the colours. Returns nothing, and adds
+  // diagnostics, if the picture is too small; throws Error if labels cannot be drawn.
   static std::optional<PictureLabels> make(const Loaded& loaded, const PictureRequest& request, const Box& box,
                                            const std::optional<ValueColours>& value, Diagnostics& diagnostics);
 
-  const render::Layout& layout() const { return layout_; }  // of which the part's picture has the size
-  // Makes the part's picture the whole one.
+  const render::Layout& layout() const { return layout_; }  // has the size of the part's picture
+  // Extends the part's picture to the whole one.
   void add_to(Picture& picture, const render::Camera& camera);
 
  private:

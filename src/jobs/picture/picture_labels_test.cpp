@@ -1,4 +1,4 @@
-// Axes, scale bars and legends of pictures, by the pixels they must have.
+// Tests axes, scale bars and legends of pictures by their pixels.
 #include "jobs/picture/picture_labels.h"
 
 #include <cmath>
@@ -102,7 +102,7 @@ TEST_F(Labels, LegendsHaveTheColours) {
   request.annotations.legend = true;
   const auto picture = take("union() { sphere(5, \"blue\"); translate(9, 0, 0) sphere(5, \"green\"); }", request);
   ASSERT_TRUE(picture);
-  std::vector<Pixel> swatches;  // on the right, by rows of 1.6 lines
+  std::vector<Pixel> swatches;  // on the right, in rows of 1.6 lines
   for (const int64_t row : {16, 34}) {
     for (int64_t column = width - 1; column > 0; --column) {
       const Pixel p = at(*picture, column, row);
@@ -112,7 +112,7 @@ TEST_F(Labels, LegendsHaveTheColours) {
     }
   }
   ASSERT_EQ(swatches.size(), 2U);
-  EXPECT_EQ(swatches[0].green, 160);  // by their order in the file of materials
+  EXPECT_EQ(swatches[0].green, 160);  // in the order of the file of materials
   EXPECT_EQ(swatches[1].blue, 255);
 }
 
@@ -141,7 +141,7 @@ TEST_F(Labels, ValuesHaveABarOfTheirColours) {
   }
 }
 
-// Three balls in a row, seen from the front: each in its own colour, with a name in its middle and dark rims.
+// Three balls in a row, seen from the front, each have a colour of their own, a name in the middle and dark rims.
 TEST_F(Labels, PartsHaveColoursOutlinesAndNames) {
   PictureRequest request;
   request.view = *render::named_view("front");
@@ -155,7 +155,7 @@ TEST_F(Labels, PartsHaveColoursOutlinesAndNames) {
   const auto named = take(row, request);
   ASSERT_TRUE(plain && named) << to_text(diagnostics);
   const auto column_of = [&](double x) { return width / 2 + std::lround((x - 12) / plain->pixel_mm); };
-  // What stands in no named part at the top level comes first, so "two" is 1.
+  // Solids in no named part at the top level come first, so "two" is 1.
   const Pixel two = at(*plain, column_of(12), height / 2), one = at(*plain, column_of(0), height / 2);
   const Pixel rest = at(*plain, column_of(24), height / 2);
   EXPECT_GT(two.blue, two.red + 60);

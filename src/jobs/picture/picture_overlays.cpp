@@ -10,7 +10,7 @@ namespace {
 
 constexpr draw::Rgb ink{30, 32, 36}, halo{255, 255, 255};
 
-// Where all pixels of a number lie, and the one of them that is nearest to their middle.
+// The area of a number's pixels, and the pixel that is nearest to its middle.
 struct Area {
   int64_t pixels = 0;
   double right = 0, down = 0;  // sums
@@ -57,7 +57,7 @@ int16_t PictureNumbers::at(int64_t column, int64_t row) const {
 }
 
 void draw_outlines(std::vector<uint8_t>& rgba, const PictureNumbers& numbers) {
-  constexpr double strongest = 4;  // neighbours of eight: a straight border has three
+  constexpr double strongest = 4;  // number of different neighbours of eight; a straight border has three
   for (int64_t row = 0; row < numbers.height; ++row)
     for (int64_t column = 0; column < numbers.width; ++column) {
       const int16_t own = numbers.at(column, row);

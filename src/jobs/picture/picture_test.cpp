@@ -1,4 +1,4 @@
-// Pictures: what rays meet, against geometry.
+// Tests pictures: surfaces that rays meet, against geometry.
 #include "jobs/picture/picture.h"
 
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(Pictures, RaysMeetASphereWhereItIs) {
           EXPECT_EQ(depth, none) << name << column << " " << row;
         }
         if (square < 1) continue;
-        // Two of the finest steps, of which a pixel has 1024.
+        // The limit is two of the finest steps, of which a pixel has 1024.
         EXPECT_NEAR(depth, -std::sqrt(square), shot.film.pixel_mm / 500) << name << column << " " << row;
         EXPECT_EQ(shot.at(column, row).end, depth);
       }
@@ -95,7 +95,7 @@ TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
   EXPECT_NEAR(static_cast<double>(seen) * many.film.pixel_mm * many.film.pixel_mm, 40 * 3.14159265, 1.5);
 }
 
-// From far away, perspective is none.
+// Perspective vanishes from far away.
 TEST(Pictures, MeshesFromAFarEyeAreThoseOfParallelRays) {
   const std::string mesh = "rotate(10, 20, 30) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
   render::ViewOptions far = view("iso");
@@ -112,11 +112,11 @@ TEST(Pictures, MeshesFromAFarEyeAreThoseOfParallelRays) {
   EXPECT_LT(other, seen / 200);
 }
 
-// What lies beside the eye is no part of the picture, but the mesh reaches there.
+// The mesh reaches beside the eye, outside of the picture.
 TEST(Pictures, TheEyeMayStandWithinAMesh) {
   const std::string gear = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
   SceneOptions options;
-  options.box = Box{{7, -1, -1}, {9, 1, 1}};  // within the gear's body, and its eye too
+  options.box = Box{{7, -1, -1}, {9, 1, 1}};  // within the gear's body, as is its eye
   render::ViewOptions close = view("right");
   close.field_of_view_deg = 100;
   const Shot shot = shoot(gear, close, options);
@@ -127,10 +127,10 @@ TEST(Pictures, TheEyeMayStandWithinAMesh) {
 
 TEST(Pictures, CutsShowTheInside) {
   SceneOptions options;
-  options.cuts = {{{1, 0, -1}}};  // what lies at y < 0 is left away
+  options.cuts = {{{1, 0, -1}}};  // removes y < 0
   const Shot shot =
       shoot("union(materials=\"last\") { sphere(10, \"red\"); sphere(5, \"blue\"); }", view("front"), options);
-  // The camera aims at the middle of what is left, y = 5.
+  // The camera aims at the middle of the rest, y = 5.
   EXPECT_NEAR(shot.at(100, 100).surface, -5, shot.film.pixel_mm / 100);
   EXPECT_GT(shot.at(100, 100).at_end.blue, 2 * shot.at(100, 100).at_end.red);
   EXPECT_GT(shot.at(30, 100).at_end.red, 2 * shot.at(30, 100).at_end.blue);
@@ -138,7 +138,7 @@ TEST(Pictures, CutsShowTheInside) {
 
 TEST(Pictures, WedgesTakeAQuarterOut) {
   SceneOptions options;
-  options.cuts = {{{1, 0, -1}, {0, 0, 1}}};  // what lies at y < 0 and x > 0 is left away
+  options.cuts = {{{1, 0, -1}, {0, 0, 1}}};  // removes y < 0 where x > 0
   const Shot shot = shoot("sphere(10, \"red\");", view("front"), options);
   for (const int64_t column : {130, 150, 170})
     EXPECT_NEAR(shot.at(column, 100).surface, 0, shot.film.pixel_mm / 100) << column;
@@ -161,7 +161,7 @@ TEST(Pictures, LightFadesInTranslucentMaterial) {
     EXPECT_EQ(ray.end, none);
     EXPECT_NEAR(ray.passes, std::pow(0.7, 10 / clarity), 0.01);
   }
-  // What is opaque within is seen through it.
+  // Opaque parts are seen through translucent ones.
   const Shot filled =
       shoot("union(materials=\"last\") { cube(10, \"clear\"); sphere(3, \"red\"); }", view("front"), options);
   EXPECT_NEAR(filled.at(100, 100).end, -3, filled.film.pixel_mm / 100);
@@ -202,7 +202,7 @@ TEST(Pictures, DoNotDependOnThreads) {
 
 class EveryPicture : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
-// Where a ray ends, the reference finds the same material, but for rays that meet an edge.
+// The reference finds the same material where a ray ends, except for rays that meet an edge.
 TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
   use_source_data();
   Diagnostics diagnostics;
@@ -226,7 +226,7 @@ TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
     if (ray.end == none || ray.passes < 1) continue;
     ++seen;
     const auto value = [&](render::Scene::Output output) { return values[program.outputs[output]]; };
-    // Colours are those a little behind the surface, if there is something.
+    // Colours are those a little behind the surface, if there is a solid.
     for (const double behind : {film.pixel_mm / 8, film.pixel_mm / 500}) {
       const Vec3 p{static_cast<double>(ray.end) + behind, film.right_of(n % film.width), film.down_of(n / film.width)};
       evaluate_point(program, p, values);
@@ -279,7 +279,7 @@ TEST(Pictures, WhatIsWrongIsSaid) {
   EXPECT_NE(to_text(diagnostics).find("nothing of the design is left by the cuts"), std::string::npos);
 }
 
-// Flat, so that colours are those of the map.
+// The view is flat, so colours are those of the map.
 TEST(Pictures, ColoursFollowAValue) {
   const auto picture_of = [](const std::string& text, const std::string& by, std::optional<Interval> range) {
     Diagnostics diagnostics;
@@ -306,7 +306,7 @@ TEST(Pictures, ColoursFollowAValue) {
   };
   const std::string block = "cube(10, \"clear\");";
   const std::string dosed = "attribute(\"dose\", \"3 + 0.2*x\") { " + block + " }";  // 2 to 4
-  // The range is that of samples, some 48 along the part, which begin half a step within.
+  // The range is that of about 48 samples along the part, which begin half a step inside.
   expect_map(
       picture_of(dosed, "dose", std::nullopt), [](double x) { return (x + 5) / 10; }, 8);
   expect_map(

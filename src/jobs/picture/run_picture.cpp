@@ -1,4 +1,4 @@
-// ombre render: pictures of a design.
+// `ombre render` draws pictures of a design.
 #include <filesystem>
 #include <memory>
 
@@ -34,7 +34,7 @@ constexpr const char* render_footer =
     "large\n"
     "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n";
 
-// turn.png gives turn_00.png and so on where there are several frames.
+// Returns the files: turn.png becomes turn_00.png and so on if there are several frames.
 std::vector<std::string> output_files(const PictureChoices& a) {
   namespace fs = std::filesystem;
   const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
@@ -52,7 +52,7 @@ std::vector<std::string> output_files(const PictureChoices& a) {
   return files;
 }
 
-// A design, or the mesh of results as one.
+// Loads a design, or the mesh of results as one.
 compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diagnostics& diagnostics) {
   if (is_results(a.design.design)) {
     compile::LoadOptions options{a.design.materials, a.design.definitions};

@@ -1,4 +1,4 @@
-// What a design says at single points.
+// Evaluates a design at single points.
 #pragma once
 
 #include <optional>
@@ -16,10 +16,10 @@ struct ProbeResult {
   double distance = 0;                                      // g, mm; negative inside
   std::vector<std::pair<std::string, double>> composition;  // materials with a fraction above 0; empty outside
   std::vector<std::pair<std::string, double>> attributes;   // every attribute of the design
-  std::vector<std::string> parts;                           // those that contain the point
+  std::vector<std::string> parts;                           // parts that contain the point
 };
 
-// In double precision. Nothing, and a diagnostic, when the design is too large.
+// Probes in double precision. Returns nothing, and adds a diagnostic, when the design is too large.
 std::optional<std::vector<ProbeResult>> probe(const Loaded& loaded, const std::vector<Vec3>& points,
                                               Diagnostics& diagnostics);
 

@@ -8,7 +8,7 @@
 
 namespace ombre::compile {
 
-// "0,0,2.5"; mm.
+// Parses a point such as "0,0,2.5"; mm.
 Vec3 parse_point(const std::string& text, const std::string& name);
 inline constexpr options::Kind<Vec3> point_kind{"3 numbers", parse_point};
 

@@ -1,4 +1,4 @@
-// ombre probe: what a design says at single points.
+// `ombre probe` evaluates a design at single points.
 #include <memory>
 
 #include "base/math/point_text.h"

@@ -1,4 +1,4 @@
-// ombre codes: the codes that messages have for programs.
+// `ombre codes` lists the codes that messages have for programs.
 #include <algorithm>
 #include <memory>
 
@@ -22,7 +22,7 @@ void list_codes(const Session& session) {
   }
 }
 
-// The reference: a table with a row for each code.
+// Returns the reference: a table with a row for each code.
 std::string codes_reference() {
   std::string text =
       "# Codes of messages\n\nMade by `ombre codes --markdown`. A message has a code, which stays the same where its "

@@ -1,4 +1,4 @@
-// ombre materials: the materials that designs may name.
+// `ombre materials` lists the materials that designs may name.
 #include <cstdio>
 #include <memory>
 

@@ -1,4 +1,4 @@
-// ombre nodes: what a design can be made of.
+// `ombre nodes` lists the nodes that designs are built of.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -17,7 +17,7 @@ using design::NodeType;
 using design::OutputInfo;
 using design::ParameterInfo;
 
-// "mm, above 0"; "degrees, 0 to 90".
+// Returns texts such as "mm, above 0" and "degrees, 0 to 90".
 std::string domain_text(const design::Domain& domain) {
   std::vector<std::string> parts;
   if (!domain.unit.empty()) parts.emplace_back(domain.unit);
@@ -97,7 +97,7 @@ int show_node(const std::string& wanted, Session& session) {
   return done;
 }
 
-// The node reference: one section a category, one table a node.
+// Returns the node reference: one section for each category, one table for each node.
 std::string reference() {
   std::string text =
       "# Nodes\n\nMade by `ombre nodes --markdown`; `ombre nodes NAME` shows one. Lengths are mm, angles degrees.\n"

@@ -1,4 +1,4 @@
-// ombre printers: the profiles there are, and what one of them says.
+// `ombre printers` lists the profiles, or shows one.
 #include <algorithm>
 #include <memory>
 

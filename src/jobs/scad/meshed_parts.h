@@ -1,4 +1,4 @@
-// The parts of a design as polyhedra.
+// Makes polyhedra of the parts of a design.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace ombre::compile {
 
-// The surfaces of a design's parts as pieces, each with the part's name and the colour that its materials mix to.
-// Nothing, and diagnostics, where they cannot be made. Throws Cancelled.
+// Returns the surfaces of a design's parts as pieces, each with the part's name and the mean colour of its materials.
+// Returns nothing, and adds diagnostics, if they cannot be made. Throws Cancelled.
 std::optional<solids::Pieces> meshed_parts(const LoadedPtr& loaded, Diagnostics& diagnostics, const StopFlag* stop);
 
 }  // namespace ombre::compile

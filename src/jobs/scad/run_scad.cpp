@@ -1,4 +1,4 @@
-// ombre scad: an OpenSCAD script, with the options that OpenSCAD's users type.
+// `ombre scad` runs an OpenSCAD script, with the options that OpenSCAD's users know.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -57,7 +57,7 @@ struct ScadChoices {
   }
 };
 
-// OpenSCAD's word for binary STL files is binstl.
+// Returns the format; OpenSCAD's word for binary STL files is binstl.
 std::string format_of(const std::string& output, const ScadChoices& arguments) {
   if (!arguments.format.empty()) return arguments.format == "binstl" ? "stl" : arguments.format;
   const std::string ending = fs::path(output).extension().string();
@@ -73,7 +73,7 @@ void write_output(const std::string& path, const std::string& bytes, Session& se
     exporting::write_file(path, bytes);
 }
 
-// Names that stand in a rule of make: spaces and signs that make reads are escaped.
+// Returns a name for a rule of make, with spaces and special characters escaped.
 std::string make_name(const std::string& path) {
   std::string name;
   for (const char c : path) {
@@ -92,7 +92,7 @@ std::string make_rule(const std::vector<std::string>& outputs, const std::vector
   return text + "\n";
 }
 
-// One run of the command.
+// A run of the command.
 class ScadRun {
  public:
   ScadRun(const ScadChoices& arguments, Session& session)
@@ -155,7 +155,8 @@ class ScadRun {
     return true;
   }
 
-  // A script that uses Ombre's words is a design: its surfaces are meshed only when a file asks for them.
+  // Runs the script. A script that uses Ombre's words is a design, whose surfaces are meshed only when a file asks for
+  // them.
   openscad::Outcome run_script(Diagnostics& found) {
     if (!openscad::uses_words(source_, options_)) return openscad::run_with_files(source_, options_, messages_);
     compile::LoadOptions load;
@@ -182,12 +183,12 @@ class ScadRun {
           output, openscad::csg_text(*outcome.tree, fs::path(source_->name()).parent_path().string()) + '\n', session_);
   }
 
-  // All files of solids and areas at once, so that the geometry is made once. Writers know formats by their endings, so
-  // what has another name, or goes to stdout, is written beside first.
+  // Writes all files of solids and areas at once, so that the geometry is made once. Writers know formats by their
+  // endings, so output with another name, or to stdout, is written to a temporary file first.
   bool write_geometry(const openscad::Outcome& outcome) {
     const TemporaryFolder beside;
     std::vector<std::string> paths;
-    std::map<std::string, std::string> wanted;  // by the file that is written
+    std::map<std::string, std::string> wanted;  // paths by the file that is written
     for (const std::string& output : arguments_.outputs) {
       const std::string format = format_of(output, arguments_);
       if (!writes_solids(format)) continue;
@@ -227,7 +228,7 @@ class ScadRun {
   SourcePtr source_;
   openscad::Messages messages_;
   openscad::Options options_;
-  compile::LoadedPtr design_;  // of a script with Ombre's words
+  compile::LoadedPtr design_;  // design of a script with Ombre's words
 };
 
 int run_scad(const ScadChoices& a, Session& session) { return ScadRun(a, session).run(); }

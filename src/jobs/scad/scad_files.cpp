@@ -56,7 +56,7 @@ std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& l
 
 namespace {
 
-// Warnings as the script's own; returns what else there is.
+// Moves warnings to the messages of the script, and returns the other diagnostics.
 Diagnostics without_warnings(const Diagnostics& found, lang::openscad::Messages& said) {
   Diagnostics others;
   for (const Diagnostic& diagnostic : found.list()) {

@@ -1,4 +1,4 @@
-// This file writes the solids of a script for `ombre scad`.
+// Writes the solids of a script for `ombre scad`.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 
 namespace ombre::jobs {
 
-// Endings that the command writes, ".echo" and the like included.
+// Returns the endings that the command writes, also ".echo" and similar ones.
 std::vector<std::string> scad_formats();
-// Whether the format is one of solids or areas: a mesh, or a drawing.
+// True if the format is one of solids or areas: a mesh, or a drawing.
 bool writes_solids(const std::string& format);
 // Writes the tree's solids or areas to all paths, each in the format of its ending; "{part}" in a path makes a file for
-// each part. Returns the files; nothing, and diagnostics on the events, where they do not fit. Warnings of the
-// geometry are `said`.
+// each part. Returns the files, or nothing, with diagnostics among the events, if they do not fit the format. Warnings
+// of the geometry go to `said`.
 std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths,
                                                      bool no_overlap, lang::openscad::Messages& said, Session& session);
 

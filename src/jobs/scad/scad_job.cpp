@@ -67,7 +67,7 @@ bool check_closed(const Piece& piece, const std::string& path, Diagnostics& mess
   return false;
 }
 
-// Returns a part's name without what cannot stand in the name of a file.
+// Returns a part's name without characters that file names cannot have.
 std::string file_word(const std::string& part) {
   if (part.empty()) return "rest";
   std::string word = part;

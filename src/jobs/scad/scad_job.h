@@ -1,4 +1,4 @@
-// From a tree of polyhedral geometry to files.
+// Writes trees of polyhedral geometry to files.
 #pragma once
 
 #include <functional>
@@ -12,34 +12,34 @@
 namespace ombre::compile {
 
 struct SolidsExport {
-  // The ending says the format: those of meshes for solids; .svg and .dxf for regions. "{part}" in the name makes a
+  // The ending decides the format: one of meshes for solids; .svg and .dxf for regions. "{part}" in the name makes a
   // file for each part.
   std::string path;
   std::string title = {};  // empty: the file's name
   formats::SlicerFlavour flavour = formats::SlicerFlavour::generic;
 };
 
-// Solids lose what solids before them have, and warnings are given where solids overlap else.
+// without_overlaps() subtracts from each solid those before it; warn_of_overlaps() warns if solids overlap.
 solids::Pieces without_overlaps(const solids::Pieces& pieces, const solids::EvaluateOptions& options);
 void warn_of_overlaps(const solids::Pieces& pieces, const SourceRange& where, const solids::EvaluateOptions& options,
                       Diagnostics& messages);
 
-// Writes what the tree gave. Nothing is written, and there are errors, where the pieces do not fit the format, or a
-// surface is not closed. The paths of the files, in order. Throws Error where a file cannot be written.
+// Writes the pieces, and returns the paths of the files, in order. If the pieces do not fit the format, or a surface is
+// not closed, it writes nothing and reports errors. Throws Error if a file cannot be written.
 std::vector<std::string> write_pieces(const solids::Pieces& pieces, const SolidsExport& to, Diagnostics& messages);
 
-// Bodies named by their parts, with a material for each name and colour.
+// Returns bodies named by their parts, with a material for each name and colour.
 formats::MeshDocument document_of(const solids::Pieces& pieces, const std::string& title);
 
 struct ScadRequest {
   solids::TreePtr tree;
   std::vector<SolidsExport> outputs;
-  bool no_overlap = false;  // the first wins
+  bool no_overlap = false;  // the first solid wins
   bool keeps_empty = false;
   int threads = 0;
   const StopFlag* stop = nullptr;
   Progress* progress = nullptr;
-  std::function<void()> before_writing = {};  // called when the geometry is there, unless there is nothing to write
+  std::function<void()> before_writing = {};  // called when the geometry is made, unless there is nothing to write
 };
 
 struct ScadResult {

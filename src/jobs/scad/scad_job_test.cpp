@@ -23,7 +23,7 @@ class ScadJob : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!has_kernel()) GTEST_SKIP();
-    // Tests run beside each other, each in a folder of its own.
+    // Tests run at the same time, each in a folder of its own.
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::path(testing::TempDir()) / (std::string("ombre_scad_job_") + test->name());
     fs::remove_all(folder_);
@@ -156,7 +156,7 @@ TEST_F(ScadJob, CrossingShellsBecomeOne) {
     text << "3 " << n << ' ' << n + 2 << ' ' << n + 1 << "\n3 " << n << ' ' << n + 1 << ' ' << n + 3 << "\n3 " << n
          << ' ' << n + 3 << ' ' << n + 2 << "\n3 " << n + 1 << ' ' << n + 2 << ' ' << n + 3 << '\n';
   std::ofstream(path("two.off")) << text.str();
-  // Two tetrahedra of volume 1/6; they share one of edge 3/4.
+  // Two tetrahedra of volume 1/6 share one of edge 3/4.
   EXPECT_NEAR(size_of(imported("two.off")), 2.0 / 6 - 0.75 * 0.75 * 0.75 / 6, 1e-9);
 }
 

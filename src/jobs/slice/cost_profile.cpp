@@ -1,4 +1,4 @@
-// What layers take to make, by height, known from some of them.
+// The cost of layers by height, interpolated between known ones.
 #include "jobs/slice/cost_profile.h"
 
 #include <iterator>
@@ -26,7 +26,7 @@ LayerCost CostProfile::at(double height) const {
   return (1 - share) * below->second + share * above->second;
 }
 
-// Trapezoids between the slabs that are known.
+// Sums trapezoids between the slabs that are known.
 LayerCost CostProfile::of(LayerRange range) const {
   const auto end = static_cast<double>(range.end);
   auto height = static_cast<double>(range.begin);

@@ -1,4 +1,4 @@
-// What layers take to make, by height, known from some of them.
+// The cost of layers by height, interpolated between known ones.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@ struct LayerCost {
   double bytes = 0;    // of images
 };
 
-// Between the slabs that are known the cost of a layer changes linearly; beyond them it stays.
+// A profile in which the cost of a layer changes linearly between known slabs, and is constant beyond them.
 class CostProfile {
  public:
-  // What the layers of a slab took together. Replaces what was known of a slab with the same middle.
+  // Adds the cost of all layers of a slab together. Replaces that of a slab with the same middle.
   void add(LayerRange slab, LayerCost cost);
 
   bool is_empty() const { return layer_costs_.empty(); }
-  // Of all layers of a range together; nothing is known before the first add.
+  // Returns the cost of all layers of a range together; nothing is known before the first add.
   LayerCost of(LayerRange range) const;
 
  private:
   LayerCost at(double height) const;
 
-  std::map<double, LayerCost> layer_costs_;  // of one layer, by the middle of its slab
+  std::map<double, LayerCost> layer_costs_;  // cost of one layer, by the middle of its slab
 };
 
 }  // namespace ombre::compile

@@ -15,7 +15,7 @@ namespace {
 constexpr LayerRange all{0, 4000};
 std::vector<LayerRange> slabs() { return missing_slabs(all, {}, 4); }
 
-// Of a shape whose layers take `of(height)` seconds and as many bytes; heights are 0 ... 1.
+// Returns the cost of a shape whose layers take `of(height)` seconds and as many bytes; heights are 0 ... 1.
 template <class F>
 LayerCost cost(LayerRange slab, const F& of) {
   LayerCost sum;

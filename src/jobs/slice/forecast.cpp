@@ -1,4 +1,4 @@
-// What the rest of a running job will take.
+// Forecasts the rest of a running job.
 #include "jobs/slice/forecast.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace ombre::compile {
 namespace {
 
 constexpr size_t most_samples = 15, least_samples = 3;
-constexpr size_t slabs_for_a_sample = 64;  // so that looking ahead costs little
+constexpr size_t slabs_for_a_sample = 64;  // so that sampling ahead costs little
 
 }  // namespace
 
@@ -35,7 +35,7 @@ std::optional<LayerRange> Forecast::sample_ahead() {
   while (samples_begun_ < samples_wanted()) {
     const LayerRange sample = samples_[samples_begun_++];
     if (sample.begin > slabs_[written_].begin) return sample;
-    ++samples_done_;  // by its turn
+    ++samples_done_;  // it was made in its turn
   }
   return std::nullopt;
 }
@@ -60,7 +60,7 @@ std::optional<LayerCost> Forecast::left() const {
   if (written_ == slabs_.size()) return LayerCost{};
   const bool is_known = written_ > 0 && samples_done_ >= std::min(least_samples, samples_wanted());
   if (!is_known || watch_.seconds() < patience_) return std::nullopt;
-  // Layers that an earlier run finished are thinly spread, or all at one end.
+  // The layers that an earlier run finished may be spread thinly, or lie at one end.
   const LayerRange ahead{slabs_[written_].begin, slabs_.back().end};
   const auto count = static_cast<double>(layer_count_ - layers_written_);
   const double missing = count / static_cast<double>(ahead.end - ahead.begin);

@@ -1,4 +1,4 @@
-// What the rest of a running job will take.
+// Forecasts the rest of a running job.
 #pragma once
 
 #include <mutex>
@@ -10,23 +10,22 @@
 
 namespace ombre::compile {
 
-// The time that producing and writing layers take on `threads` threads; one at a time writes.
+// Returns the time that producing and writing layers take on `threads` threads; one at a time writes.
 double wall_seconds(double producing, double writing, int threads);
 
-// Learns from the slabs that are done, and from a few that are made ahead of their turn for this purpose only: at
-// most one in 64, and none before `patience` seconds, since shorter jobs need no forecast. Called from several
-// threads.
+// Learns from the slabs that are done, and from a few that are made ahead of their turn only for this purpose: at most
+// one in 64, and none before `patience` seconds, since shorter jobs need no forecast. Called from several threads.
 class Forecast {
  public:
   Forecast(std::vector<LayerRange> slabs, int threads, double patience = 1);
 
-  // A slab to look at now.
+  // Returns a slab to sample now, if one is due.
   std::optional<LayerRange> sample_ahead();
   void add_sample(LayerRange slab, LayerCost cost);
-  // The next of the slabs is written.
+  // Adds the cost of the next of the slabs, once it is written.
   void add_written(LayerCost cost, double writing_seconds);
 
-  // Nothing while too little is known.
+  // Returns the remaining cost; nothing while too little is known.
   std::optional<LayerCost> left() const;
 
  private:
@@ -34,7 +33,7 @@ class Forecast {
 
   mutable std::mutex mutex_;
   const std::vector<LayerRange> slabs_;
-  const std::vector<LayerRange> samples_;  // in the order in which they are looked at
+  const std::vector<LayerRange> samples_;  // in the order in which they are sampled
   const int threads_;
   const double patience_;
   const Stopwatch watch_;

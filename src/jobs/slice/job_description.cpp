@@ -1,4 +1,4 @@
-// What job.json says.
+// Makes the contents of job.json.
 #include "jobs/slice/job_description.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ Data shades(const ShadeMeaning& meaning) {
                      {"bits", static_cast<double>(meaning.bits)}};
 }
 
-// In the order of the palette of indexed images.
+// Describes the materials in the order of the palette of indexed images.
 Data materials(const SliceRequest& request) {
   DataList list{DataMembers{{"name", "void"}, {"id", 0.0}, {"rgba", colour(request.background)}}};
   for (const SliceMaterial& material : request.materials)
@@ -113,8 +113,8 @@ Data describe_totals(const SliceRequest& request, const std::vector<JournalEntry
     by_material.emplace_back(DataMembers{{"name", request.materials[i].name},
                                          {"voxels", number(voxels[i])},
                                          {"volume_mm3", static_cast<double>(voxels[i]) * voxel_mm3}});
-  // The layers with material, counted from the lowest layer of the job: the offset of a stack that
-  // drops its empty layers.
+  // The layers with material, counted from the lowest layer of the job. They give the offset of a stack that drops its
+  // empty layers.
   const Data occupied = lowest ? Data(DataList{number(lowest->layer), number(highest->layer)}) : Data();
   return DataMembers{{"materials", by_material},
                      {"first_and_last_layer", occupied},

@@ -1,4 +1,4 @@
-// What job.json says: everything that decides a job's bytes, and its totals once it is complete.
+// Makes the contents of job.json: everything that decides a job's bytes, and its totals once it is complete.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace ombre::compile {
 
-// How the "format" member of every job.json begins.
+// The beginning of the "format" member of every job.json.
 inline constexpr std::string_view job_format = "ombre slice job";
 
-// Without clock, host or thread count, so that equal jobs have equal files.
+// Describes a job without clock, host or thread count, so that equal jobs have equal files.
 DataMembers describe_job(const SliceRequest& request);
 
-// The sums over all layers, sorted by layer.
+// Returns the sums over all layers, which are sorted.
 Data describe_totals(const SliceRequest& request, const std::vector<JournalEntry>& layers);
 
-// "seed is 1 there and 2 here" for the first member, in order, that differs; empty when none does.
+// Returns a text such as "seed is 1 there and 2 here" for the first member that differs; empty if none does.
 std::string first_difference(const DataMembers& there, const DataMembers& here);
 
 }  // namespace ombre::compile

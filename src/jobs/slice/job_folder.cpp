@@ -1,4 +1,4 @@
-// The folder of a slice job: job.json, journal.jsonl and the files of each layer.
+// Manages the folder of a slice job: job.json, journal.jsonl and the files of each layer.
 #include "jobs/slice/job_folder.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using exporting::part_suffix;
 
-// The name of a file that `name` is the part of, else `name`.
+// Returns the name of the file that `name` is an unfinished part of, else `name`.
 std::string_view without_part(std::string_view name) {
   if (name.ends_with(part_suffix)) name.remove_suffix(part_suffix.size());
   return name;
@@ -43,7 +43,7 @@ bool is_slice_job(const Data& job) {
   return format && format->string() && format->string()->starts_with(job_format);
 }
 
-// The names of the job's materials, without void.
+// Returns the names of the job's materials, without void.
 std::optional<std::vector<std::string>> material_names(const Data* materials) {
   if (!materials || !materials->list() || materials->list()->empty()) return std::nullopt;
   std::vector<std::string> names;
@@ -56,7 +56,7 @@ std::optional<std::vector<std::string>> material_names(const Data* materials) {
   return names;
 }
 
-// The names that the job in a folder gives to its layers, as its job.json has it.
+// Returns the names of the layers' files by a folder's job.json.
 std::optional<LayerFiles> layer_files(const std::optional<Data>& job) {
   const Data* images = job ? job->find("images") : nullptr;
   const Data* sampling = job ? job->find("sampling") : nullptr;
@@ -80,7 +80,7 @@ void refuse_file(const std::string& path) {
                 {{"file", path}});
 }
 
-// Sorted.
+// Returns the names in a folder, sorted.
 std::vector<std::string> names_in(const std::string& path) {
   std::vector<std::string> names;
   std::error_code error;
@@ -125,7 +125,7 @@ void refuse_used_folder(const std::string& path, FolderUse use) {
                 {{"file", path}});
   }
   const std::vector<std::string> names = names_in(path);
-  const std::string unfinished = job_file + std::string(part_suffix);  // of a run that ended before it began
+  const std::string unfinished = job_file + std::string(part_suffix);  // of a run without layers
   const auto foreign = std::ranges::find_if(names, [&](const std::string& name) { return name != unfinished; });
   if (foreign != names.end())
     throw Error(Code::exists,
@@ -176,23 +176,23 @@ void JobFolder::resume() {
     const std::string text = formats::read_file(in_folder(journal_file));
     keep_proven(parse_journal(text, request_.materials.size(), request_.check_texts.size()));
   }
-  // Before the first new line, so that none follows a torn one.
+  // The journal is repaired before the first new line, so that none follows a torn one.
   update(job_file, job_text(is_complete()));
   update(journal_file, journal_text());
 }
 
-// Ombre's own files, and those that its job.json names, or the journal where that cannot be read.
+// Removes Ombre's own files, and those that its job.json names, or the journal if that cannot be read.
 void JobFolder::remove_old_job() {
   if (!holds(job_file)) return;
   const std::optional<Data> job = read_job(in_folder(job_file));
   const std::optional<LayerFiles> layers = layer_files(job);
   const NameSet in_journal = layers ? NameSet() : images_in_journal();
-  // A damaged job.json is taken for ours where the journal beside it names layers.
+  // A damaged job.json counts as Ombre's if the journal beside it names layers.
   if (job ? !is_slice_job(*job) : in_journal.empty())
     throw Error(Code::exists, in_folder(job_file) + " was not written by Ombre; move it away, or choose another folder",
                 {{"file", path_}});
 
-  // Before anything goes: what stays may not be in the new job's way.
+  // The old names are checked before anything is removed: remaining files may not be in the new job's way.
   std::vector<std::string> old;
   for (std::string& name : names_in(path_)) {
     const std::string_view whole = without_part(name);
@@ -203,7 +203,7 @@ void JobFolder::remove_old_job() {
       refuse_collision(name);
   }
   run_parallel(old.size(), threads_, [&](size_t i) { remove_file(in_folder(old[i])); });
-  // job.json goes last: until then the folder is known for what it is.
+  // job.json is removed last, so that until then the folder is recognised as a job.
   for (const std::string name : {journal_file, job_file}) {
     remove_file(in_folder(name + std::string(part_suffix)));
     remove_file(in_folder(name));
@@ -218,7 +218,7 @@ NameSet JobFolder::images_in_journal() const {
   return images;
 }
 
-// Whatever the user allowed, a file that Ombre did not write is not replaced by a layer.
+// Checks that no layer would replace a file that Ombre did not write, whatever the user allowed.
 void JobFolder::refuse_collisions() const {
   for (const std::string& name : names_in(path_))
     if (name == journal_file || files_.contains(without_part(name))) refuse_collision(name);

@@ -1,9 +1,9 @@
-// The folder of a slice job: job.json, journal.jsonl and the files of each layer.
+// Manages the folder of a slice job: job.json, journal.jsonl and the files of each layer.
 //
-// Order of events, so that a run can end at any moment and be resumed: job.json is there before the
-// first layer; each file of a layer is written aside and renamed; then the layer's line joins the journal;
-// once all layers are there, the journal is sorted and job.json gets the totals. A resumed run trusts a
-// line only if the files that it names are the layer's, with the sizes and the hashes that it states.
+// A run can end at any moment and be resumed, by this order of events. job.json is written before the first layer. Each
+// file of a layer is written aside and renamed; then the layer's line is added to the journal. Once all layers are
+// there, the journal is sorted and job.json gets the totals. A resumed run trusts a line only if the files that it
+// names are the layer's, with the sizes and the hashes that it states.
 #pragma once
 
 #include <map>
@@ -25,31 +25,31 @@ inline constexpr const char* journal_file = "journal.jsonl";
 
 class FolderLock;
 
-// Throws Error where the folder, if it is there, holds what a job of this use may not go beside: another job, or files
-// of others. What a resumed or replaced job needs besides is known once it is planned.
+// Throws Error if the folder exists and holds files that this use does not allow: another job, or files of others.
+// Further checks of a resumed or replaced job follow once it is planned.
 void refuse_used_folder(const std::string& path, FolderUse use);
 
 using NameSet = std::set<std::string, std::less<>>;
 
 class JobFolder {
  public:
-  // Makes the folder ready for the job's layers, as `use` says. Throws Error when it cannot be written,
-  // holds what is not the job's, or is in use by another run. `threads` read what is there already, which
-  // takes its time for large jobs, which `progress` shows (it may be null); Cancelled when asked to stop meanwhile.
+  // Prepares the folder for the job's layers, as `use` says. Throws Error when it cannot be written, holds files that
+  // are not the job's, or is in use by another run. `threads` threads read existing layers, which takes time for large
+  // jobs; `progress` shows it and may be null. Throws Cancelled when asked to stop meanwhile.
   JobFolder(std::string path, const SliceRequest& request, FolderUse use, int threads, Progress* progress,
             const StopFlag* stop);
   ~JobFolder();
   JobFolder(const JobFolder&) = delete;
   JobFolder& operator=(const JobFolder&) = delete;
 
-  // By layer: what is finished, from earlier runs and this one.
+  // Finished layers of earlier runs and this one, by layer.
   const std::map<int64_t, JournalEntry>& finished() const { return finished_; }
 
-  // Writes the layer's files, then the journal. `entry` has its layer, voxels and checks; without images the
-  // layer has no files.
+  // Writes the layer's files, then the journal. `entry` has its layer, voxels and checks; without images the layer has
+  // no files.
   void add(JournalEntry entry, const std::vector<std::string>& images);
 
-  // Sorts the journal and, if no layer is missing, writes the totals. Returns whether none is.
+  // Sorts the journal and, if no layer is missing, writes the totals and returns true.
   bool close();
 
  private:
@@ -78,7 +78,7 @@ class JobFolder {
   const StopFlag* stop_;
   std::unique_ptr<FolderLock> lock_;
   std::map<int64_t, JournalEntry> finished_;
-  bool journal_is_sorted_ = true;  // later layers follow earlier ones
+  bool journal_is_sorted_ = true;  // true if later layers follow earlier ones
   std::unique_ptr<exporting::AppendFile> journal_;
 };
 

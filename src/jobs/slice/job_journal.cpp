@@ -13,7 +13,7 @@ namespace {
 
 constexpr double largest_exact = 9007199254740992.0;  // 2^53
 
-// A whole number, 0 or more; the flag falls where it is not.
+// Returns a whole number, 0 or more; sets the flag to false if it is none.
 uint64_t whole(const Data* data, bool& good) {
   const double* number = data ? data->number() : nullptr;
   good = good && number && *number >= 0 && *number <= largest_exact && *number == std::floor(*number);
@@ -42,7 +42,7 @@ std::vector<JournalFile> file_list(const Data* data, bool& good) {
   return files;
 }
 
-// Calls use(line) for each line; a last line without its end was torn.
+// Calls use(line) for each line. A last line without its end was torn, and is skipped.
 template <class Use>
 void for_each_line(std::string_view text, const Use& use) {
   for (size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {

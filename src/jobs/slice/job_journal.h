@@ -14,28 +14,28 @@ namespace ombre::compile {
 struct JournalFile {
   std::string name;
   uint64_t bytes = 0;
-  std::string hash;  // of its bytes
+  std::string hash;  // hash of the file's bytes
 };
 
 struct JournalEntry {
   int64_t layer = 0;                     // counted from the lowest layer of the job
-  std::vector<JournalFile> files;        // none where an empty layer was dropped
+  std::vector<JournalFile> files;        // empty if an empty layer was dropped
   std::vector<uint64_t> voxels;          // of each of the job's materials
   std::vector<voxel::CheckHits> checks;  // of each of the job's checks
 
   bool is_empty() const;
 };
 
-// With its line end.
+// Returns the line with its end.
 std::string to_line(const JournalEntry& entry);
 
-// Nothing for a line that is torn or not of this job.
+// Returns nothing for a line that is torn or not of this job.
 std::optional<JournalEntry> parse_entry(std::string_view line, size_t material_count, size_t check_count);
 
-// The entries of a journal that can be read, sorted by layer; of two for one layer the later one.
+// Returns the entries of a journal that can be read, sorted by layer; of two for one layer the later one.
 std::vector<JournalEntry> parse_journal(std::string_view text, size_t material_count, size_t check_count);
 
-// The files that a journal names, whatever job it belongs to.
+// Returns the files that a journal names, whatever job it belongs to.
 std::vector<std::string> journal_files(std::string_view text);
 
 }  // namespace ombre::compile

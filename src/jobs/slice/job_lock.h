@@ -5,7 +5,7 @@
 
 namespace ombre::compile {
 
-// Held until destroyed, or until the program ends however it ends.
+// A lock of a folder that is held until the object is destroyed, or the program ends in any way.
 class FolderLock {
  public:
   // Throws Error when another run holds it or the folder cannot be opened.

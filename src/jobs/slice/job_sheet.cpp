@@ -1,4 +1,4 @@
-// Contact sheets of slice jobs.
+// Draws contact sheets of slice jobs.
 #include "jobs/slice/job_sheet.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace ombre::compile {
 namespace {
 
-// The numbers of a member that must be a list of them.
+// Returns the numbers of a member that must be a list of them.
 std::vector<double> numbers(const Data* data, const std::string& path) {
   std::vector<double> values;
   if (data && data->list())
@@ -80,7 +80,7 @@ JobSummary read_summary(const std::string& path) {
   return summary;
 }
 
-// Its files, with the materials' colours in the place of masks.
+// Returns a layer's files, with the materials' colours for masks.
 exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& summary,
                                   const std::filesystem::path& folder) {
   exporting::SheetLayer layer;

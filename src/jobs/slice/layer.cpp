@@ -1,4 +1,4 @@
-// One layer of a job, with the bytes that slicing would write.
+// Makes one layer of a job, with the bytes that slicing would write.
 #include "jobs/slice/layer.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace ombre::compile {
 namespace {
 
-// What lies so close to a face, in voxels, is meant to lie on it.
+// Distance in voxels within which a place counts as on a face.
 constexpr double slack = 1e-6;
 
-// From the lower face of the first voxel; far outside, some number outside.
+// Returns the distance from the lower face of the first voxel, in voxels; far outside it is some number outside.
 double in_voxels(const voxel::Lattice& lattice, size_t axis, double mm) {
   const double voxels = (mm - lattice.origin[static_cast<int>(axis)]) / lattice.pitch[axis].mm();
   return std::clamp(voxels, -2.0, static_cast<double>(lattice.count[axis]) + 2);

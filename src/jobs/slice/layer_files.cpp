@@ -1,4 +1,4 @@
-// The names of the files of a job's layers.
+// Names of the files of a job's layers.
 #include "jobs/slice/layer_files.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::string file_word(const std::string& name) {
   };
   std::replace_if(
       word.begin(), word.end(), [&](char c) { return !plain(c); }, '_');
-  if (word.starts_with('-')) word[0] = '_';  // which commands would take for an option
+  if (word.starts_with('-')) word[0] = '_';  // commands would take it for an option
   return word;
 }
 
@@ -32,7 +32,7 @@ std::vector<std::string> material_names(const SliceRequest& request) {
 
 std::vector<std::string> file_words(const std::vector<std::string>& materials) {
   std::vector<std::string> words;
-  std::set<std::string> taken;  // in lower case, as some file systems have it
+  std::set<std::string> taken;  // in lower case, since some file systems ignore case
   for (const std::string& material : materials) {
     const std::string word = file_word(material);
     std::string free = word;

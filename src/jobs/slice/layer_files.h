@@ -1,4 +1,4 @@
-// The names of the files of a job's layers.
+// Names of the files of a job's layers.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ class LayerFiles {
   LayerFiles(const voxel::NamePattern& files, const std::vector<std::string>& materials, int64_t first_index,
              int64_t layer_count);
 
-  // Of one layer: one name, or one for each material, in their order.
+  // Returns the names of one layer's files: one name, or one for each material, in their order.
   std::vector<std::string> names(int64_t layer) const;
-  // Whether a file of some layer has this name.
+  // True if a file of some layer has this name.
   bool contains(std::string_view name) const;
 
  private:
@@ -27,10 +27,10 @@ class LayerFiles {
   int64_t first_index_ = 0, layer_count_ = 0;
 };
 
-// Of the job's materials, without void.
+// Returns the names of the job's materials, without void.
 std::vector<std::string> material_names(const SliceRequest& request);
 
-// What stands for materials in the names of files: letters, digits, '-' and '_', each once.
+// Returns the words that stand for materials in the names of files: letters, digits, '-' and '_', each word once.
 std::vector<std::string> file_words(const std::vector<std::string>& materials);
 
 }  // namespace ombre::compile

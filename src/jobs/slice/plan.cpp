@@ -16,7 +16,7 @@
 namespace ombre::compile {
 namespace {
 
-constexpr int64_t most_along_axis = 1'000'000,  // libpng's limit too
+constexpr int64_t most_along_axis = 1'000'000,  // also the limit of libpng
     most_in_layer = int64_t{1} << 34;
 
 std::string size_text(Vec3 v) {
@@ -85,7 +85,7 @@ class LatticePlanner {
     return false;
   }
 
-  // The lattice becomes the tray. Parts move on it by whole voxels, so they keep theirs.
+  // Extends the lattice to the tray. Parts move on it by whole voxels, so they keep their own voxels.
   bool cover_tray() {
     if (!printer_.build_mm) {
       fail(Code::outside_box, "the profile \"" + printer_.name + "\" has no tray size",
@@ -95,7 +95,7 @@ class LatticePlanner {
     }
     for (int axis = 0; axis < 3; ++axis) {
       const int64_t part = count(axis);
-      // Whole voxels of the tray, to the nearest, as printers count theirs; a part as large as the tray fits.
+      // The tray has a whole number of voxels, rounded as printers do; a part as large as the tray fits.
       const int64_t tray = std::max<int64_t>(part, std::llround((*printer_.build_mm)[axis] / pitch(axis).mm()));
       int64_t before = 0;  // voxels between the tray's corner and the part's
       if (place_ == voxel::Placement::center)
@@ -111,7 +111,7 @@ class LatticePlanner {
         return false;
       }
       lattice_.origin[axis] = part_.lo[axis] - pitch(axis).times(static_cast<double>(before));
-      // Above the part there is nothing to write.
+      // Layers above the part are empty, so they are left out.
       count(axis) = axis == 2 ? before + part : tray;
     }
     return true;
@@ -145,12 +145,12 @@ void warn_of_features(const voxel::Printer& printer, const Vec3 size, const Sour
                                    " mm");
 }
 
-// Materials that images of one channel cannot distinguish.
+// Warns of materials that images of one channel cannot distinguish.
 void warn_of_grays(const SliceRequest& request, const SourceRange& where, Diagnostics& diagnostics) {
   if (request.format != ImageFormat::gray) return;
   const auto gray = [&](formats::Rgba colour) { return static_cast<int>(exporting::shown(colour, request.format)[0]); };
   std::map<int, std::string> names{{gray(request.background), "void"}};
-  // Each material has an image of its own, or all have one.
+  // Each material has an image of its own, or all share one.
   const bool alone = request.files.has_material();
   for (const SliceMaterial& material : request.materials) {
     const auto [same, is_new] = names.try_emplace(gray(material.rgba), material.name);
@@ -162,7 +162,7 @@ void warn_of_grays(const SliceRequest& request, const SourceRange& where, Diagno
   }
 }
 
-// What holds for every job on the lattice.
+// Returns the part of the request that is the same for every job on the lattice.
 SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& lattice, const Hash& design_hash) {
   SliceRequest request;
   use_printer(request, options.printer, options.image);
@@ -174,7 +174,7 @@ SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& latt
   return request;
 }
 
-// Errors go no further than the borders of this lattice.
+// Diffuses errors within this lattice only.
 std::vector<voxel::LayerResult> diffused_alone(const voxel::MaterialProgram& program, const voxel::Lattice& lattice,
                                                uint64_t seed, const voxel::EvaluatorOptions& how,
                                                const StopFlag* stop) {
@@ -209,8 +209,8 @@ std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, co
   return plan;
 }
 
-// Where there seem to be more materials than the printer has, those that no voxel has are left out of the request:
-// another solid hides them everywhere. False, and a diagnostic, where more are left.
+// Removes materials from the request that no voxel has, if there seem to be more materials than the printer has: other
+// solids hide them everywhere. Returns false, and adds a diagnostic, if too many are left.
 bool prints_materials(Plan& plan, const PlanOptions& options, const SourceRange& where, Diagnostics& diagnostics) {
   const auto most = static_cast<size_t>(options.printer.max_materials);
   std::vector<SliceMaterial>& materials = plan.request.materials;
@@ -228,7 +228,7 @@ bool prints_materials(Plan& plan, const PlanOptions& options, const SourceRange&
                       "use fewer, or choose another printer");
     return false;
   }
-  const MaterialId kept = materials.front().id;  // a job has a material, also where all is void
+  const MaterialId kept = materials.front().id;  // a job has a material even if everything is void
   std::erase_if(materials, [&](const SliceMaterial& material) {
     return !seen.contains(material.id) && !(seen.empty() && material.id == kept);
   });
@@ -254,7 +254,7 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
   std::optional<Built> built;
   const auto hash = [&] { design_hash = design::hash(design); };
   const auto build = [&] { built = build_flat_program(on_lattice, diagnostics, options.threads); };
-  if (options.threads == 1) {  // one after the other: both take memory
+  if (options.threads == 1) {  // one after the other, since both take memory
     hash();
     build();
   } else {

@@ -1,4 +1,4 @@
-// From a design and the options of a job to a slice request and its layers.
+// Plans a slice request and its layers from a design and the options of a job.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,18 @@ namespace ombre::compile {
 struct Plan {
   SliceRequest request;
   RegionProducer regions;
-  RegionProducer samples;  // what `regions` gives, or voxels that are as much work and do not need whole layers
-  LayerProducer producer;  // of whole layers, by `regions`
+  // Gives the voxels of `regions`, or others that are as much work and do not need whole layers.
+  RegionProducer samples;
+  LayerProducer producer;  // gives whole layers, by `regions`
   JobStagesPtr stages;     // to be prepared before layers are made
 };
 
-// Nothing, and diagnostics, when the design cannot be sliced so (does not fit, too many materials).
+// Plans a job. Returns nothing, and adds diagnostics, when the design cannot be sliced with these options (does not
+// fit, too many materials).
 std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& options, Diagnostics& diagnostics);
 
-// As plan_slice, on a lattice that covers the box, which is bounded, in place of the design's own: designs on equal
-// boxes have equal lattices.
+// Plans a job as plan_slice does, on a lattice that covers the bounded box instead of the design's own: designs on
+// equal boxes have equal lattices.
 std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const PlanOptions& options,
                               Diagnostics& diagnostics);
 

@@ -19,7 +19,7 @@ voxel::TileBox moved(voxel::TileBox box, const std::array<int64_t, 3>& by) {
   return box;
 }
 
-// What a producer gives for voxels that are counted from `first`.
+// Returns a producer of voxels that are counted from `first`.
 RegionProducer counted_from(const std::array<int64_t, 3>& first, RegionProducer whole) {
   return [first, whole = std::move(whole)](const voxel::TileBox& box, const StopFlag* stop) {
     std::vector<voxel::LayerResult> layers = whole(moved(box, first), stop);

@@ -1,4 +1,4 @@
-// ombre layer: one layer of a job, as slicing would write it.
+// `ombre layer` writes one layer of a job, as slicing would write it.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -57,8 +57,8 @@ std::optional<compile::LayerWindow> chosen_window(const LayerChoices& a, const v
                       mm_text(box.hi.y) + " mm");
 }
 
-// part.vcad and slice_00012.png give part_slice_00012.png. Where each material has a file, -o layer.png gives
-// layer_red.png, layer_blue.png and so on.
+// Returns the names of files: part.vcad and slice_00012.png give part_slice_00012.png. If each material has a file, -o
+// layer.png gives layer_red.png, layer_blue.png and so on.
 std::vector<std::string> output_files(const LayerChoices& a, const compile::SliceRequest& request, int64_t layer) {
   namespace fs = std::filesystem;
   std::vector<std::string> files;
@@ -97,7 +97,7 @@ void tell_layer(const Events& events, const compile::SliceRequest& request, int6
                         {"materials", materials}});
 }
 
-// Which layer, what of it, and in which files.
+// The layer, the window in it, and its files.
 struct LayerPlan {
   compile::Plan plan;
   int64_t layer = 0;
@@ -141,7 +141,7 @@ std::optional<LayerPlan> plan_job(const LayerChoices& a, const compile::PlanOpti
   return LayerPlan{std::move(*plan), layer, window, std::move(files)};
 }
 
-// Names that nobody chose, and those of a file for each material, are known once the layer is planned.
+// True if the names are known before the plan. Default names, and those of a file for each material, are not.
 bool has_known_name(const LayerChoices& a, const compile::PlanOptions& options) {
   compile::SliceRequest images;
   compile::use_printer(images, options.printer, options.value ? ImageFormat::gray : options.image);

@@ -1,4 +1,4 @@
-// ombre sheet: a contact sheet of a finished job's layers.
+// `ombre sheet` draws a contact sheet of a finished job's layers.
 #include <memory>
 
 #include "export/output_file.h"

@@ -1,4 +1,4 @@
-// ombre slice: a printable slice stack from a design.
+// `ombre slice` writes a printable slice stack of a design.
 #include <memory>
 
 #include "base/text/error.h"
@@ -31,7 +31,7 @@ constexpr const char* slice_footer =
     "  ombre slice part.vcad --dry-run                      size, memory and time; writes nothing\n"
     "  ombre slice part.vcad -o part/ --resume              go on after an interruption\n";
 
-// The line for people, and a warning as soon as the layers to come are known to be too many for the disk.
+// Shows the line for people, and a warning as soon as the remaining layers are known to be too many for the disk.
 class SliceProgress : public Progress {
  public:
   SliceProgress(const Events& events, std::string folder)
@@ -88,7 +88,7 @@ int write_slices(const compile::Plan& plan, const compile::SliceOptions& options
   }
 }
 
-// Nothing, and a diagnostic, where the design has a function that no file can hold.
+// Returns nothing, and adds a diagnostic, if the design has a function that no file can hold.
 compile::LoadedPtr load_sliced(const SliceChoices& a, Session& session, Diagnostics& diagnostics) {
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   if (!loaded || !(a.resume || a.emit == "json")) return loaded;

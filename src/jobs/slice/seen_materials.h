@@ -1,4 +1,4 @@
-// Which materials the voxels of a job have.
+// Finds the materials that the voxels of a job have.
 #pragma once
 
 #include <set>
@@ -7,8 +7,8 @@
 
 namespace ombre::compile {
 
-// The materials of the request that voxels have, or more than `most` of them. Looks at whole layers until it knows, the
-// first of them spread over the height; all of them where few materials are seen. Throws Cancelled.
+// Returns the materials of the request that voxels have, or more than `most` of them. Looks at whole layers until it
+// knows, at first spread over the height; at all of them if few materials are seen. Throws Cancelled.
 std::set<MaterialId> seen_materials(const SliceRequest& request, const LayerProducer& layers, size_t most,
                                     const SliceOptions& options, Progress* progress, const StopFlag* stop);
 

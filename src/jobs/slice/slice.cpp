@@ -1,4 +1,4 @@
-// Slicing: evaluates layers slab by slab and writes them to a job folder as PNG files.
+// Evaluates layers slab by slab and writes them to a job folder as PNG files.
 #include "jobs/slice/slice.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ LayerRange requested_layers(const SliceRequest& request, const SliceOptions& opt
   return {std::clamp(requested.begin, whole.begin, whole.end), std::clamp(requested.end, whole.begin, whole.end)};
 }
 
-// Tells how many voxels of the layers asked for are done, and what is left.
+// Reports how many voxels of the requested layers are done, and the time left.
 class VoxelProgress {
  public:
   VoxelProgress(Progress* progress, const SliceRequest& request, LayerRange layers)
@@ -48,7 +48,7 @@ class VoxelProgress {
   uint64_t layer_voxels_, total_, done_ = 0;
 };
 
-// One run over the layers that are missing.
+// A run over the layers that are missing.
 class SliceRun {
  public:
   SliceRun(const SliceRequest& request, const LayerProducer& producer, const SliceOptions& options, Progress* progress,
@@ -89,7 +89,7 @@ class SliceRun {
     progress_.add_layers(static_cast<size_t>(report_.layers_kept), forecast_);
   }
 
-  // False when the run is to stop.
+  // Returns false when the run is to stop.
   bool prepare_stages() {
     if (!options_.stages || slabs_.empty()) return true;
     try {
@@ -111,7 +111,7 @@ class SliceRun {
 
   bool is_stopping() const { return failed_check_ || (stop_ && stop_->requested()); }
 
-  // When the run is to stop, with fewer layers or none: those that are encoded are still written.
+  // Makes the layers of a slab. If the run is to stop, it returns only those that are encoded, which are still written.
   Slab make(LayerRange range) {
     Slab slab;
     const Stopwatch watch;
@@ -179,7 +179,7 @@ class SliceRun {
   WorkSize size_;
   JobFolder folder_;
   LayerRange layers_;
-  const std::vector<LayerRange> slabs_;  // that are missing
+  const std::vector<LayerRange> slabs_;  // slabs that are missing
   Forecast forecast_;
   VoxelProgress progress_;
   const exporting::MaterialStack stack_ = image_stack(request_);

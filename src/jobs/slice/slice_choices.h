@@ -47,12 +47,13 @@ struct SliceChoices {
                "FORM")};
     return spec;
   }
-  // The folder that was chosen, or one that has the design's name.
+  // Returns the folder that was chosen, or one that has the design's name.
   std::string output_folder() const;
   FolderUse folder_use() const;
 };
 
-// For the plan of the same choices. Throws options::WrongValue when the layers are not among the plan's.
+// Returns the options for the plan of the same choices. Throws options::WrongValue when the layers are not among the
+// plan's.
 SliceOptions slice_options(const SliceChoices& choices, const Plan& plan);
 
 struct LayerChoices {

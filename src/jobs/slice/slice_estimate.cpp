@@ -1,4 +1,4 @@
-// What a slice job will take, from a few of its layers.
+// Estimates a slice job from a few of its layers.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,8 +16,9 @@ namespace ombre::compile {
 namespace {
 
 constexpr size_t most_samples = 64;
-constexpr double most_seconds = 2, deadline_seconds = 4;  // no slab is begun, none goes on
-// Of a disk that is not busy.
+// After most_seconds no slab is begun, after deadline_seconds none continues.
+constexpr double most_seconds = 2, deadline_seconds = 4;
+// Times of writing to an idle disk.
 constexpr double seconds_for_a_file = 50e-6, seconds_for_a_byte = 1 / 1.5e9;
 
 double guess_writing_seconds(const SliceRequest& request, LayerRange range, double bytes) {
@@ -25,19 +26,19 @@ double guess_writing_seconds(const SliceRequest& request, LayerRange range, doub
   return static_cast<double>(range.end - range.begin) * files * seconds_for_a_file + bytes * seconds_for_a_byte;
 }
 
-// Rows of the layers of a slab, over the whole width.
+// A piece of the layers of a slab: some rows, over the whole width.
 struct RowPiece {
-  LayerRange slab, layers;  // the layers are some of the slab's
+  LayerRange slab, layers;  // `layers` are some of the slab's
   int64_t first_row = 0, rows = 0;
 };
 
 struct Sample {
   LayerRange slab;
-  LayerCost cost;  // of the slab, if the piece is like the rest of it
+  LayerCost cost;  // cost of the slab, if the piece is like the rest of it
   std::vector<JournalEntry> layers;
 };
 
-// What a layer's files take beside its rows, about.
+// Returns about the bytes that a layer's files take beside its rows.
 double bytes_without_rows(const SliceRequest& request, const exporting::MaterialStack& stack) {
   RunLayer row(static_cast<uint32_t>(request.lattice.count[0]));
   row.append_uniform_row(0);
@@ -47,7 +48,7 @@ double bytes_without_rows(const SliceRequest& request, const exporting::Material
   return bytes;
 }
 
-// Looks at pieces of layers.
+// Makes samples of pieces of layers.
 class PieceMaker {
  public:
   PieceMaker(const SliceRequest& request, const RegionProducer& regions)
@@ -80,8 +81,8 @@ class PieceMaker {
   const double fixed_bytes_;
 };
 
-// Chooses what is looked at: slabs as they will be made, or pieces of them where a slab takes too long for several to
-// be looked at in time.
+// Chooses pieces to sample: slabs as they will be made, or parts of them if a slab takes too long for several to be
+// sampled in time.
 class RowPieces {
  public:
   RowPieces(const SliceRequest& request, std::vector<LayerRange> slabs)
@@ -89,21 +90,21 @@ class RowPieces {
 
   size_t count() const { return slabs_.size(); }
 
-  // The rows of each piece lie elsewhere, evenly spread.
+  // Returns a piece; the rows of different pieces are evenly spread.
   RowPiece at(size_t n) const {
     const LayerRange slab = slabs_[n];
     const int64_t middle = (slab.begin + slab.end) / 2, rows = std::min(shape_.rows, height_);
-    constexpr double step = 0.7548776662466927;  // irrational, and unlike that between slabs
+    constexpr double step = 0.7548776662466927;  // irrational, and unlike the step between slabs
     const double place = 0.5 + static_cast<double>(n) * step;
     const auto first = static_cast<int64_t>((place - std::floor(place)) * static_cast<double>(height_ - rows + 1));
     return {slab, shape_.has_all_layers ? slab : LayerRange{middle, middle + 1}, first, rows};
   }
 
-  // Goes on to larger pieces while these can be made in time. `seconds` tells how long one took, or nothing where that
+  // Chooses larger pieces while these can be made in time. `seconds` returns the time that one took, or nothing if that
   // was too long.
   void grow(const std::function<std::optional<double>(const RowPiece&)>& seconds) {
     if (slabs_.empty()) return;
-    seconds(at(0));  // what comes first meets cold caches
+    seconds(at(0));  // warms the caches
     const Shape shapes[] = {{false, 64}, {true, 64}, {true, 512}, {true, height_}};
     for (const Shape& larger : shapes) {
       const std::optional<double> took = seconds(at(0));
@@ -114,7 +115,7 @@ class RowPieces {
 
  private:
   struct Shape {
-    bool has_all_layers = false;  // of its slab, else one
+    bool has_all_layers = false;  // all layers of the slab, or only one
     int64_t rows = 8;
   };
   static constexpr double most_seconds_of_piece = 0.3;
@@ -129,7 +130,7 @@ class RowPieces {
   Shape shape_;
 };
 
-// By layer, what samples say of checks.
+// Results of checks in samples, by layer.
 class SampledChecks {
  public:
   void add(const Sample& sample) {
@@ -152,7 +153,7 @@ class StagePace final : public Progress {
   void preparing(const std::string&, const HowFar& how_far) override {
     if (how_far.seconds_left >= 0) seconds_ = watch_.seconds() + how_far.seconds_left;
   }
-  // Nothing while too little is known.
+  // Returns nothing while too little is known.
   std::optional<double> seconds() const { return seconds_; }
 
  private:
@@ -165,7 +166,7 @@ struct StageEstimate {
   bool is_least = false;
 };
 
-// Stages that are not ready in time are left out of the layers.
+// Estimates stages. Those that are not ready in time are left out of the layers.
 StageEstimate estimate_stages(const SliceOptions& options, const StopFlag* stop) {
   if (!options.stages || options.stages->is_prepared()) return {};
   const Stopwatch watch;
@@ -213,7 +214,7 @@ SliceEstimate estimate_slice(const SliceRequest& request, const RegionProducer& 
 
   CostProfile profile;
   SampledChecks checks;
-  // Each thread begins with the same piece, which is then looked at again: its caches are cold, too.
+  // Each thread samples the first piece to warm its caches; that piece is then sampled again.
   const auto first = slabs.empty() ? size_t{0} : static_cast<size_t>(size.threads);
   const auto produce = [&](size_t i) -> std::optional<Sample> {
     if (i > 0 && watch.seconds() > most_seconds) return std::nullopt;

@@ -1,4 +1,4 @@
-// What `ombre slice` tells before, instead of and after its work.
+// Reports of `ombre slice` before, instead of and after its work.
 #include "jobs/slice/slice_report.h"
 
 #include <utility>
@@ -23,7 +23,7 @@ double voxel_mm3(const compile::SliceRequest& request) {
   return pitch[0].mm() * pitch[1].mm() * pitch[2].mm();
 }
 
-// "shades: density from 0.2 (black) to 1.1 (white) g/cm3"
+// Returns a text such as "shades: density from 0.2 (black) to 1.1 (white) g/cm3".
 std::string shades_text(const compile::ShadeMeaning& shades) {
   return "shades: " + shades.of + " from " + format_rounded(shades.range.lo, 4) + " (black) to " +
          format_rounded(shades.range.hi, 4) + " (white)" + (shades.unit.empty() ? "" : " " + shades.unit);

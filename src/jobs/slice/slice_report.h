@@ -1,4 +1,4 @@
-// What `ombre slice` tells before, instead of and after its work.
+// Reports of `ombre slice` before, instead of and after its work.
 #pragma once
 
 #include <string>

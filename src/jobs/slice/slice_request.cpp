@@ -14,7 +14,7 @@ std::optional<int64_t> whole_number(std::string_view text) {
   return static_cast<int64_t>(*number);
 }
 
-// Python's rule: negative numbers count from the end, and what lies outside is cut off.
+// Applies Python's rule: negative numbers count from the end, and positions outside are clamped.
 int64_t position(int64_t number, int64_t count) {
   return std::clamp<int64_t>(number < 0 ? number + count : number, 0, count);
 }
@@ -41,7 +41,7 @@ std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer
   if (!first.empty() || colon == std::string_view::npos) {
     const std::optional<int64_t> begin = whole_number(first);
     if (!begin) return std::nullopt;
-    if (colon == std::string_view::npos) {  // one layer, which must be there
+    if (colon == std::string_view::npos) {  // one layer, which must exist
       const int64_t layer = *begin < 0 ? *begin + layer_count : *begin;
       if (layer < 0 || layer >= layer_count) return std::nullopt;
       return LayerRange{layer, layer + 1};

@@ -1,4 +1,4 @@
-// What slice jobs are made from, and what they report.
+// The requests of slice jobs, and their reports.
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ struct SliceMaterial {
   formats::Rgba rgba{};
 };
 
-// What shades of gray mean: black is range.lo or less, or outside, white range.hi or more.
+// The meaning of shades of gray: black is at most range.lo, or outside; white is at least range.hi.
 struct ShadeMeaning {
   std::string of, unit;  // a material, for its fraction, or an attribute with its unit
   Interval range;
-  int bits = 8;  // of a pixel: 8 or 16
+  int bits = 8;  // bits of a pixel: 8 or 16
 };
 
-// What a box of a larger job's voxels is in that.
+// The place of a box of voxels in a larger job.
 struct PartOfJob {
   std::array<int64_t, 3> first{}, count{};  // the least voxel, and the voxels of the whole
 };
@@ -43,19 +43,20 @@ struct Sampling : SamplingRules {
   std::string program;      // "ombre 0.1.0"
   std::string design_hash;  // hex
   voxel::Lattice lattice;
-  std::optional<PartOfJob> part;          // where the lattice is a part of another
-  std::vector<SliceMaterial> materials;   // those used, by ascending id, without void
-  std::optional<ShadeMeaning> shades;     // where voxels show a value; then materials are its shades
-  std::vector<std::string> check_texts;   // one for each check of the program: what failed, for people
-  std::vector<std::string> check_places;  // and where in the design, "part.vcad:3:1"; decides no bytes
+  std::optional<PartOfJob> part;          // set if the lattice is a part of another
+  std::vector<SliceMaterial> materials;   // materials in use, by ascending id, without void
+  std::optional<ShadeMeaning> shades;     // set if voxels show a value; then materials are its shades
+  std::vector<std::string> check_texts;   // one for each check of the program: a text for people about the failure
+  std::vector<std::string> check_places;  // places of the checks in the design, "part.vcad:3:1"; they decide no bytes
 };
 
 // Everything that decides the bytes of a job.
 struct SliceRequest : Sampling, voxel::Images {
-  std::string printer;  // the profile's name
+  std::string printer;  // name of the profile
 };
 
-// The conventions of a profile; `image` overrides its image format. Masks are always one for each material.
+// Applies the conventions of a profile; `image` overrides its image format. Masks always have one file for each
+// material.
 void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<ImageFormat> image);
 
 // Layers [begin, end) of the whole job.
@@ -64,35 +65,36 @@ struct LayerRange {
   bool operator==(const LayerRange&) const = default;
 };
 
-// "a:b", "a:", ":b" or "a", as Python's slices have them; negative numbers count from the top.
-// Nothing when the text is none of these or selects no layer.
+// Parses "a:b", "a:", ":b" or "a", like Python's slices; negative numbers count from the top. Returns nothing if the
+// text is none of these or selects no layer.
 std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count);
 
-// A box of the job's voxels, layer by layer, lowest first; results have its width and height. Called from several
-// threads. Throws Cancelled when asked to stop.
+// A function that makes a box of the job's voxels, layer by layer, lowest first; results have its width and height. It
+// is called from several threads, and throws Cancelled when asked to stop.
 using RegionProducer =
     std::function<std::vector<voxel::LayerResult>(const voxel::TileBox& region, const StopFlag* stop)>;
 
-// Layers [begin, end), lowest first. Called from several threads. Throws Cancelled when asked to stop.
+// A function that makes layers [begin, end), lowest first. It is called from several threads, and throws Cancelled when
+// asked to stop.
 using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begin, int64_t end, const StopFlag* stop)>;
 
-// Layers of the whole width and height of the lattice.
+// Returns a producer of layers of the whole width and height of the lattice.
 LayerProducer whole_layers(RegionProducer regions, const voxel::Lattice& lattice);
 
 enum class FolderUse {
   fresh,    // the folder must be empty or missing
-  resume,   // continue the job there, if there is one
-  replace,  // remove the files of the job there; files of others stay
+  resume,   // continues the job there, if there is one
+  replace,  // removes the files of the job there; files of others stay
 };
 
-// What does not decide any bytes.
+// Options that do not decide any bytes.
 struct SliceOptions {
   std::string folder;
   FolderUse use = FolderUse::fresh;
   std::optional<LayerRange> layers;       // a part of the job, with the names and bytes it has in the whole
   int threads = 0;                        // 0: all cores
   size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one at a time is always allowed
-  bool strict = false;                    // stop at the first slab in which a check fails
+  bool strict = false;                    // stops at the first slab in which a check fails
   JobStagesPtr stages = nullptr;          // to be prepared before layers are made; null: there are none
 };
 
@@ -106,10 +108,10 @@ struct SliceReport {
   LayerRange layers;
   int64_t layers_written = 0;             // in this run
   int64_t layers_kept = 0;                // finished by an earlier run
-  int64_t layers_dropped = 0;             // empty, and the printer wants no empty layers
+  int64_t layers_dropped = 0;             // empty ones that the printer does not want
   uint64_t voxels_inside = 0;             // in `layers`, as are the counts below
   std::vector<uint64_t> material_voxels;  // in the order of the request's materials
-  std::vector<CheckReport> checks;        // those that failed somewhere
+  std::vector<CheckReport> checks;        // checks that failed somewhere
   uint64_t bytes_written = 0;
   double seconds = 0;
   bool whole_job_finished = false;
@@ -120,8 +122,8 @@ struct SliceEstimate {
   double seconds = 0;
   uint64_t bytes = 0;               // of image files
   bool is_least = false;            // nothing was done in time: it takes this long at least, and bytes are unknown
-  size_t memory_bytes = 0;          // most that layers in flight can take
-  std::vector<CheckReport> checks;  // that failed in the layers looked at
+  size_t memory_bytes = 0;          // the most that layers in flight can take
+  std::vector<CheckReport> checks;  // checks that failed in the sampled layers
 };
 
 }  // namespace ombre::compile

@@ -1,4 +1,4 @@
-// How a slice job is cut into slabs, and one layer's way from runs to a file's bytes.
+// Cuts a slice job into slabs, and makes the bytes of a layer's files from its runs.
 #include "jobs/slice/slice_work.h"
 
 #include <algorithm>
@@ -10,29 +10,30 @@
 namespace ombre::compile {
 namespace {
 
-constexpr int64_t most_slab_layers = 8;  // what stays in the second-level cache at common sizes
+constexpr int64_t most_slab_layers = 8;  // slabs of this height stay in a second-level cache of common size
 
-// The most bits that a pixel takes in a file, where layers are noise.
+// Returns the most bits that a pixel takes in a file, if layers are noise.
 double pixel_bits(const SliceRequest& request) {
   if (request.format == ImageFormat::mask) return 1;
   const double information = std::log2(static_cast<double>(request.materials.size() + 1));
-  // Four bytes for each pixel, coded one by one where no match is found.
+  // Each pixel has four bytes, which are coded one by one if no match is found.
   if (request.format == ImageFormat::rgba) return std::min(32.0, 4 * information);
   return std::min(8.0, information + 0.5);
 }
 
-// What layers take on their way.
+// Memory of layers from evaluation to encoding.
 class LayerMemory {
  public:
   explicit LayerMemory(const SliceRequest& request) : request_(request) {
     const auto& count = request.lattice.count;
     const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
     const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
-    runs_ = voxels;  // a byte at most
+    runs_ = voxels;  // at most a byte for each voxel
     images_ = images * voxels * pixel_bits(request) / 8;
   }
 
-  // Runs go as images come. The image that is being made is copied as it grows, some formats need a copy of its runs.
+  // Returns the memory while layers are made. Runs are freed as images are made. The image that is being made is copied
+  // as it grows, and some formats need a copy of its runs.
   double being_made(int64_t layers) const {
     const auto evaluation = voxel::working_bytes(request_.lattice, layers, request_.dither, request_.materials.size());
     return static_cast<double>(layers) * std::max(runs_, images_) + runs_ + images_ + static_cast<double>(evaluation);
@@ -56,7 +57,8 @@ WorkSize size_work(const SliceRequest& request, const SliceOptions& options) {
            static_cast<double>(slabs - made) * memory.waiting(layers);
   };
 
-  // Twice the threads, so that none waits for the order of the files; then smaller slabs; then fewer threads.
+  // The window is twice the number of threads, so that none waits for the order of the files. If memory is short, slabs
+  // become smaller, then threads fewer.
   size_t window = 2 * threads;
   int64_t layers = most_slab_layers;
   while (window > threads && needed(window, layers) > allowed) --window;
@@ -98,7 +100,7 @@ std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, 
 
 std::vector<LayerRange> spread(const std::vector<LayerRange>& slabs, size_t most) {
   const size_t count = std::min(most, slabs.size());
-  // Multiples of the golden ratio, modulo one, are spread evenly wherever one stops.
+  // Multiples of the golden ratio, modulo one, are spread evenly wherever the sequence ends.
   constexpr double golden = 0.6180339887498949;
   std::vector<LayerRange> chosen;
   std::vector<char> is_chosen(slabs.size());
@@ -131,7 +133,7 @@ std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProd
   ASSERT(static_cast<int64_t>(layers.size()) == slab.end - slab.begin);
   std::vector<EncodedLayer> encoded;
   for (size_t i = 0; i < layers.size() && !(stop && stop->requested()); ++i) {
-    // Its runs go when the layer is encoded.
+    // The layer's runs are freed when it is encoded.
     const voxel::LayerResult layer = std::move(layers[i]);
     EncodedLayer result;
     result.entry.layer = slab.begin + static_cast<int64_t>(i);

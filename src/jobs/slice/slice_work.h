@@ -1,4 +1,4 @@
-// How a slice job is cut into slabs, and one layer's way from runs to a file's bytes.
+// Cuts a slice job into slabs, and makes the bytes of a layer's files from its runs.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace ombre::compile {
 
-// How much is in flight at once.
+// The part of a job that is in flight at once.
 struct WorkSize {
   int64_t slab_layers = 8;
   size_t window = 1;  // slabs
@@ -19,39 +19,39 @@ struct WorkSize {
   size_t memory_bytes = 0;  // the most that these slabs can take
 };
 
-// Fits the worst case, where no two neighbours are of one material, into the memory allowed; at the least, one
-// layer at a time.
+// Fits the worst case, in which no two neighbours have the same material, into the allowed memory; one layer at a time
+// is always allowed.
 WorkSize size_work(const SliceRequest& request, const SliceOptions& options);
 
-// The threads, memory, progress and stop flag that a slice job lends to its stages.
+// Returns the threads, memory, progress and stop flag that a slice job lends to its stages.
 StageLoan stage_loan(const SliceOptions& options, Progress* progress, const StopFlag* stop);
-// The options with the memory that stages leave to layers.
+// Returns the options with the memory that stages leave to layers.
 SliceOptions without_stages_memory(const SliceOptions& options);
 
-// The stretches of `range` that are not finished, cut at multiples of slab_layers.
+// Returns the stretches of `range` that are not finished, cut at multiples of slab_layers.
 std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
                                       int64_t slab_layers);
 
-// Up to `most` of the slabs, in an order in which the first few, however many, are spread over all of them.
+// Returns up to `most` of the slabs, in an order in which any number of first ones is spread over all of them.
 std::vector<LayerRange> spread(const std::vector<LayerRange>& slabs, size_t most);
 
 struct EncodedLayer {
   JournalEntry entry;               // without its files
-  std::vector<std::string> images;  // the bytes of its files; none where an empty layer is dropped
+  std::vector<std::string> images;  // bytes of its files; empty if an empty layer is dropped
 
   uint64_t bytes() const;
 };
 
 exporting::MaterialStack image_stack(const SliceRequest& request);
 
-// Evaluates and encodes the layers of one slab. When asked to stop it throws Cancelled, or gives the layers that
-// are encoded. Called from several threads.
+// Evaluates and encodes the layers of one slab. When asked to stop it throws Cancelled, or returns the layers that are
+// encoded. Called from several threads.
 std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
                                     const exporting::MaterialStack& stack, LayerRange slab,
                                     const StopFlag* stop = nullptr);
 
-// Adds up, for each of the request's checks, the voxels that layers give; those that failed, with
-// the lowest voxel. Layers must come in order.
+// Sums, for each of the request's checks, the voxels in which it failed, with the lowest one. Layers must come in
+// order.
 class CheckSums {
  public:
   explicit CheckSums(const SliceRequest& request);

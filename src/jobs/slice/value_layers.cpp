@@ -18,9 +18,9 @@ using voxel::FieldTile;
 using voxel::LayerResult;
 using voxel::TileBox;
 
-constexpr int64_t strip_rows = 64;  // that are evaluated at once
+constexpr int64_t strip_rows = 64;  // rows that are evaluated at once
 
-// Outside, and where the value is no number, black.
+// Returns the shade; it is black outside, and where the value is no number.
 Field shade_of(Question& question, Field value, const ShadeMeaning& meaning) {
   program::Builder& builder = question.builder();
   const Interval& range = meaning.range;

@@ -23,7 +23,7 @@ const designViews: { name: State["view"]; title: string }[] = [
   { name: "all", title: "All four" },
 ];
 
-// A table is charts alone; where there is a scan, it can be seen beside the design.
+// Returns the views that can be chosen. A table only has charts; a design with a scan also has the planes.
 function viewsToSee(): typeof designViews {
   if (state.kind === "table") return [{ name: "chart", title: "Chart" }];
   const planes = { name: "planes" as const, title: "Scan" };

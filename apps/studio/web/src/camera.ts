@@ -1,4 +1,4 @@
-// From where the design is seen. Angles are degrees: azimuth 0 is in front (at -y), 90 at +x.
+// The camera. Angles are degrees: azimuth 0 is in front (at -y), 90 at +x.
 import { Camera, Design, state } from "./store";
 
 const radians = Math.PI / 180;
@@ -15,7 +15,7 @@ export function axes(camera: Camera) {
 
 const dot = (a: number[], b: number[]) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-// So that the whole design is seen.
+// Returns a camera that sees the whole design.
 export function fitted(design: Design, aspect: number, from: { azimuth: number; elevation: number }): Camera {
   const [lo, hi] = design.bounds_mm;
   const camera: Camera = { ...from, target: lo.map((v, n) => (v + hi[n]) / 2), height: 1 };
@@ -28,10 +28,10 @@ export function fitted(design: Design, aspect: number, from: { azimuth: number; 
   return { ...camera, height: 1.1 * (height || 1) };
 }
 
-// Vertical, in degrees; 0: rays are parallel.
+// Vertical field of view in degrees; 0: rays are parallel.
 export const fieldOfView = () => (state.perspective ? 35 : 0);
 
-// Returns how far the eye is from the target, mm; 0 stands for parallel rays.
+// Returns the distance of the eye from the target, mm; 0 stands for parallel rays.
 export function eyeDistance(camera: Camera): number {
   return state.perspective ? camera.height / 2 / Math.tan((fieldOfView() / 2) * radians) : 0;
 }
@@ -63,7 +63,7 @@ export const views: Record<string, { azimuth: number; elevation: number }> = {
   bottom: { azimuth: 0, elevation: -90 },
 };
 
-// A length for a scale bar that is at most so long: 1, 2 or 5 times a power of ten.
+// Returns the length of a scale bar, at most `most`: 1, 2 or 5 times a power of ten.
 export function barLength(most: number): number {
   const power = 10 ** Math.floor(Math.log10(most));
   return (most / power >= 5 ? 5 : most / power >= 2 ? 2 : 1) * power;

@@ -1,13 +1,14 @@
-// A table of numbers, such as the history of a study, as line charts: one below the other, since each has its own unit.
+// Shows a table of numbers, such as the history of a study, as line charts, one below the other, since each has its own
+// unit.
 import { useState } from "preact/hooks";
 import { useStore } from "./store";
 
 interface Column {
   name: string;
-  numbers: number[]; // NaN where the table has none
+  numbers: number[]; // NaN for cells without a number
 }
 
-// Columns of a CSV file that hold numbers. A first line of words names them.
+// Reads the columns of a CSV file that hold numbers. A first line of words names them.
 export function columnsOf(text: string): Column[] {
   const lines = text.split(/\r?\n/).filter((line) => line.trim() !== "" && !line.startsWith("#"));
   if (lines.length === 0) return [];
@@ -72,7 +73,7 @@ export function ChartView() {
   const [chosen, choose] = useState("");
   const columns = columnsOf(table);
   const numbered: Column = { name: "line", numbers: (columns[0]?.numbers ?? []).map((_, n) => n + 1) };
-  // The first column usually counts; where it does not grow, lines do.
+  // The first column is the axis if its numbers grow; else line numbers are.
   const counts = columns.length > 1 && columns[0].numbers.every((v, n, all) => n === 0 || v > all[n - 1]);
   const x = columns.find((c) => c.name === chosen) ?? (chosen === "" && counts ? columns[0] : numbered);
   return (

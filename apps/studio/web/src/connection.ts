@@ -53,7 +53,7 @@ export class Connection {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  // The promise of an answer, and a way to say that it is no longer needed.
+  // Asks a question. Returns the promise of an answer, and a function that says that it is no longer needed.
   ask(what: string, members: Record<string, unknown> = {}, lane = ""): { answer: Promise<Reply>; cancel: () => void } {
     const id = ++this.last;
     const answer = new Promise<Reply>((resolve, reject) => {
@@ -64,7 +64,7 @@ export class Connection {
     return { answer, cancel: () => this.waiting.has(id) && this.isOpen && this.socket!.send(JSON.stringify({ id, do: "cancel" })) };
   }
 
-  // Cancels what is at work in a lane.
+  // Cancels the request that works in a lane.
   cancelLane(lane: string) {
     if (this.isOpen) this.socket!.send(JSON.stringify({ id: 0, do: "cancel", lane }));
   }
@@ -94,7 +94,7 @@ export class Connection {
     this.tryAgain();
   }
 
-  // A server that was started again has another token, which this page does not know.
+  // Tries to connect again. A server that was restarted has another token, which this page does not know.
   private async tryAgain() {
     await new Promise((done) => setTimeout(done, 700));
     try {
@@ -102,7 +102,7 @@ export class Connection {
       if (answer.status === 403) this.listener.refused();
       if (answer.ok) return this.connect();
     } catch {
-      // It is not there yet.
+      // The server is not there yet.
     }
     this.tryAgain();
   }

@@ -1,10 +1,11 @@
-// What of the design is left away, so that its inside is seen: behind a plane, in a wedge, outside of a box.
+// Controls of cuts, which show the inside of a design by removing the part behind a plane, in a wedge, or outside of a
+// box.
 import { axes } from "./camera";
 import { Cut, Design, set, state, useStore } from "./store";
 
 const axisNames = ["x", "y", "z"];
 
-// As the server takes it.
+// Returns the cut as the server takes it.
 export function cutMembers(cut: Cut | undefined): Record<string, unknown> {
   if (cut?.box) return { box: cut.box.flat() };
   return { cuts: cut ? [cut.sides.map((s) => `${axisNames[s.axis]}${s.side}${s.mm}`).join()] : [] };
@@ -63,7 +64,7 @@ function Wedge({ cut }: { cut: Cut }) {
   );
 }
 
-// Its ends do not pass each other.
+// The two ends along an axis cannot pass each other.
 function BoxEnds({ box }: { box: [number[], number[]] }) {
   const { design } = useStore();
   const change = (end: number, axis: number, mm: number) => {

@@ -1,4 +1,4 @@
-// The text of a design, with what is wrong in it.
+// The editor of a design's text, with its mistakes.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, indentWithTab, undoDepth } from "@codemirror/commands";
 import { pythonLanguage } from "@codemirror/lang-python";
@@ -29,7 +29,7 @@ function shown(diagnostic: Diagnostic, length: number) {
 
 const isPython = () => state.file.toLowerCase().endsWith(".py");
 
-// The lines in their places, as one step back for undo. In Python the places of lines have a meaning.
+// Indents the lines, as one step for undo. Python is left alone, since its indentation has a meaning.
 function format(view: EditorView): boolean {
   if (state.kind !== "" || isPython()) return false;
   const text = view.state.doc.toString(), wanted = formatted(text);
@@ -114,7 +114,7 @@ function Conflict() {
   );
 }
 
-// Data is shown by a script that nobody wrote.
+// A bar above scans and results, whose script nobody wrote.
 function DataBar() {
   const { kind, file } = useStore();
   const [problem, setProblem] = useState("");
@@ -150,7 +150,7 @@ function Problems() {
   );
 }
 
-// What to begin with in a folder without designs.
+// Offers a start in a folder without designs.
 function Welcome() {
   const { status, files, file } = useStore();
   if (status !== "open" || file) return null;

@@ -1,16 +1,16 @@
-// Variables that hold a file's name: menus of the files that there are.
+// Menus of files for variables that hold a file's name.
 import { connection } from "./session";
 import { Value, Variable, set, state, useStore } from "./store";
 
 const pattern = /^\*(\.[\w.]+)$/; // "*.stl"
 
-// Comments say which files a variable may name: // [*.stl, *.obj]
+// Returns the endings that the comment of a variable names: // [*.stl, *.obj]
 function saidEndings(v: Variable): string[] {
   const found = (v.choices ?? []).map((c) => pattern.exec(String(c.value))?.[1] ?? "");
   return found.includes("") ? [] : found;
 }
 
-// Else its value does, where there are files that end as it does.
+// Returns the endings of the comment, or else that of the value if there are files with it.
 function endingsOf(v: Variable): string[] {
   if (typeof v.value !== "string") return [];
   if (v.kind === "choice") return saidEndings(v).map((e) => e.toLowerCase());
@@ -22,7 +22,7 @@ const filesFor = (v: Variable) => [...new Set(endingsOf(v).flatMap((ending) => s
 
 export const mayNameFile = (v: Variable) => saidEndings(v).length > 0 || filesFor(v).length > 0;
 
-// Of endings that are not known yet, or of all again.
+// Lists files with endings that are not known yet, or with all endings again.
 export async function listFileChoices(isAgain = false) {
   const file = state.file;
   const endings = [...new Set(state.variables.flatMap(endingsOf))].filter((ending) => isAgain || !(ending in state.filesByEnding));

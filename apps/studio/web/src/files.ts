@@ -10,7 +10,7 @@ export function download(name: string, content: Blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-// The name of the file that is open, without its folder and its ending.
+// The name of the open file, without its folder and its ending.
 export const stem = () => state.file.split("/").pop()!.replace(/\.[^.]*$/, "") || "design";
 
 const report = (problem: string) => set({ problem });
@@ -26,7 +26,7 @@ export async function downloadBundle() {
   }
 }
 
-const mostBundleBytes = 11 << 20; // as text in a request, a third more
+const mostBundleBytes = 11 << 20; // as text in a request it becomes a third larger
 
 function base64(bytes: Uint8Array): string {
   let text = "";
@@ -51,7 +51,7 @@ export async function listExamples(): Promise<{ name: string; sentence: string }
   return (await connection.ask("examples").answer.catch(() => ({ examples: [] })) as any).examples;
 }
 
-// A copy in the folder, with the files that it reads.
+// Opens a copy in the folder, with the files that it reads.
 export async function openExample(name: string) {
   try {
     const reply = await connection.ask("open_example", { name }).answer;

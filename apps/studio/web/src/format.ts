@@ -1,17 +1,17 @@
-// Puts the lines of a script in their places: statements in braces stand two spaces behind the line that opens them. What
-// goes on from a line above moves with it, so that what was aligned stays so. Texts in quotes and long comments are left
-// as they are.
+// Indents the lines of a script: statements in braces have two spaces more than the line that opens them. Continuation
+// lines move with their first line, so that aligned text stays aligned. Texts in quotes and long comments are left as
+// they are.
 
 const step = 2, most_empty_lines = 2;
 
 interface Place {
-  braces: number[]; // the spaces before each line that opened one
-  brackets: number; // parentheses and square ones
+  braces: number[]; // the indentation of each line that opened one
+  brackets: number; // number of open parentheses and square brackets
   inside: "" | "string" | "comment";
-  isUnfinished: boolean; // a statement goes on
+  isUnfinished: boolean; // true within a statement
 }
 
-// Reads a line without the spaces before it. What it opens stands behind so many spaces.
+// Reads a line without its indentation. Statements in braces that it opens are indented relative to `indent`.
 function after(line: string, indent: number, place: Place): Place {
   let { brackets, inside, isUnfinished } = place;
   const braces = [...place.braces];
@@ -44,8 +44,8 @@ function after(line: string, indent: number, place: Place): Place {
 
 export function formatted(text: string): string {
   let place: Place = { braces: [], brackets: 0, inside: "", isUnfinished: false };
-  let own = 0, shift = 0, empty = 0; // spaces of the statement under way, and how far it moved
-  let outer = 0; // spaces of the last line that began outside of brackets
+  let own = 0, shift = 0, empty = 0; // indentation of the current statement, and how far it moved
+  let outer = 0; // indentation of the last line that began outside of brackets
   const lines: string[] = [];
   for (const line of text.replaceAll("\r\n", "\n").split("\n")) {
     if (place.inside !== "") {

@@ -1,4 +1,4 @@
-// What the design is made of, as a tree whose entries lead to the script.
+// The nodes of the design as a tree, whose entries lead to the script.
 import { useState } from "preact/hooks";
 import { reveal } from "./session";
 import { Design, GraphNode, Port, state, useStore } from "./store";
@@ -8,12 +8,12 @@ const mostShown = 600;
 
 interface Branch {
   node: GraphNode;
-  output?: string; // that the edge begins at
+  output?: string; // output at which the edge begins
   isRepeated: boolean;
   below: { port: Port; branches: Branch[] }[];
 }
 
-// Nodes that are used more than once are shown once.
+// Returns the tree below a node; nodes that are used more than once are shown once.
 function branchOf(node: GraphNode, design: Design, seen: Set<number>, output?: string): Branch {
   if (seen.has(node.id)) return { node, output, isRepeated: true, below: [] };
   seen.add(node.id);
@@ -26,7 +26,7 @@ function branchOf(node: GraphNode, design: Design, seen: Set<number>, output?: s
 
 const typeOf = (node: GraphNode) => state.hello?.nodes.find((known) => known.name === node.type);
 
-// Parameters that may hold nodes, but hold numbers or names.
+// Returns the parameters that may hold nodes, but hold numbers or names.
 const freePorts = (node: GraphNode) =>
   (typeOf(node)?.parameters ?? []).filter((parameter) => /field|mixture|solid/.test(parameter.kind) && !node.ports.some((port) => port.name === parameter.name));
 

@@ -1,4 +1,4 @@
-// The jobs of this server, of all kinds, in one list.
+// The list of this server's jobs, of all kinds.
 import { useState } from "preact/hooks";
 import { printerOf } from "./joboptions";
 import { changeJob, openFolder } from "./session";
@@ -9,7 +9,7 @@ function timeLeft(seconds: number): string {
   return seconds < 90 ? `${Math.ceil(seconds)} s left` : `${Math.ceil(seconds / 60)} min left`;
 }
 
-// What a job reported: text as it is, events as names and values.
+// Shows a job's report: text as it is, events as names and values.
 function Report({ job }: { job: Job }) {
   const events = (job.report ?? []).filter(({ event }) => event !== "plan");
   if (events.length === 0) return null;

@@ -1,4 +1,4 @@
-// The options of a job, as the command line has them: the server's list of them is the form.
+// The form of a job's options, made from the list that the server sends.
 import { chooseOption } from "./session";
 import { JobOption, JobOptions, state, useStore } from "./store";
 
@@ -15,7 +15,7 @@ function control(option: JobOption, value: string | boolean, printers: { name: s
   return <input type="text" value={value as string} placeholder={option.placeholder} onChange={(e) => change(e.currentTarget.value.trim())} />;
 }
 
-// One option of any job.
+// A field for one option of any job.
 export function OptionField({ option, options, change }: { option: JobOption; options: JobOptions; change: (next: string | boolean) => void }) {
   const { hello } = useStore();
   return (
@@ -35,7 +35,8 @@ export function OptionControl({ name }: { name: string }) {
 
 const first = ["printer", "place", "tray"];
 
-// The first ones are chosen most; the others are folded, unless some are chosen.
+// A form in which the first options are open, since they are chosen most; the others are folded, unless some are
+// chosen.
 export function OptionForm() {
   const { hello, options } = useStore();
   const others = (hello?.job_options ?? []).filter((option) => !first.includes(option.name));
@@ -52,7 +53,7 @@ export function OptionForm() {
 
 export const printerOf = (options: JobOptions) => (options.printer as string) || "generic";
 
-// As `ombre slice` takes them.
+// Returns the options as words of the command line of `ombre slice`.
 export function optionWords(): string[] {
   return Object.entries(state.options).flatMap(([name, value]) => (value === true ? [`--${name}`] : [`--${name}=${/^[\w.,-]+$/.test(String(value)) ? value : `'${value}'`}`]));
 }

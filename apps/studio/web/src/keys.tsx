@@ -9,7 +9,7 @@ const panels: State["panel"][] = ["variables", "materials", "export", "reference
 
 const focusOn = (selector: string) => document.querySelector<HTMLElement>(selector)?.focus();
 
-// With Alt, so that letters stay those of the script.
+// Keys with Alt, so that plain letters go to the script.
 const actions: Record<string, () => void> = {
   KeyE: () => focusOn(".cm-content"),
   KeyV: () => focusOn(".views canvas, .views .stage"),

@@ -1,4 +1,4 @@
-// Jobs of all kinds: the options that the server lists are the form.
+// Starts jobs of all kinds; their forms are made from the options that the server lists.
 import { useState } from "preact/hooks";
 import { JobList } from "./joblist";
 import { OptionField } from "./joboptions";

@@ -1,4 +1,4 @@
-// The script language in the editor: colours, completion and pages, from what the server knows of nodes and functions.
+// The script language in the editor: colours, completion and help, from the server's lists of nodes and functions.
 import { CompletionContext, CompletionResult, snippetCompletion, Completion } from "@codemirror/autocomplete";
 import { LanguageSupport, StreamLanguage, StreamParser } from "@codemirror/language";
 import { EditorView, hoverTooltip } from "@codemirror/view";
@@ -119,7 +119,7 @@ export function complete(context: CompletionContext): CompletionResult | null {
   };
 }
 
-// What the reference says of a node, as elements.
+// Returns the reference of a node, as elements.
 export function page(node: NodeType): HTMLElement {
   const element = document.createElement("div");
   element.className = "page";

@@ -1,4 +1,4 @@
-// Moves of the camera by mouse, fingers and keys, for the views that share it.
+// Moves the camera by mouse, fingers and keys, for the views that share it.
 import { RefObject } from "preact";
 import { fitted, panned, turned, views, zoomed } from "./camera";
 import { set, state } from "./store";
@@ -44,7 +44,7 @@ export function moveByKeys(event: KeyboardEvent) {
   event.preventDefault();
 }
 
-// The camera is placed once, by the view that is seen first; from then on only people move it.
+// Places the camera once, for the view that is seen first; from then on only people move it.
 export function placeCamera(canvas: HTMLCanvasElement) {
   const { design, camera } = state;
   if (design && !camera && canvas.clientHeight > 0) set({ camera: fitted(design, canvas.clientWidth / canvas.clientHeight, views.iso) });

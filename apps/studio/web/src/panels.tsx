@@ -1,4 +1,4 @@
-// Beside the views: variables, materials, slicing, the reference of nodes.
+// The panels beside the views: variables, materials, slicing, the reference of nodes.
 import { useEffect, useState } from "preact/hooks";
 import { FileMenu, mayNameFile } from "./filechoice";
 import { listExamples, openExample } from "./files";
@@ -80,7 +80,7 @@ function Variables() {
 
 const volumeText = (mm3: number) => (mm3 >= 1000 ? `${(mm3 / 1000).toPrecision(4)} cm³` : `${mm3.toPrecision(4)} mm³`);
 
-// What the design has gained and lost since a version that was marked.
+// Shows what the design has gained and lost since a marked version.
 function Versions() {
   const { design, mark, comparison: known, comparisonProblem, isOld } = useStore();
   if (!design) return null;
@@ -266,7 +266,7 @@ function NodePage({ node }: { node: NodeType }) {
   );
 }
 
-// What of a list has all words that are typed, and the field for them.
+// Returns the entries of a list that have all words that are typed, and the field for them.
 function useSearch<T>(list: T[], textOf: (entry: T) => string, noun: string) {
   const [words, setWords] = useState("");
   const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);

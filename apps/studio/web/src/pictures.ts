@@ -1,4 +1,4 @@
-// Pictures of what is seen, and turntables: made in the browser, for the person's own disk.
+// Makes pictures of the views, and turntables, in the browser, for the person's own disk.
 import { GIFEncoder, applyPalette, quantize } from "gifenc";
 import { download, stem } from "./files";
 import { about } from "./session";
@@ -11,7 +11,7 @@ function pngOf(canvas: HTMLCanvasElement): Promise<Blob> {
 
 const paper = () => getComputedStyle(document.querySelector(".view")!).backgroundColor;
 
-// The views as they stand beside each other, without their controls.
+// Draws the visible views side by side, without their controls.
 export async function takePicture() {
   const grid = document.querySelector<HTMLElement>(".views .grid")!;
   const sources = [...grid.querySelectorAll("canvas")].filter((canvas) => canvas.width > 0 && canvas.clientWidth > 0);
@@ -62,7 +62,7 @@ async function record(pictures: ImageBitmap[], size: { width: number; height: nu
   return new Blob(parts, { type: "video/webm" });
 }
 
-// Each frame has the 256 colours that suit it best.
+// Makes a GIF in which each frame has the 256 colours that suit it best.
 async function animate(pictures: ImageBitmap[], size: { width: number; height: number }): Promise<Blob> {
   const context = new OffscreenCanvas(size.width, size.height).getContext("2d", { willReadFrequently: true })!;
   context.fillStyle = paper();
@@ -73,7 +73,7 @@ async function animate(pictures: ImageBitmap[], size: { width: number; height: n
     const { data } = context.getImageData(0, 0, size.width, size.height);
     const palette = quantize(data, 256);
     gif.writeFrame(applyPalette(data, palette), size.width, size.height, { palette, delay: 1000 / framesPerSecond });
-    await new Promise((resolve) => setTimeout(resolve)); // the page stays alive
+    await new Promise((resolve) => setTimeout(resolve)); // lets the page react
   }
   gif.finish();
   return new Blob([gif.bytes() as BlobPart], { type: "image/gif" });
@@ -81,7 +81,8 @@ async function animate(pictures: ImageBitmap[], size: { width: number; height: n
 
 const makers = { webm: record, gif: animate };
 
-// The design as the surface view shows it, turned once around z, as a video or a GIF. A second call ends the one that is under way.
+// Turns the design as the surface view shows it once around z, and writes a video or a GIF. A second call ends the one
+// that is under way.
 export async function makeTurntable(kind: keyof typeof makers) {
   if (state.turntable !== undefined) return set({ turntable: undefined });
   const { design, camera } = state;

@@ -1,4 +1,5 @@
-// A scan in three planes through one of its voxels: grey from a least to a greatest number, which window and level set.
+// Shows a scan in three planes through one of its voxels, in grey from a least to a greatest number, which window and
+// level set.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Refused, Reply } from "./connection";
 import { connection } from "./session";
@@ -52,7 +53,8 @@ function pictureOf(plane: Plane, low: number, high: number): ImageData {
   return picture;
 }
 
-// Where the plane lies in its canvas, pixels of the page: as large as fits, its sides as long as they are in mm.
+// Returns the plane's place in its canvas, in pixels of the page: as large as fits, in the proportions of its sides in
+// mm.
 function frameOf(scan: Scan, axis: number, width: number, height: number) {
   const [right, up] = planeAxes[axis];
   const sides = [right, up].map((n) => scan.count[n] * scan.steps_mm[n]);
@@ -146,7 +148,7 @@ function PlaneView({ scan, axis, at, low, high, move, hover }: { scan: Scan; axi
   );
 }
 
-// The number at a voxel, asked for one at a time: while one is under way, the last that is wanted waits.
+// Returns the number at a voxel. Only one request is under way; the last wanted voxel waits for it.
 function useVoxel(file: string, at?: number[]): Voxel | undefined {
   const [voxel, setVoxel] = useState<Voxel>();
   const isAtWork = useRef(false);
@@ -225,7 +227,7 @@ function Planes({ scan }: { scan: Scan }) {
   );
 }
 
-// The scans that can be seen: the file that is open, or those that the design reads.
+// The scans that can be shown: the open file, or those that the design reads.
 export const scansToSee = () => (state.kind === "scan" ? [state.file] : (state.design?.scans ?? []));
 
 export function PlanesView() {

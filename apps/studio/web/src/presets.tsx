@@ -4,7 +4,7 @@ import { Refused } from "./connection";
 import { connection, resetVariables, setValues } from "./session";
 import { Preset, Value, Variable, set, state, useStore } from "./store";
 
-// Answers of a file that is no longer open are left out.
+// Takes a list of presets; answers about a file that is no longer open are ignored.
 export function hearPresets(file: string, presets: Preset[]) {
   if (file !== state.file) return;
   const isThere = presets.some((p) => p.name === state.preset);
@@ -39,7 +39,7 @@ async function savePreset(name: string, replace: boolean): Promise<string> {
 
 const isVector = (value: unknown) => Array.isArray(value) && value.every((n) => typeof n === "number");
 
-// A preset's value as the variable has it; nothing where it is of another kind.
+// Returns a preset's value in the type of the variable; nothing if it has another kind.
 function valueOf(variable: Variable, text: string): Value | undefined {
   if (typeof variable.value === "string") return text;
   try {
@@ -53,7 +53,7 @@ function valueOf(variable: Variable, text: string): Value | undefined {
 
 const isSame = (a: Value, b: Value) => JSON.stringify(a) === JSON.stringify(b);
 
-// Of the variables that the script has: those of the preset, else those of the text.
+// Returns the values of the script's variables: those of the preset, else those of the text.
 function valuesOf(preset: Preset): Record<string, Value> {
   const values: Record<string, Value> = {};
   for (const v of state.variables) {

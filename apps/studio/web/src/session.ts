@@ -1,10 +1,10 @@
-// What the page does: opens, saves, evaluates, slices. Components call it; answers go into the store.
+// Actions of the page: it opens, saves, evaluates, slices. Components call them; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
 import { listFileChoices } from "./filechoice";
 import { hearPresets, listPresets } from "./presets";
 import { DataFile, Hello, Job, JobOption, JobOptions, Mark, Plan, State, Value, set, state } from "./store";
 
-// What the session needs of the editor.
+// The part of the editor that the session needs.
 export interface Editor {
   text(): string;
   replace(text: string): void;
@@ -36,7 +36,7 @@ export function setEditor(made: Editor) {
 const draftKey = (file: string) => `ombre:draft:${state.hello?.folder}:${file}`;
 const jobsKey = () => `ombre:jobs:${state.hello?.folder}`;
 
-// Those of another version of the program may be unknown.
+// Keeps only options that the server knows, since another version of the program may have saved them.
 const knownOptions = (hello: Hello) =>
   Object.fromEntries(
     Object.entries(state.options).filter(([name, value]) =>
@@ -55,7 +55,7 @@ async function greet() {
   if (first) await openFile(first);
 }
 
-// The server was away: what was typed meanwhile is kept, unless the disk has something new.
+// Continues after the server was away. Text typed meanwhile is kept, unless the disk has something new.
 async function comeBack() {
   if (!state.file) return;
   const disk = await connection.ask("open", { file: state.file }).answer.catch(() => undefined);
@@ -105,14 +105,14 @@ export async function openFile(file: string) {
   }
 }
 
-// A scan and results come with a script that shows them.
+// Shows a scan or results by the script that comes with them.
 function showData(disk: Reply) {
   editor!.replace(disk.text);
   if (state.kind === "table") set({ table: disk.text, design: undefined, isBusy: false });
   else evaluate();
 }
 
-const firstText = "// A new design: lengths are mm, z is up.\nsize = 10;  // [2:40]\n\nfgrade([\"0.5 + x / size\", \"0.5 - x / size\"], [red, blue])\n  sphere(size / 2);\n";
+const firstText = "// A new design: lengths are mm, z is up.\nsize = 10; // [2:40]\n\nfgrade([\"0.5 + x / size\", \"0.5 - x / size\"], [red, blue])\n  sphere(size / 2);\n";
 
 export async function newFile(name: string, text = firstText): Promise<string> {
   if (!/\.(vcad|scad|py)$/.test(name)) name += ".vcad";
@@ -128,7 +128,7 @@ export async function listFiles() {
   set({ files, data });
 }
 
-// The script that shows a scan or results becomes a design beside it, which can be changed.
+// Writes the script that shows a scan or results as a design beside it, which can be changed.
 export async function keepAsDesign(): Promise<string> {
   const name = state.file.replace(/(\.nii)?\.[^./]*$/, "") + ".vcad";
   try {
@@ -168,7 +168,7 @@ async function saveNow() {
     const onDisk = reply.saved || reply.text === undefined ? undefined : fromDisk(reply.text);
     const isOwn = onDisk !== undefined && (onDisk === savedText || ownTexts.includes(onDisk));
     version = reply.saved || onDisk === text || isOwn ? reply.version : version;
-    // What this window or another one with the same text saved a moment ago is nobody else's change.
+    // A version that this window, or another one with the same text, saved a moment ago is no change by others.
     if (isOwn && onDisk !== text) return await saveNow();
     if (!reply.saved && onDisk !== text) return set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
     savedText = text;
@@ -234,7 +234,7 @@ async function heard(name: string, members: Reply) {
   evaluate();
 }
 
-// An edit cancels the evaluation that is at work; a slider waits for it, so that something is seen while it moves.
+// An edit cancels the running evaluation; a slider waits for it, so that something is seen while it moves.
 let evaluateTimer = 0;
 let isLoading = false,
   isWanted = false;
@@ -271,13 +271,13 @@ function literal(value: Value): string {
 
 const isPython = () => state.file.endsWith(".py");
 
-// Python scripts may do anything, so they are run when a person asks for it, as they are on the disk.
+// Runs a Python script as it is on the disk. It may do anything, so it only runs when a person asks for it.
 export async function runPython() {
   await save();
   if (!state.conflict) load(true);
 }
 
-// Lists the values that the page sets in place of those in the text, for the variables that the text still has.
+// Lists the values that the page sets instead of those in the text, for variables that the text still has.
 function definitions(): string[] {
   const known = new Set(state.variables.map((v) => v.name));
   return Object.entries(state.values)
@@ -292,7 +292,7 @@ function fieldToShow(attributes: { name: string }[]): string {
   return names.find((name) => /von_?mises/i.test(name)) ?? names.at(-1) ?? "";
 }
 
-let shown = { file: "", text: "", definitions: [] as string[], rotate: [0, 0, 0] }; // what the design was made of
+let shown = { file: "", text: "", definitions: [] as string[], rotate: [0, 0, 0] }; // source of the shown design
 
 let loads = 0;
 
@@ -306,7 +306,7 @@ async function load(isRun = false) {
   const sent = { file: state.file, text: editor.text(), definitions: definitions(), rotate: state.rotate };
   try {
     const reply = await connection.ask("load", { ...sent, ...(isRun ? { run: true } : {}) }, "load").answer;
-    if (number !== loads) return; // it crossed the cancelling by a newer one
+    if (number !== loads) return; // the answer crossed the cancelling by a newer one
     const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
     if (reply.ok && state.kind === "results") change.by = fieldToShow(reply.attributes);
@@ -327,7 +327,7 @@ async function load(isRun = false) {
   }
 }
 
-// Asks something about the design. A server that has forgotten the design is given it again.
+// Asks something about the design. If the server has forgotten the design, it is loaded again.
 export async function about(what: string, members: Record<string, unknown>, lane: string): Promise<Reply> {
   try {
     return await connection.ask(what, { design: state.design!.design, ...members }, lane).answer;
@@ -351,20 +351,20 @@ export async function plan() {
   }
 }
 
-// An empty text, or false, is no choice. What it excludes is given up.
+// Sets an option; an empty text, or false, removes it. Options that it excludes are removed.
 export function chooseOption(option: JobOption, value: string | boolean) {
   const others = Object.entries(state.options).filter(([name]) => {
     const other = state.hello!.job_options.find((o) => o.name === name);
     return name !== option.name && !(value && (option.excludes.includes(name) || other?.excludes.includes(option.name)));
   });
   const options: JobOptions = Object.fromEntries(value ? [...others, [option.name, value]] : others);
-  // What needs another option goes with it.
+  // Options that need a removed one are removed with it.
   for (const { name, needs } of state.hello!.job_options) if (needs.some((needed) => !(needed in options))) delete options[name];
   set({ options });
   plan();
 }
 
-// Turns the part as it lies on the tray; the views show it so.
+// Turns the part on the tray; the views show it so.
 export function turn(rotate: number[]) {
   set({ rotate });
   evaluate(150);
@@ -390,7 +390,7 @@ export async function measure() {
   try {
     set({ measure: { design, ...((await about("measure", {}, "measure")) as any) } });
   } catch {
-    // Another one is under way, or the design is gone.
+    // Another request is under way, or the design is gone.
   }
 }
 
@@ -403,7 +403,7 @@ export function forgetMark() {
   set({ mark: undefined, comparison: undefined, comparisonProblem: "" });
 }
 
-// The server keeps few designs, so that the marked one may have to be made again.
+// Loads the marked design again, since the server keeps only few designs.
 async function remake(mark: Mark): Promise<Mark> {
   if (mark.file.endsWith(".py")) throw new Error("the server has forgotten the marked version: mark another one");
   const { file, text, definitions, rotate } = mark;
@@ -438,11 +438,11 @@ export async function probe(at: number[]) {
     const probe = (await about("probe", { at, ...state.options }, "probe")) as any;
     set({ probe, probeBefore: state.probe?.at });
   } catch {
-    // The next probe says more.
+    // The next probe reports more.
   }
 }
 
-// The page keeps the jobs that were under way when a server ended, so that they can go on.
+// Takes over the jobs that were under way when a server ended, so that they can go on.
 function adoptJobs(jobs: Job[]) {
   const before: Job[] = JSON.parse(localStorage.getItem(jobsKey()) ?? "[]");
   const cut = before
@@ -472,7 +472,7 @@ export async function startExport(folder: string, replace: boolean): Promise<str
   }
 }
 
-// Starts a job of any kind. What it may say is a problem.
+// Starts a job of any kind. Returns a message if that fails.
 export async function startKind(kind: string, options: JobOptions, replace: boolean): Promise<string> {
   try {
     const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== "" && value !== false));

@@ -1,4 +1,4 @@
-// Layers at the printer's resolution: pixels are those of the job's files.
+// Shows layers at the printer's resolution: pixels are those of the job's files.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { length } from "./camera";
 import { OptionControl } from "./joboptions";
@@ -10,7 +10,7 @@ import { Tile, Tiles, tileSize } from "./tiles";
 interface Look {
   x: number; // mm, in the middle
   y: number;
-  scale: number; // mm a pixel of the page
+  scale: number; // mm for each pixel of the page
 }
 
 export const layerAt = (plan: Plan, z: number) =>
@@ -57,7 +57,7 @@ class Painter {
     Object.assign(canvas.dataset, { state: "ready", layer, level, design: state.design?.design });
   }
 
-  // Columns and rows of the tiles in view.
+  // Returns columns and rows of the tiles in view.
   private places(plan: Plan): [number, number][] {
     const { x, y, scale } = this.look!;
     const half = [(this.canvas.clientWidth / 2) * scale, (this.canvas.clientHeight / 2) * scale];
@@ -90,7 +90,7 @@ class Painter {
     }
   }
 
-  // The point of the layer's middle under a place of the page.
+  // Returns the point in the middle of the layer under a place of the page.
   pointAt(x: number, y: number): number[] {
     const { canvas, look } = this;
     const plan = state.plan!;
@@ -106,7 +106,7 @@ const percent = (share: number) => `${+(100 * share).toPrecision(3)} %`;
 
 const mostCalls = 4;
 
-// The calls of the script that made what is at the point, the innermost first: each leads there.
+// Links to the calls of the script that made the solid at the point, the innermost first.
 function Calls({ nodes }: { nodes: NodeCall[] }) {
   const calls = nodes.filter((node) => node.from !== undefined).reverse().slice(0, mostCalls);
   if (calls.length === 0) return null;

@@ -1,4 +1,4 @@
-// What the page knows. Components read it, and are drawn again when it changes.
+// The state of the page. Components read it, and are drawn again when it changes.
 import { useEffect, useState } from "preact/hooks";
 
 export interface Diagnostic {
@@ -29,7 +29,7 @@ export interface Variable {
   to: number;
 }
 
-// Values of variables under a name, as texts, as the file beside the script has them.
+// Values of variables under a name, as texts, as in the file beside the script.
 export interface Preset {
   name: string;
   values: Record<string, string>;
@@ -41,7 +41,7 @@ export interface Material {
   density?: number;
 }
 
-// A node, and where its call stands in the script, if it does.
+// A node, and the place of its call in the script, if there is one.
 export interface NodeCall {
   type: string;
   from?: number;
@@ -52,10 +52,10 @@ export interface NodeCall {
 export interface GraphNode extends NodeCall {
   id: number;
   category: string;
-  ports: Port[]; // that have edges
+  ports: Port[]; // inputs that have edges
 }
 
-// Where other nodes go in: solids, or a parameter that holds outputs of nodes.
+// An input for other nodes: solids, or a parameter that holds outputs of nodes.
 export interface Port {
   name: string;
   type: string;
@@ -70,16 +70,16 @@ export interface Design {
   part_nodes: number[];
   attributes: { name: string; type: string; unit: string }[];
   nodes: GraphNode[];
-  scans: string[]; // files of the folder that it reads
+  scans: string[]; // files of the folder that the design reads
 }
 
-// How opaque a value is: its place between the least and the greatest, and the opacity, both 0 to 1.
+// A point of an opacity curve: a place between the least and the greatest value, and its opacity, both 0 to 1.
 export interface CurvePoint {
   at: number;
   opacity: number;
 }
 
-// A file beside designs.
+// The kind of a file beside designs.
 export type DataKind = "scan" | "results" | "table";
 export interface DataFile {
   name: string;
@@ -103,8 +103,8 @@ export interface Hello {
   opens_folders: boolean;
   files: string[];
   printers: { name: string; title: string }[];
-  job_options: JobOption[]; // of `ombre slice`
-  kinds: JobKind[]; // of other jobs
+  job_options: JobOption[]; // options of `ombre slice`
+  kinds: JobKind[]; // kinds of other jobs
   palettes: { name: string; colours: number[][] }[]; // from the least value to the greatest, mixed in linear light
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
@@ -124,13 +124,13 @@ export interface Plan {
 export interface Job {
   id: number;
   state: "waiting" | "working" | "paused" | "done" | "failed" | "cancelled" | "interrupted";
-  path: string; // of the folder, whole
-  rotate?: number[]; // which the page remembers
+  path: string; // absolute path of the folder
+  rotate?: number[]; // kept by the page alone
   kind: string; // "slice", "mesh", ...
-  folder: string; // or the file that it writes, or what it is of
+  folder: string; // folder or file that it writes, or its subject
   file: string;
   options: JobOptions;
-  report: ({ event: string } & Record<string, unknown>)[]; // what it told, but for progress and messages
+  report: ({ event: string } & Record<string, unknown>)[]; // its events, except for progress and messages
   layers: number;
   done: number;
   total: number;
@@ -141,7 +141,7 @@ export interface Job {
 export interface Amount {
   name: string;
   volume_mm3: number;
-  mass_g?: number; // where all materials have a density
+  mass_g?: number; // present if all materials have a density
 }
 
 export interface Probe {
@@ -159,10 +159,10 @@ export interface Camera {
   azimuth: number;
   elevation: number;
   target: number[];
-  height: number; // mm, of what the view shows
+  height: number; // height of the view, mm
 }
 
-// A cut takes away what lies beyond all of its planes (one plane, or the planes of a wedge), or what lies outside of a box.
+// A cut removes what lies beyond all of its planes (one plane, or the planes of a wedge), or outside of a box.
 export interface Cut {
   sides: { axis: number; side: "<" | ">"; mm: number }[];
   box?: [number[], number[]];
@@ -190,7 +190,7 @@ export interface JobKind {
   options: JobOption[];
 }
 
-// The server estimates a job before it begins; `of` is the job's request as text, so that an old answer is known as such.
+// The server's estimate of a job; `of` is the job's request as text, by which outdated answers are recognised.
 export interface Estimate {
   of: string;
   seconds: number;
@@ -211,7 +211,7 @@ export interface Mark {
   time: string;
 }
 
-// `design` against `mark`.
+// The comparison of `design` with `mark`.
 export interface Comparison {
   design: string;
   mark: Mark;
@@ -230,40 +230,40 @@ export interface State {
   files: string[];
   data: DataFile[];
   file: string;
-  kind: "" | DataKind; // of the file: a design, or data, whose text is not edited
-  table: string; // text of the table that is open
+  kind: "" | DataKind; // kind of the file: a design, or data, whose text is not edited
+  table: string; // text of the open table
   saved: "saved" | "unsaved" | "saving" | "failed";
   saveProblem: string;
-  conflict?: { text?: string; version?: string }; // what the disk has; no text: it is gone
-  design?: Design; // the last one that was right
-  isOld: boolean; // the text has mistakes, or is being evaluated: what is shown is of an earlier text
+  conflict?: { text?: string; version?: string }; // version on the disk; without text the file is gone
+  design?: Design; // the last one without mistakes
+  isOld: boolean; // the text has mistakes, or is being evaluated: the shown design is of an earlier text
   isBusy: boolean;
-  problem: string; // of the evaluation as a whole
+  problem: string; // problem of the evaluation as a whole
   diagnostics: Diagnostic[];
   echo: string[];
   variables: Variable[];
-  values: Record<string, Value>; // set by sliders, in place of the text's
-  presets: Preset[]; // of the script
-  filesByEnding: Record<string, string[]>; // that the script may read, as it names them
-  preset: string; // that was chosen last; empty: none
+  values: Record<string, Value>; // values set by sliders, which replace those of the text
+  presets: Preset[]; // presets of the script
+  filesByEnding: Record<string, string[]>; // files that the script may read, as it names them
+  preset: string; // the preset that was chosen last; empty: none
   presetsProblem: string;
   camera?: Camera;
   cut?: Cut;
   perspective: boolean;
   by: string;
   palette: string;
-  range?: [number, number]; // of the values that colours span; nothing: those of the design
-  shownRange?: { of: string; range: [number, number] }; // of the last picture
+  range?: [number, number]; // range of the values that colours span; undefined: that of the design
+  shownRange?: { of: string; range: [number, number] }; // range of the last picture
   opacity: Record<string, number>;
   curves: Record<string, CurvePoint[]>; // opacities by an attribute's values, in the volume view
-  options: JobOptions; // that were chosen; others are as the printer and the design have them
-  rotate: number[]; // degrees about x, then y, then z: how the part lies
+  options: JobOptions; // options that were chosen; the others are as the printer and the design have them
+  rotate: number[]; // rotation of the part in degrees about x, then y, then z
   estimate?: Estimate;
   plan?: Plan;
   planProblem: string;
   z: number; // mm
   probe?: Probe;
-  probeBefore?: number[]; // where the one before was, mm
+  probeBefore?: number[]; // place of the probe before, mm
   measure?: { design: string; volume_mm3: number; pitch_mm: number; materials: Amount[]; parts?: Amount[] };
   mark?: Mark;
   comparison?: Comparison;
@@ -272,11 +272,11 @@ export interface State {
   view: ViewName | "all";
   panel: "variables" | "materials" | "export" | "jobs" | "reference" | "examples";
   theme: "system" | "light" | "dark";
-  turntable?: number; // the share of one under way that is made
+  turntable?: number; // share of the turntable that is made, while one is under way
   showsKeys: boolean;
 }
 
-// What a person chose of the page, which stays when it is loaded again.
+// Choices of a person that stay when the page is loaded again.
 const kept = ["perspective", "options", "view", "panel", "theme"] as const;
 const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
 

@@ -1,4 +1,4 @@
-// The design from outside, drawn by the server: small first, then as fine as the screen.
+// Shows the design from outside, drawn by the server: small first, then as fine as the screen.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
 import { Refused } from "./connection";
@@ -8,24 +8,24 @@ import { about, connection } from "./session";
 import { Camera, set, state, useStore } from "./store";
 
 const steps = [
-  { share: 0.1, samples: 1 }, // of designs that take long alone
+  { share: 0.1, samples: 1 }, // only for slow designs
   { share: 0.3, samples: 1 },
   { share: 1, samples: 1 },
   { share: 1, samples: 2 },
 ];
 
-const longMilliseconds = 120; // of the second step
+const longMilliseconds = 120; // limit for the second step
 
-// Pictures of equal keys differ in size alone.
+// Returns a key; pictures of equal keys differ only in size.
 function pictureKey(): string {
   const { design, camera, cut, perspective, by, palette, range, opacity } = state;
   return JSON.stringify([design?.design, camera, cut, perspective, by, palette, range, opacity]);
 }
 
-// What a range of values belongs to.
+// Returns the key of a range of values.
 const coloursKey = () => `${state.design?.design} ${state.by}`;
 
-// The range that is set, or the one that the server found for the same colours before.
+// Returns the range that is set, or the one that the server found for the same colours before.
 function colourMembers(): Record<string, unknown> {
   const { by, palette, range, shownRange } = state;
   if (!by) return {};
@@ -37,7 +37,7 @@ function noteRange(of: string, range: [number, number] | undefined) {
   if (range && !state.range && (state.shownRange?.of !== of || state.shownRange.range.join() !== range.join())) set({ shownRange: { of, range } });
 }
 
-// What a request for a picture from this camera says, apart from its size.
+// Returns the members of a request for a picture from this camera, except for its size.
 export function renderMembers(camera: Camera): Record<string, unknown> {
   return {
     azimuth: camera.azimuth,
@@ -71,8 +71,8 @@ async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
   canvas.dataset.milliseconds = String(Math.round(performance.now() - started));
 }
 
-// One picture after the other, each finer, until something changes. A small picture is finished before the next is
-// begun, so that something is seen while the camera moves; a finer one gives way at once.
+// Draws one picture after the other, each finer, until something changes. A small picture is finished before the next
+// is begun, so that something is seen while the camera moves; a finer one is cancelled at once.
 class Drawer {
   private first = 0;
   private step = 0;
@@ -155,7 +155,7 @@ export function Legend() {
 
 const shortNumber = (value: number) => String(+value.toPrecision(4));
 
-// The values that colours stand for, and numbers to set them by.
+// Shows the values that colours stand for, with fields to set them.
 function ColourLegend() {
   const { by, palette, range, shownRange, design, hello } = useStore();
   const known = range ?? (shownRange?.of === coloursKey() ? shownRange.range : undefined);

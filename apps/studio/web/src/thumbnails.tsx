@@ -1,5 +1,5 @@
-// Small pictures of nodes. The server makes them one at a time, for entries that are seen, so that other questions wait
-// for one of them at most.
+// Small pictures of nodes. The server makes them one at a time, for visible entries, so that other questions wait for
+// one of them at most.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { connection } from "./session";
 import { state } from "./store";
@@ -23,13 +23,13 @@ async function work() {
     if (next.design !== state.design?.design) continue;
     const { design, node, show } = next;
     const ask = { design, node, width: ratio * size.width, height: ratio * size.height };
-    const reply = await connection.ask("thumbnail", ask).answer.catch(() => undefined); // a formula without bounds, say
+    const reply = await connection.ask("thumbnail", ask).answer.catch(() => undefined); // fails for example for a formula without bounds
     show(reply ? URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })) : "");
   }
   isAtWork = false;
 }
 
-// The picture before stays until there is a new one.
+// Shows the previous picture until there is a new one.
 export function Thumbnail({ node, type }: { node: number; type: string }) {
   const design = state.design!.design;
   const place = useRef<HTMLSpanElement>(null);

@@ -1,4 +1,4 @@
-// Tiles of layers, as the printer gets them: asked for when they are seen, kept while there is room.
+// Keeps tiles of layers, as the printer gets them: they are requested when they are seen, and kept while there is room.
 import { Refused } from "./connection";
 import { about, connection } from "./session";
 import { Plan, state } from "./store";
@@ -10,8 +10,8 @@ const mostPlans = 50,
 
 export interface Tile {
   picture?: ImageBitmap;
-  problem?: string; // it is not asked for again
-  x: number; // of its first pixel, at its level
+  problem?: string; // a tile with a problem is not requested again
+  x: number; // place of its first pixel, at its level
   y: number;
 }
 
@@ -23,7 +23,7 @@ export class Tiles {
 
   constructor(private changed: () => void) {}
 
-  // The lattice of the job with voxels 2^level times as long along x and y; nothing while it is not known.
+  // Returns the lattice of the job with voxels 2^level times as long along x and y; nothing while it is unknown.
   plan(level: number): Plan | undefined {
     if (!state.plan || !state.design || state.plan.design !== state.design.design) return undefined;
     if (level === 0) return state.plan;
@@ -49,7 +49,7 @@ export class Tiles {
     return `${state.design?.design} ${JSON.stringify(state.options)} ${level}`;
   }
 
-  // The tiles of these numbers; those that are missing are asked for, and what else was asked for is not.
+  // Returns the tiles of these numbers. Missing ones are requested, and requests for others are cancelled.
   want(level: number, layer: number, places: [number, number][]): Tile[] {
     const tiles: Tile[] = [];
     this.wanted = [];

@@ -9,7 +9,7 @@ const usual: CurvePoint[] = [
 
 export const curveOf = (attribute: string) => state.curves[attribute] ?? usual;
 
-// Straight lines from point to point; points are in order.
+// Interpolates linearly between the points, which are in order.
 export function opacityAt(curve: CurvePoint[], at: number): number {
   const next = curve.findIndex((point) => point.at >= at);
   if (next === 0) return curve[0].opacity;
@@ -23,7 +23,7 @@ const toByte = (light: number) => 255 * (light <= 0.0031308 ? 12.92 * light : 1.
 
 export const tableSize = 256;
 
-// Colours, mixed in linear light as the server's pictures have them, and opacities, each a byte.
+// Returns a table of colours, mixed in linear light as in the server's pictures, and opacities, each a byte.
 export function transferTable(colours: number[][], curve: CurvePoint[]): Uint8Array {
   const table = new Uint8Array(4 * tableSize);
   for (let n = 0; n < tableSize; ++n) {
@@ -39,14 +39,14 @@ const width = 240, height = 84;
 const within = (value: number, lo: number, hi: number) => Math.max(lo, Math.min(hi, value));
 const short = (value: number) => String(+value.toPrecision(4));
 
-// Points keep their order, and the first and the last their places.
+// Moves a point. Points keep their order, and the first and the last their places.
 function moved(curve: CurvePoint[], n: number, to: CurvePoint): CurvePoint[] {
   const least = n === 0 ? 0 : n === curve.length - 1 ? 1 : curve[n - 1].at + 0.005;
   const most = n === 0 ? 0 : n === curve.length - 1 ? 1 : curve[n + 1].at - 0.005;
   return curve.map((point, k) => (k === n ? { at: within(to.at, least, most), opacity: within(to.opacity, 0, 1) } : point));
 }
 
-// A point in the middle of the widest gap.
+// Adds a point in the middle of the widest gap.
 function withOneMore(curve: CurvePoint[]): CurvePoint[] {
   let widest = 1;
   for (let n = 2; n < curve.length; ++n) if (curve[n].at - curve[n - 1].at > curve[widest].at - curve[widest - 1].at) widest = n;

@@ -1,4 +1,4 @@
-// The inside, by rays through a texture of the materials' fractions, or of an attribute's values.
+// Shows the inside, by rays through a texture of the materials' fractions, or of an attribute's values.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axes, eyeDistance } from "./camera";
 import { Refused } from "./connection";
@@ -25,12 +25,12 @@ out vec4 colour;
 uniform sampler3D fractions0, fractions1;
 uniform vec3 origin, size, target, right, down, forward;
 uniform float height, aspect, unit;
-uniform float distance_to_eye;  // from the target; 0: rays are parallel
+uniform float distance_to_eye; // from the target; 0: rays are parallel
 uniform vec3 box_lo, box_hi;    // only what is within
 uniform vec3 wedge, wedge_at;   // what lies on all sides is left away; 1 and -1 are sides, 0 any
 uniform bool has_wedge;
 uniform int steps;
-uniform vec4 materials[${most}];  // colours, and opacities in w
+uniform vec4 materials[${most}]; // colours, and opacities in w
 uniform bool by_value;          // fractions0 has a value times what is inside, and what is inside
 uniform sampler2D transfer;     // colours, and opacities in w, from the least value to the greatest
 
@@ -103,7 +103,7 @@ interface Grid {
   range?: [number, number];
 }
 
-// Attributes of one number can be shown; the others are colours, say.
+// True for attributes of one number, which can be shown; others are colours, for example.
 const isNumber = (design: Design | undefined, name: string) => design?.attributes.some((a) => a.name === name && a.type === "number") ?? false;
 
 const coloursOf = (palette: string) => (state.hello?.palettes.find((p) => p.name === palette) ?? state.hello?.palettes[0])?.colours ?? [[0, 0, 0], [255, 255, 255]];
@@ -126,7 +126,7 @@ class VolumePainter {
   private textures: WebGLTexture[];
   grid?: Grid;
 
-  // Throws where the browser has no WebGL 2.
+  // Throws if the browser has no WebGL 2.
   constructor(private canvas: HTMLCanvasElement) {
     const gl = canvas.getContext("webgl2", { premultipliedAlpha: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error("this browser has no WebGL 2, which the volume view needs");
