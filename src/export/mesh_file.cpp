@@ -30,7 +30,12 @@ void write_both(const std::string& path, const LazyBytes& bytes, const std::stri
   append_to(second, companion);
   append_to(first, bytes);
   second.commit();
-  first.commit();
+  try {
+    first.commit();
+  } catch (const Error&) {
+    fs::remove(beside);  // half of a mesh is none
+    throw;
+  }
 }
 
 void write_archive(const std::string& path, const MeshDocument& document, const MeshFormat& format,

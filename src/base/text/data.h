@@ -23,20 +23,28 @@ using HostObjectPtr = std::shared_ptr<const HostObject>;
 using DataList = std::vector<Data>;
 using DataMembers = std::vector<std::pair<std::string, Data>>;  // members in the order written
 
+// A host object in data. It is no plain pointer, because libstdc++ takes a variant of strings, vectors and shared
+// pointers alone for one that always has a value, and destroys a value that is not there when a copy runs out of
+// memory.
+struct HeldObject {
+  HostObjectPtr object;
+  bool operator==(const HeldObject&) const = default;
+};
+
 struct Data {
-  std::variant<std::monostate, bool, double, std::string, DataList, DataMembers, HostObjectPtr> value;
+  std::variant<std::monostate, bool, double, std::string, DataList, DataMembers, HeldObject> value;
   // Position in the source. For a string literal without escapes the range covers exactly its characters, so that
   // positions inside the string can be reported.
   SourceRange where;
 
   Data() = default;
-  Data(bool v, SourceRange at = {}) : value(v), where(std::move(at)) {}                      // NOLINT
-  Data(double v, SourceRange at = {}) : value(v), where(std::move(at)) {}                    // NOLINT
-  Data(std::string v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}    // NOLINT
-  Data(const char* v) : value(std::string(v)) {}                                             // NOLINT
-  Data(DataList v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}       // NOLINT
-  Data(DataMembers v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}    // NOLINT
-  Data(HostObjectPtr v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}  // NOLINT
+  Data(bool v, SourceRange at = {}) : value(v), where(std::move(at)) {}                                  // NOLINT
+  Data(double v, SourceRange at = {}) : value(v), where(std::move(at)) {}                                // NOLINT
+  Data(std::string v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}                // NOLINT
+  Data(const char* v) : value(std::string(v)) {}                                                         // NOLINT
+  Data(DataList v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}                   // NOLINT
+  Data(DataMembers v, SourceRange at = {}) : value(std::move(v)), where(std::move(at)) {}                // NOLINT
+  Data(HostObjectPtr v, SourceRange at = {}) : value(HeldObject{std::move(v)}), where(std::move(at)) {}  // NOLINT
 
   bool is_null() const { return std::holds_alternative<std::monostate>(value); }
   const bool* boolean() const { return std::get_if<bool>(&value); }
@@ -45,8 +53,8 @@ struct Data {
   const DataList* list() const { return std::get_if<DataList>(&value); }
   const DataMembers* members() const { return std::get_if<DataMembers>(&value); }
   HostObjectPtr host_object() const {
-    const auto* pointer = std::get_if<HostObjectPtr>(&value);
-    return pointer ? *pointer : nullptr;
+    const auto* held = std::get_if<HeldObject>(&value);
+    return held ? held->object : nullptr;
   }
   // Returns the member with that name, or null.
   const Data* find(std::string_view name) const;

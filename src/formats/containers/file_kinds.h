@@ -8,8 +8,8 @@
 namespace ombre::formats {
 
 struct ForeignFile {
-  std::string what;  // such as "a PNG picture"
-  std::string hint;  // what to do instead; may be empty
+  std::string what;            // such as "a PNG picture"
+  std::string hint;            // what to do instead; may be empty
   bool is_other_mesh = false;  // of a format of meshes or solids that Ombre does not read
 };
 
