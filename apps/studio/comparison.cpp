@@ -82,7 +82,7 @@ struct Sums {
   }
 
   double gained = 0, lost = 0, changed = 0, unchanged = 0;
-  std::vector<double> before, after;  // of each material
+  std::vector<double> before, after;  // volume of each material
 };
 
 // Compares the designs in a slab. In each voxel the lesser share of a material is unchanged; the rest of what both

@@ -18,7 +18,7 @@ namespace ombre::studio {
 // The numbers of a scan, in the file's own units.
 struct Scan {
   formats::VoxelVolume volume;
-  Interval range;  // of all values
+  Interval range;  // range of all values
   Interval shown;  // without the lowest and the highest half a percent
   double otsu = 0;
 };

@@ -18,8 +18,8 @@
 namespace ombre::studio {
 namespace {
 
-constexpr int64_t most_pixels = 4096;  // of a picture along each axis
-constexpr int64_t most_tile = 1024;    // of a tile along each axis
+constexpr int64_t most_pixels = 4096;  // limit for pictures along each axis
+constexpr int64_t most_tile = 1024;    // limit for tiles along each axis
 
 void read_camera(const Request& request, render::ViewOptions& view) {
   view.azimuth_deg = request.number("azimuth", view.azimuth_deg);

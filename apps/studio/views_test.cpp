@@ -97,7 +97,7 @@ TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
   ASSERT_EQ(tile.height, 48U);
   for (uint32_t row = 0; row < 48; ++row)
     for (uint32_t column = 0; column < 64; ++column) {
-      const auto y = static_cast<uint32_t>(count(1)) - (8 + 48) + row;  // from the top
+      const auto y = static_cast<uint32_t>(count(1)) - (8 + 48) + row;  // counted from the top
       ASSERT_EQ(tile.colour(column, row), written.colour(32 + column, y)) << column << ' ' << row;
     }
 
@@ -301,7 +301,7 @@ TEST_F(StudioTest, VolumesHoldValuesOfAttributes) {
   EXPECT_NEAR(lo, -4, 0.2);
   EXPECT_NEAR(hi, 4, 0.2);
   const double first_mm = *header.find("origin_mm")->list()->front().number();
-  for (size_t i = 0; i < columns; ++i) {  // of the first row
+  for (size_t i = 0; i < columns; ++i) {  // values of the first row
     const double inside = static_cast<unsigned char>(bytes[2 * i + 1]) / 255.0;
     const double value = static_cast<unsigned char>(bytes[2 * i]) / 255.0;
     const double x = first_mm + (static_cast<double>(i) + 0.5) * number_in(header, "pitch_mm");

@@ -16,7 +16,7 @@
 namespace ombre::studio {
 namespace {
 
-constexpr size_t channels = 4;        // of a texture
+constexpr size_t channels = 4;        // channels of a texture
 constexpr size_t most_materials = 8;  // greatest number of materials shown, in two textures
 
 // Textures of materials, with a byte for each material and texel and four materials in each texture, which WebGL takes
