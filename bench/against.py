@@ -12,7 +12,7 @@ def _git(*arguments):
 
 
 def _remove(tree):
-    """Also after a signal, when no program is begun any more but this one."""
+    """Removes the worktree, also after a signal, when only this program may still be started."""
     if tree.exists():
         subprocess.run(["git", "-C", programs.ROOT, "worktree", "remove", "--force", tree], check=True)
 

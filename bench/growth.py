@@ -37,7 +37,7 @@ def fit(points):
 
 
 def _seconds(programs_of, job, arguments, limits, scratch):
-    """On one thread. The result of the run, its files gone."""
+    """Runs a job on one thread, removes its files, and returns its result."""
     design = scratch / "growth.vcad"
     job.write(design)
     return measure.ours(programs_of.ombre, design, job, job.voxels, 1, limits, scratch, arguments)
@@ -107,7 +107,7 @@ def tiles(programs_of, size, limits, scratch):
 
 
 def laws(programs_of, size, rows, limits, scratch):
-    """One after the other, as they are measured."""
+    """Yields the laws one after the other, as they are measured."""
     yield solid(programs_of, size, limits, scratch)
     by_struts = struts(rows)
     if len(by_struts.points) > 1:

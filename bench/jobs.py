@@ -36,7 +36,7 @@ class Job:
         return tuple(max(1, round(n * shrink)) for n in self.voxels)
 
     def pitch(self, grid):
-        """For --voxel: exact quotients."""
+        """The text for --voxel, with exact quotients."""
         return ",".join(f"{hi - lo:.6f}/{n}" for lo, hi, n in zip(self.lo, self.hi, grid))
 
     def write(self, path):
@@ -150,7 +150,7 @@ def tiled(cells, side=40.0):
 
 
 def copied(cells, side=40.0):
-    """The same from copies."""
+    """Body-centred cells in a cube, made of copies of their struts."""
     size = side / cells
     return (f"n = {cells}; s = {size};\n"
             "at = [for (i = [0:n - 1], j = [0:n - 1], k = [0:n - 1]) s*[i - (n - 1)/2, j - (n - 1)/2, k - (n - 1)/2]];\n"

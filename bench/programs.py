@@ -25,7 +25,7 @@ _signals = []  # those that came
 
 
 def _kill(process):
-    """Without asking how it is, which would take its end from the one that waits for it."""
+    """Kills a process without polling it, which would take its end from the thread that waits for it."""
     with contextlib.suppress(ProcessLookupError):
         os.kill(process.pid, signal.SIGKILL)
 

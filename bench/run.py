@@ -8,7 +8,8 @@
     ./dev bench --scaling               what threads gain, beside copies of the program that share nothing
     ./dev bench --simulation            solving, asking results, tetrahedra; --large: also 10^7 bricks
 
-bench/README.md explains rows and columns, docs/developer/performance.md what limits them. Nothing is asserted: figures are for this machine, now.
+bench/README.md explains rows and columns, docs/developer/performance.md what limits them. Nothing is asserted: figures
+are for this machine, now.
 """
 import argparse
 import json
@@ -31,7 +32,7 @@ from table import Table, rate, seconds
 
 
 class Programs:
-    """What one build folder holds."""
+    """The programs of a build folder."""
 
     def __init__(self, build):
         self.ombre = programs.Ombre(build / "apps/ombre/ombre")
@@ -47,7 +48,7 @@ class Programs:
 
 
 def probe(program):
-    """Whether the machine was fit to judge scaling when this line was printed."""
+    """Prints whether the machine is fit to judge scaling at the moment."""
     if program is None:
         return None
     told = json.loads(programs.run([program]).output)

@@ -1,6 +1,5 @@
-"""What further threads gain, beside as many copies of the program with one thread each.
-
-Copies share nothing but the machine, so what they gain is all that there is to gain. Everything runs in turns.
+"""Measures the gain of further threads, beside as many copies of the program with one thread each. Copies share nothing
+but the machine, so their gain is the greatest possible. Everything runs in turns.
 """
 import concurrent.futures
 import statistics

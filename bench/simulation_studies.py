@@ -122,7 +122,7 @@ def lattices(arguments, folder):
 
 
 def beside_calculix(arguments, folder):
-    """The same deck of rule 2 by CalculiX, whose C3D8 takes the change of volume point by point: it is stiffer."""
+    """Solves the deck of rule 2 by CalculiX, whose C3D8 takes the change of volume point by point and is stiffer."""
     output = folder / "calculix.vtu"
     events, seconds, memory = run([arguments.ombre, "fea", LATTICE, "-D", "rule=2", "--study", PRESS, "--cell", arguments.cell,
                                    "--solve", "--solver", "calculix", "--json", "-o", output], folder)
@@ -133,7 +133,7 @@ def beside_calculix(arguments, folder):
 
 
 def top_force(events):
-    """From the energy: both ends are held, so it is half of the force times the 5 mm."""
+    """Returns the force by the energy, which is half of the force times the 5 mm, since both ends are held."""
     return 2 * events["solution"]["strain_energy_mj"] / 5
 
 

@@ -102,7 +102,7 @@ def our_tetrahedra(ombre, solid, size_mm, scratch):
 
 
 def tetrahedra(ombre, program, scale, scratch):
-    """From the design to a deck, beside CGAL alone on the same formula."""
+    """Times tetrahedra from the design to a deck, beside CGAL alone on the same formula."""
     table = Table(("tetrahedra", 12), ("program", 10), ("seconds", 8), ("count", 9), ("least angle\ndegrees", 11),
                   ("volume\nmm3", 9), ("exact", 9))
     rows = []

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a person waits for in the studio, through its API: one table, and the server's memory after many edits.
+"""Times the answers of the studio through its API, and measures the server's memory after many edits.
 
     python3 bench/studio.py build/release/apps/ombre/ombre
     python3 bench/studio.py build/release/apps/ombre/ombre --edits 30 --only 'gear|knob'
@@ -224,14 +224,14 @@ def full_slice(connection, design, example, folder):
 
 
 def picture_sizes(connection, example):
-    """Which pictures the page asks for, one after the other: it begins with a smaller one where the first took long."""
+    """Sizes of the pictures that the page requests, in order: it begins with a smaller one if the first took long."""
     design = load(connection, example)
     duration, _ = timed(lambda: connection.ask("render", design=design, **FIRST))
     return [QUICK, FIRST, SCREEN] if duration > LONG else [FIRST, SCREEN]
 
 
 def row(connection, example, folder, place, is_sliced):
-    """What one line of the table says."""
+    """The figures of a line of the table."""
     figures = {"design": example.name}
     sizes = picture_sizes(connection, example)
     figures["pixels"] = sizes[0]["width"] * sizes[0]["height"]
@@ -259,7 +259,7 @@ def resident(process):
 
 
 def memory(process, connection, chosen, edits):
-    """What the server has after a third of the edits and after all, each looked at as the page does."""
+    """Memory of the server after a third of the edits and after all; each edit is viewed as the page does."""
     points = []
     for n in range(1, edits + 1):
         example = chosen[n % len(chosen)]

@@ -17,7 +17,7 @@ struct Host {
   std::function<void(const DataMembers&)> on_event;  // receives the events that --json would print
   std::function<void(const std::string&)> on_data;   // receives other output that would go to stdout
   sources::SourceCache* cache = nullptr;             // cache of the files that designs name; null: one for each command
-  FrontEnd front_end = FrontEnd::command_line;       // whose spelling messages have
+  FrontEnd front_end = FrontEnd::command_line;       // the front end whose spelling messages have
   const StopFlag* stop = nullptr;                    // stops a command, as Ctrl-C does
 };
 

@@ -29,8 +29,8 @@ struct StudioArguments {
 };
 
 constexpr const char* studio_footer =
-    "The page is served to this machine alone, at an address with a token. From another machine, the line that is\n"
-    "printed makes a tunnel. Ctrl-C ends it; jobs go on from where they stopped.\n\n"
+    "The page is served to this machine alone, at an address with a token. From another machine, the printed\n"
+    "line makes a tunnel. Ctrl-C ends it; jobs go on from where they stopped.\n\n"
     "Examples:\n"
     "  ombre studio                   the designs in this folder\n"
     "  ombre studio part.vcad         one of them\n"
@@ -178,10 +178,10 @@ Command add_studio(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<StudioArguments>();
   app->add_option("place", arguments->place, "A folder of designs, or one design in it (default: this folder)")
       ->type_name("PLACE");
-  app->add_option("--port", arguments->port, "Of 127.0.0.1 (default: one that is free)")
+  app->add_option("--port", arguments->port, "Port of 127.0.0.1 (default: a free one)")
       ->check(whole_between(0, 65535))
       ->type_name("N");
-  app->add_option("--idle", arguments->idle, "End after so many seconds without a page or a job (default: never)")
+  app->add_option("--idle", arguments->idle, "End after this many seconds without a page or a job (default: never)")
       ->check(between(0.1, 1e9))
       ->type_name("S");
   app->add_flag("--no-browser", arguments->no_browser, "Print the address, and open no browser");

@@ -22,7 +22,7 @@ class Pair {
         sides_{sample(before, box_, measured_voxels, stop), sample(after, box_, measured_voxels, stop)} {
     for (const SampledDesign& side : sides_) side.job.stages->prepare({});
   }
-  // Lists the materials of both designs by name, because their numbers differ between files of materials.
+  // Lists the materials of both by name, since another file of materials numbers them otherwise.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const SampledDesign& side : sides_)
@@ -46,7 +46,7 @@ class Pair {
   std::array<SampledDesign, 2> sides_;
 };
 
-// Returns the fractions of each of the materials in each voxel of the slab, material after material.
+// Returns the fractions of each material in each voxel of the slab, material after material.
 std::vector<float> fractions(const SampledDesign& design, const std::vector<std::string>& names, const TileBox& slab,
                              const StopFlag& stop) {
   const auto voxels = static_cast<size_t>(slab.voxels());
@@ -61,13 +61,13 @@ std::vector<float> fractions(const SampledDesign& design, const std::vector<std:
           const int64_t row = ((k - slab.lo[2]) * slab.size(1) + j - slab.lo[1]) * slab.size(0);
           float* to = dense.data() + static_cast<size_t>(name) * voxels + row + (tile.box.lo[0] - slab.lo[0]);
           for (int64_t i = 0; i < tile.box.size(0); ++i, from += tile.is_uniform ? 0 : 1)
-            *to++ = *from > 0 ? *from : 0;  // maps NaN to 0
+            *to++ = *from > 0 ? *from : 0;  // NaN becomes 0
         }
     }
   return dense;
 }
 
-// Adds up, over voxels, the shares of a voxel that were gained, lost and so on.
+// Sums over voxels of the shares that were gained, lost and so on.
 struct Sums {
   explicit Sums(size_t materials) : before(materials, 0), after(materials, 0) {}
   void add(const Sums& other) {
@@ -82,11 +82,11 @@ struct Sums {
   }
 
   double gained = 0, lost = 0, changed = 0, unchanged = 0;
-  std::vector<double> before, after;  // by material
+  std::vector<double> before, after;  // volume of each material
 };
 
-// In each voxel, the lesser share of a material is unchanged; the rest of the volume that both designs fill has
-// changed.
+// Compares the designs in a slab. In each voxel the lesser share of a material is unchanged; the rest of what both
+// designs fill has changed.
 Sums compare_slab(const Pair& pair, const std::vector<std::string>& names, const TileBox& slab, const StopFlag& stop) {
   const std::vector<float> before = fractions(pair.side(0), names, slab, stop);
   const std::vector<float> after = fractions(pair.side(1), names, slab, stop);

@@ -1,4 +1,4 @@
-// Scans as shown by the page: planes of numbers, and single numbers.
+// Answers about scans: planes of their numbers, and single numbers.
 #pragma once
 
 #include <list>
@@ -15,19 +15,19 @@
 
 namespace ombre::studio {
 
-// A scan with its numbers in the file's own units.
+// The numbers of a scan, in the file's own units.
 struct Scan {
   formats::VoxelVolume volume;
-  Interval range;  // range of its values
-  Interval shown;  // range without the lowest and the highest 0.5 %
+  Interval range;  // range of all values
+  Interval shown;  // without the lowest and the highest half a percent
   double otsu = 0;
 };
 using ScanPtr = std::shared_ptr<const Scan>;
 
-// Reads a scan; `path` is a file or a folder of DICOM files. `stop` may be null. Throws Error and Cancelled.
+// Reads a scan. `path` is a file or a folder of DICOM files, and `stop` may be null. Throws Error and Cancelled.
 Scan read_scan(const std::string& path, const formats::VolumeChoice& choice, const StopFlag* stop);
 
-// Keeps the most recently viewed scans. Thread-safe.
+// Keeps the scans that were used last. Thread-safe.
 class Scans {
  public:
   static constexpr size_t most = 2;
@@ -37,11 +37,11 @@ class Scans {
   // Each function answers one kind of request (docs/reference/studio-api.md). They throw RequestError, Error and
   // Cancelled.
 
-  // Answers "scan": its size, its position and the range of its values.
+  // "scan": the size of a scan, its place and the range of its values.
   Answer describe(const Request& request, const StopFlag& stop);
-  // Answers "plane": the numbers of a plane as little-endian floats, lowest row first.
+  // "plane": numbers of a plane as floats, low byte first, the row of the least number first.
   Answer plane(const Request& request, const StopFlag& stop);
-  // Answers "voxel": the number of a voxel, and the position of its centre.
+  // "voxel": the number of a voxel, and the place of its centre.
   Answer voxel(const Request& request, const StopFlag& stop);
 
  private:
@@ -49,7 +49,7 @@ class Scans {
 
   const Workspace& workspace_;
   std::mutex mutex_;
-  std::list<std::pair<std::string, ScanPtr>> kept_;  // most recently used first, by path and choice
+  std::list<std::pair<std::string, ScanPtr>> kept_;  // by path, choice and stamp; the most recently used first
 };
 
 }  // namespace ombre::studio

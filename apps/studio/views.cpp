@@ -18,8 +18,8 @@
 namespace ombre::studio {
 namespace {
 
-constexpr int64_t most_pixels = 4096;  // greatest size of a picture, each way
-constexpr int64_t most_tile = 1024;    // greatest size of a tile, each way
+constexpr int64_t most_pixels = 4096;  // limit for pictures along each axis
+constexpr int64_t most_tile = 1024;    // limit for tiles along each axis
 
 void read_camera(const Request& request, render::ViewOptions& view) {
   view.azimuth_deg = request.number("azimuth", view.azimuth_deg);
@@ -84,8 +84,8 @@ DataList colour_list(const formats::Rgba& colour) {
   return list;
 }
 
-// Returns the request for tiles: they show materials in their colours, or the job's shades, with x to the right and y
-// up, whatever the orientation of the printer's files is.
+// Changes a request so that tiles show materials in their colours, or the job's shades, with x to the right and y up,
+// whatever the printer's files do.
 compile::SliceRequest shown(const compile::SliceRequest& request) {
   compile::SliceRequest tile = request;
   if (!tile.shades) tile.format = ImageFormat::rgba;
@@ -101,7 +101,7 @@ DataMembers members_of(const std::vector<std::pair<std::string, double>>& values
   return members;
 }
 
-// Returns the voxel that contains the point, and the material that slicing assigns to it.
+// Describes the voxel that holds the point, and what slicing puts there.
 DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, const StopFlag& stop) {
   const CutDesignPtr cut = design.cut(read_job_choices(request, {"at"}));
   const compile::SliceRequest& job = cut->plan.request;

@@ -1,4 +1,4 @@
-// Tests of pictures, tiles, probes and volumes of a design.
+// Tests pictures, tiles, probes and volumes of a design.
 #include <map>
 
 #include "base/text/json.h"
@@ -8,7 +8,7 @@
 namespace ombre::studio {
 namespace {
 
-// Tiles and probes agree with the files of a job.
+// Tiles and probes show what the job writes.
 
 TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
   const std::string design = load("sphere(1, red);");
@@ -16,7 +16,7 @@ TEST_F(StudioTest, PicturesStayWhereTheirCameraIs) {
     return ask("render", R"("design": ")" + design + R"(", "width": 40, "height": 40, "azimuth": 0, "elevation": 0, )" +
                              R"("height_mm": 8, "target": )" + target);
   };
-  // The ball has a diameter of ten pixels and is in the middle, then 10 pixels to the left of it.
+  // The ball has ten pixels in the middle; the other place is 10 pixels to its left.
   const auto middle = formats::decode_png(picture("[0, 0, 0]").second, "middle");
   EXPECT_EQ(middle.colour(20, 20)[3], 255);
   EXPECT_EQ(middle.colour(20, 13)[3], 0);
@@ -97,7 +97,7 @@ TEST_F(StudioTest, TilesAndProbesAreTheJobsPixels) {
   ASSERT_EQ(tile.height, 48U);
   for (uint32_t row = 0; row < 48; ++row)
     for (uint32_t column = 0; column < 64; ++column) {
-      const auto y = static_cast<uint32_t>(count(1)) - (8 + 48) + row;  // from the top
+      const auto y = static_cast<uint32_t>(count(1)) - (8 + 48) + row;  // counted from the top
       ASSERT_EQ(tile.colour(column, row), written.colour(32 + column, y)) << column << ' ' << row;
     }
 
@@ -128,7 +128,7 @@ TEST_F(StudioTest, VolumesHoldFractions) {
   }
 }
 
-// An edit does not recompute the stages that it does not change.
+// An edit does not compute anything that it leaves unchanged.
 TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
   const auto made_by = [&](double radius, double beside, const std::string& material) {
     const size_t before = studio.counts().made;
@@ -140,7 +140,7 @@ TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
     EXPECT_TRUE(ask("plan", R"("printer": "j750", "design": ")" + design + '"').first.find("count"));
     return studio.counts().made - before;
   };
-  // Each edit makes at most one stage for picture and job, and the ends of the picture's rays.
+  // The picture and the job share one stage; the ends of the picture's rays are kept as well.
   EXPECT_EQ(made_by(3, 2, "red"), 2U);
   EXPECT_EQ(made_by(3, 2.5, "red"), 1U);
   EXPECT_LE(made_by(3, 2.5, "blue"), 1U);
@@ -156,7 +156,7 @@ class FreshStudio : public StudioTest {
   void TestBody() override {}
 };
 
-// A change of colours alone reuses the known ends of rays, and gives the same bytes as a studio without caches.
+// A change of colours alone uses the known ends of rays, and gives the bytes of a studio with empty caches.
 TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
   const std::string camera = R"("width": 90, "height": 60, "samples": 2, "target": [0, 0, 0], "height_mm": 12)";
   const auto script = [](const std::string& from, const std::string& to) {
@@ -184,14 +184,14 @@ TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
     fresher.load(script("green", "red"));
     EXPECT_EQ(fresher.ask("render", camera + more + same).second, second) << more;
   }
-  // The rays end where they begin, at the face of a block.
+  // Rays that end where they begin, at the face of a block.
   const std::string face = R"(, "azimuth": 0, "elevation": 0)";
   render(load("cube(4, red);"), face);
   const std::string again = render(load("cube(4, green);"), face);
   FreshStudio fresh;
   const std::string block = R"(, "design": ")" + fresh.load("cube(4, green);") + '"';
   EXPECT_EQ(fresh.ask("render", camera + face + block).second, again);
-  // Another camera has other ends of rays, and so does translucent material.
+  // Another camera, or translucent materials, need other rays.
   const size_t made = studio.counts().made;
   render(red, R"(, "azimuth": 10)");
   EXPECT_EQ(studio.counts().made, made + 1);
@@ -208,7 +208,7 @@ TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
   const std::string red = thumbnail(design, 1).second;
   ASSERT_FALSE(red.empty());
   const size_t made = studio.counts().made;
-  // An edit of the block does not affect the ball.
+  // An edit of the block leaves the ball as it is.
   const std::string edited = load("union() { sphere(3, red); translate(9, 0, 0) rectprism((5, 4, 4), blue); }");
   EXPECT_EQ(thumbnail(edited, 1).second, red);
   EXPECT_EQ(studio.counts().made, made);
@@ -249,8 +249,8 @@ TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
   EXPECT_EQ(ports("sphere"), "");
 }
 
-// Thumbnails of values show the slice through the middle of the design, here a square of 8 mm: numbers in the colours
-// of the palette, mixtures in those of their materials.
+// The thumbnail is a slice through the middle of the design, here a square of 8 mm. Numbers have the colours of the
+// palette, mixtures those of their materials.
 TEST_F(StudioTest, ThumbnailsOfValuesShowThemOverASlice) {
   const std::string script =
       "warm = 2 * formula(\"x\") + 3;\nhue = mix(red, blue, formula(\"0.5 + x / 8\"));\n"
@@ -282,7 +282,7 @@ TEST_F(StudioTest, ThumbnailsOfValuesShowThemOverASlice) {
   ASSERT_LT(left, 8U);
   EXPECT_LT(differs(least_to_greatest.colour(left, 16), palette.front()), 24);
   EXPECT_LT(differs(least_to_greatest.colour(right, 16), palette.back()), 24);
-  // Columns have one colour, because the value varies only along x.
+  // Values that vary along x alone have columns of one colour.
   EXPECT_EQ(least_to_greatest.colour(12, 10), least_to_greatest.colour(12, 22));
   EXPECT_GT(red_to_blue.colour(left, 16)[0], red_to_blue.colour(right, 16)[0]);
   EXPECT_LT(red_to_blue.colour(left, 16)[2], red_to_blue.colour(right, 16)[2]);
@@ -301,7 +301,7 @@ TEST_F(StudioTest, VolumesHoldValuesOfAttributes) {
   EXPECT_NEAR(lo, -4, 0.2);
   EXPECT_NEAR(hi, 4, 0.2);
   const double first_mm = *header.find("origin_mm")->list()->front().number();
-  for (size_t i = 0; i < columns; ++i) {  // the first row
+  for (size_t i = 0; i < columns; ++i) {  // values of the first row
     const double inside = static_cast<unsigned char>(bytes[2 * i + 1]) / 255.0;
     const double value = static_cast<unsigned char>(bytes[2 * i]) / 255.0;
     const double x = first_mm + (static_cast<double>(i) + 0.5) * number_in(header, "pitch_mm");

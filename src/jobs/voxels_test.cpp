@@ -98,7 +98,7 @@ TEST(Fractions, FollowTheGrade) {
       "root((-5, -5, -5), (5, 5, 5), (0.1, 0.1, 0.1)) { fgrade([\"1/(1 + e^x)\", \"-1/(1 + e^x) + 1\"], [\"red\", "
       "\"blue\"], \"prob\") { cube(10); } }");
   ASSERT_EQ(voxels.ids.size(), 1000000u);
-  const auto integral = [](double x) { return x - std::log1p(std::exp(x)); };  // of 1/(1 + e^x)
+  const auto integral = [](double x) { return x - std::log1p(std::exp(x)); };  // integral of 1/(1 + e^x)
   for (int64_t i = 0; i < 100; ++i) {
     double red = 0;
     for (int64_t k = 0; k < 100; ++k)

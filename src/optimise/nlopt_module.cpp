@@ -9,7 +9,7 @@
 namespace ombre::optimise {
 namespace {
 
-constexpr double first_step = 0.25;  // of coordinates, which go from 0 to 1
+constexpr double first_step = 0.25;  // step of coordinates, which go from 0 to 1
 // Value of a point that could not be measured, as a multiple of the first point's value.
 constexpr double penalty = 10;
 

@@ -33,7 +33,7 @@ __version__ = _core.version
 
 _nodes = _node_classes(Value)
 _document_jobs()
-# Functions of expressions step back where a node has their name.
+# A node takes precedence over a function of expressions with the same name.
 globals().update({**{n: f for n, f in _functions.items() if n != "if"},
                   **_coordinates, **_nodes})
 

@@ -17,7 +17,7 @@ def _definitions(texts):
 
 
 def _load(path, materials, definitions):
-    """For the compiled part: the design, or None once the mistakes have been reported."""
+    """Loads the design for the compiled part; returns None once the mistakes have been reported."""
     from ._errors import DesignError
     from ._script import load_script
     try:
@@ -26,9 +26,9 @@ def _load(path, materials, definitions):
         print(error, file=sys.stderr)
     except SystemExit as end:
         print(f"{path} ended with sys.exit({end.code!r})", file=sys.stderr)
-    except BaseException:  # also what scripts raise to end themselves
+    except BaseException:  # also exceptions by which scripts end themselves
         kind, error, trace = sys.exc_info()
-        while trace and trace.tb_frame.f_code.co_filename != path:  # the lines above the script's own say nothing
+        while trace and trace.tb_frame.f_code.co_filename != path:  # frames of Ombre itself
             trace = trace.tb_next
         traceback.print_exception(kind, error, trace)
     return None

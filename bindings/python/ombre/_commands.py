@@ -40,7 +40,7 @@ def endings():
     return sorted(ending for kind in _core.jobs() for ending in kind["endings"])
 
 
-# What Python has in another way.
+# Options that Python has in another way.
 _own = {"design", "define", "emit", "output", "materials"}
 
 
@@ -94,7 +94,7 @@ def _members(kind, options):
 
 
 class Report(dict):
-    """What a job reported: the members of its last event, and all `events`."""
+    """The report of a job: the members of its last event, and all `events`."""
 
     def __init__(self, events):
         last = [e for e in events if e["event"] not in ("progress", "checking", "preparing", "message", "check")]
@@ -103,7 +103,7 @@ class Report(dict):
 
 
 class _Progress:
-    """Tells how far a job is: by tqdm where it is installed, by a function of the share that is done, or not at all."""
+    """Shows the progress of a job: by tqdm if it is installed, by a function of the share that is done, or not at all."""
 
     def __init__(self, progress):
         self._report = progress if callable(progress) else None
@@ -155,7 +155,7 @@ def run(kind, own, options, design=None, progress=None):
 
 
 def voxel_grids(options, design, progress=None):
-    """[(what the numbers are, array of the shape (z, y, x))] of the options of `ombre voxels`."""
+    """Returns [(kind of the numbers, array of the shape (z, y, x))] for the options of `ombre voxels`."""
     members = {"design": "design", "output": "memory", **_members("voxels", options)}
     _, grids = _watched("voxels", progress, lambda take: _core.voxels(members, design, take))
     return [(about, numpy.frombuffer(numbers, dtype=about["data_type"]).reshape(
@@ -163,7 +163,7 @@ def voxel_grids(options, design, progress=None):
 
 
 def _watched(kind, progress, work):
-    """Runs a job that tells its events; returns them, and what else it gives."""
+    """Runs a job; returns its events and its other results."""
     events = []
     shown = _Progress(progress)
 

@@ -39,7 +39,7 @@ class Voxels:
 
 @dataclasses.dataclass(frozen=True)
 class Samples:
-    """What a design is at points of the shape (..., 3).
+    """The values of a design at points of the shape (..., 3).
 
     Attributes:
         distance: signed distance, mm, negative inside; an array of the shape (...).
@@ -188,7 +188,7 @@ class Design:
         return self._sample(points, "distance", threads)[0][2][()]
 
     def inside(self, points, threads=0):
-        """Whether points of the shape (..., 3), mm, are inside; an array of truth values."""
+        """True for points of the shape (..., 3), mm, that are inside; an array of truth values."""
         return (_is_finite(points) & (self._sample(points, "inside", threads)[0][2] != 0))[()]
 
     def material(self, points, threads=0):
@@ -436,9 +436,8 @@ def optimise(script, folder, study, materials=None, progress=None, **options):
 
 
 def source_memory(limit=None):
-    """What this process keeps of the files that designs have loaded, so that they load quickly again.
-
-    What was used least recently is dropped first. The sizes are estimates.
+    """Files of designs that this process keeps, so that they load quickly again. The least recently used are
+    dropped first. The sizes are estimates.
 
     Args:
         limit: how many bytes to keep from now on; at first a gibibyte.
@@ -477,7 +476,7 @@ def _plain(value):
     return [os.fspath(v) for v in value] if isinstance(value, (list, tuple)) else os.fspath(value)
 
 
-# Methods of designs and solids that are commands, with these names there. All kinds of jobs of a design that have no
+# Commands that are methods of designs and solids, with their names as commands. All kinds of jobs of a design that have no
 # method of their own get one.
 JOBS = {"slice": "slice", "layer": "layer", "mesh": "mesh", "contours": "contours", "fea": "fea",
         "homogenise": "homogenise", "write_voxels": "voxels", "render": "render"}

@@ -40,7 +40,7 @@ def _binary(operator, level, reverse=False):
         if other is None:
             return NotImplemented
         a, b = (other, self) if reverse else (self, other)
-        # To the right of an operator of its own level an operand needs brackets.
+        # An operand to the right of an operator of the same level needs brackets.
         left = a._within(level + ("!" if level in ("power", "compare") else ""))
         return Expression(left + operator + b._within(level + "!"), level, {**a._ombre_values_, **b._ombre_values_})
     return method

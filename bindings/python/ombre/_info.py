@@ -1,11 +1,11 @@
-"""What volumes hold."""
+"""Describes volumes."""
 import os
 
 from ._commands import run
 
 
 def volume_info(path, series=None, channel=None, picture=None, force=False):
-    """What a volume holds: the members that `ombre info --json` prints, such as "size" (voxels along its axes),
+    """The description of a volume: the members that `ombre info --json` prints, such as "size" (voxels along its axes),
     "steps_mm" and "origin_mm" (where it says its lengths), "space", "least", "greatest", "histogram", "labels" and, of
     segmentations, "segments".
 

@@ -27,7 +27,7 @@ class Materials:
 
     @property
     def names(self):
-        """By id; the first is void."""
+        """Names by id; the first is void."""
         return [entry["name"] for entry in self._entries]
 
     def colour(self, name):

@@ -11,7 +11,7 @@ _running = None  # the script that is run for its design
 class _Script:
     def __init__(self, materials, variables):
         self.materials, self.variables = materials, variables
-        self.shown = []  # what it gave to viewers and exporters: (root, materials)
+        self.shown = []  # arguments of viewers and exporters: (root, materials)
 
 
 def is_hosted():
@@ -37,7 +37,7 @@ def option(name, default):
 
 
 def folders_of(path):
-    """Where a script's modules lie: beside it, and beside the file that it links to."""
+    """Folders of a script's modules: its own, and that of the file that it links to."""
     return list(dict.fromkeys(os.path.dirname(place(path)) for place in (os.path.abspath, os.path.realpath)))
 
 

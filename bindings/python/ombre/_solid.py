@@ -133,7 +133,7 @@ class Solid:
     def _ombre_node_(self):
         return self._node
 
-    # What it is.
+    # Properties.
 
     @property
     def type(self):
@@ -142,7 +142,7 @@ class Solid:
 
     @property
     def parameters(self):
-        """Its parameters, with defaults filled in; lengths are mm, angles degrees."""
+        """Parameters of the node, with defaults filled in; lengths are mm, angles degrees."""
         return self._node.parameters
 
     @property
@@ -157,7 +157,7 @@ class Solid:
 
     @property
     def metric(self):
-        """What its distance is: "exact", "bounded" (never more than the true one) or "implicit" (the sign only)."""
+        """Meaning of the distance: "exact", "bounded" (never more than the true one) or "implicit" (the sign only)."""
         return self._node.metric
 
     def design(self):
@@ -301,7 +301,7 @@ def _doc(info):
 
 
 def node_infos():
-    """What there is to know of every node, from the registry."""
+    """Descriptions of all nodes, from the registry."""
     events = []
     _core.run_job("nodes", {}, None, events.append)
     return [e for e in events if e["event"] == "node"]

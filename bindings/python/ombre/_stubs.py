@@ -98,7 +98,7 @@ def option(name: str, default: Any) -> Any: ...
 def pointwise(function: Callable[..., float]) -> Callable[..., Any]: ...
 def where(condition: Number, yes: Number, no: Number) -> Expression: ...
 '''
-# What solids and designs answer alike.
+# Methods that solids and designs share.
 _questions = '''    bounds: tuple[tuple[float, float, float], tuple[float, float, float]]
     hash: str
     attributes: list[str]
@@ -163,7 +163,7 @@ _option_kinds = {"flag": "bool", "file": "Path", "whole number": "Union[int, str
 
 def _option_type(option):
     if option.get("choices"):
-        # Numbers among the words may be written as such.
+        # Words that are numbers may be given as numbers.
         kind = "Literal[" + ", ".join(f'"{c}"' + (f", {c}" if c.isdigit() else "") for c in option["choices"]) + "]"
     elif option["name"] == "study":
         kind = "Union[Path, dict[str, Any]]"
@@ -177,12 +177,12 @@ def _options(command, without=()):
                    for name, option in keywords_of(command).items() if name not in without)
 
 
-# The result of a job where it is no dict.
+# Types of the results of jobs that return no dict.
 _job_results = {"render": "Any"}
 
 
 def _parameters(function):
-    """Those that stand before the options."""
+    """Parameters that stand before the options."""
     text = ""
     for name, parameter in list(inspect.signature(function).parameters.items())[1:-1]:
         if name == "progress":

@@ -12,7 +12,7 @@ import urllib.request
 
 _idle_seconds = 600  # the server ends by itself when nobody uses it
 _start_seconds = 30
-_largest_file = 8 << 20  # that the studio opens
+_largest_file = 8 << 20  # limit of the studio
 
 
 def _folder():
@@ -85,6 +85,6 @@ def show_in_studio(design, idle_seconds=_idle_seconds):
     file, note = folder / "shown.json", folder / "studio.note"
     pending = folder / "shown.part"
     pending.write_text(text, encoding="utf-8")
-    pending.replace(file)  # a page that shows it takes the change
+    pending.replace(file)  # a page that shows the file takes the change
     url = _known(note)
     return (url, True) if url else (_start(file, note, idle_seconds), False)

@@ -16,7 +16,7 @@ _counts = collections.defaultdict(lambda: itertools.count(1))
 
 
 class Value(Expression):
-    """What a node gives that is no solid; see the module's text. It stands for its first output, a number in most cases,
+    """The result of a node that is no solid; see the module's text. It stands for its first output, a number in most cases,
     and is then an expression; all its outputs are attributes.
     """
 

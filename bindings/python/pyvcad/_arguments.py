@@ -33,7 +33,7 @@ def read(what: str, forms: tuple[Form, ...], positional: tuple[Any, ...], named:
         try:
             _read_form(form, given, values)
         except TypeError as error:
-            if len(values) > best or len(fitting) == 1:  # the form that was meant, most likely
+            if len(values) > best or len(fitting) == 1:  # most likely the intended form
                 best, reason = len(values), str(error)
         except ValueError as error:
             raise ValueError(f"{what}, {error}") from None

@@ -40,7 +40,7 @@ class Attribute:
 
 
 def _formula(value: Any, what: str) -> ombre.Expression:
-    """For arithmetic, which needs formulas and not functions."""
+    """Returns a formula for arithmetic, which cannot use functions."""
     if isinstance(value, FloatAttribute):
         value = value._value
     if isinstance(value, FloatVolume):
@@ -90,13 +90,13 @@ class FloatAttribute(Attribute):
         return FloatAttribute(abs(_formula(self, "abs")))
 
     def clamp(self, low: float, high: float) -> FloatAttribute:
-        """At least `low` and at most `high`."""
+        """Limits the value to at least `low` and at most `high`."""
         if low > high:
             raise ValueError(f"clamp: expected low <= high, found {low} and {high}")
         return FloatAttribute(ombre.clamp(low, _formula(self, "clamp"), high))
 
     def map_range(self, in_0: float, in_1: float, out_0: float, out_1: float) -> FloatAttribute:
-        """By the straight line on which in_0 becomes out_0 and in_1 becomes out_1."""
+        """Maps the value linearly, so that in_0 becomes out_0 and in_1 becomes out_1."""
         if in_0 == in_1:
             raise ValueError(f"map_range: expected two different numbers to begin with, found {in_0} twice")
         return FloatAttribute(out_0 + (_formula(self, "map_range") - in_0) * ((out_1 - out_0) / (in_1 - in_0)))
@@ -106,7 +106,7 @@ class FloatAttribute(Attribute):
         return self.map_range(low, high, 0.0, 1.0)
 
     def sample(self, x: float, y: float, z: float, d: float = 0.0) -> float:
-        """Its value at a point, at the signed distance d from its solid."""
+        """Returns the value at a point, at the signed distance d from its solid."""
         return _sampled(self._value, (x, y, z), d)
 
     def return_type(self) -> str:
@@ -132,7 +132,7 @@ def _sampled(value: Any, point: tuple[float, float, float], d: float) -> float:
     """A definition at a point. Of formulas with d, at that distance. Raises RuntimeError where it is not finite."""
     if isinstance(value, (int, float)):
         return float(value)
-    # A ball of the radius r has the distance d at the distance r + d from its middle.
+    # The distance of a ball of radius r is d at r + d from its middle.
     radius = max(1.0, 1.0 - d)
     ball = ombre.translate(ombre.sphere(radius), (point[0] - radius - d, point[1], point[2]))
     found = float(ombre.attribute(ball, "value", value).attribute("value", point))
@@ -302,7 +302,7 @@ class VolumeFractionsAttribute(Attribute):
 
 
 def checked(name: Any, attribute: Any) -> tuple[str, Attribute]:
-    """What set_attribute is given."""
+    """Checks the arguments of set_attribute."""
     if not isinstance(name, str):
         raise TypeError(f"set_attribute: expected a name, found {type(name).__name__}")
     if not isinstance(attribute, Attribute):

@@ -150,7 +150,7 @@ class ScalarsToVec4Converter(_Joined):
         super().__init__(x, y, z, w, destination)
 
 
-_unknown = "0/0"  # the formula of what no entry says
+_unknown = "0/0"  # the formula of values that no entry has
 
 
 def _pair(value: Any) -> tuple[float, float]:
@@ -212,7 +212,7 @@ def _lines(key: str, keys: list[float], texts: list[str]) -> str:
 
 
 class LookupTableConverter(AttributeConverterBase):
-    """What a table gives for attributes: in steps, or in straight lines from key to key.
+    """Values of a table for attributes: in steps, or linear from key to key.
 
     In steps each of several inputs is looked up in its own ranges and gives its own output, or its number of the one vector
     or colour. Lines have an entry for each combination of the inputs' keys.
@@ -310,7 +310,7 @@ class LookupTableConverter(AttributeConverterBase):
 
 
 class AttributeModifier(Unary):
-    """Its child, with the attributes that a converter computes from the child's: AttributeModifier(converter, child)."""
+    """The child, with the attributes that a converter computes from the child's: AttributeModifier(converter, child)."""
 
     def __init__(self, converter: AttributeConverterBase, child: Any = None) -> None:
         if not isinstance(converter, AttributeConverterBase):

@@ -26,7 +26,7 @@ def _callable(array: numpy.ndarray) -> _Array:
 
 
 class _ElementMesh:
-    """What meshes of both kinds have; `nodes`, `elements` and `cell_centroids` may be called, too."""
+    """Base of meshes of both kinds; `nodes`, `elements` and `cell_centroids` may be called, too."""
 
     _elements: Elements | None = None
 
@@ -37,7 +37,7 @@ class _ElementMesh:
 
     @property
     def nodes(self) -> _Array:
-        """Of the shape (n, 3), mm."""
+        """Places of the nodes, of the shape (n, 3), mm."""
         return _callable(self._made().nodes)
 
     @property
@@ -47,7 +47,7 @@ class _ElementMesh:
 
     @property
     def cell_centroids(self) -> _Array:
-        """Of the shape (m, 3), mm."""
+        """Centroids of the shape (m, 3), mm."""
         return _callable(self._made().centroids)
 
     def number_of_nodes(self) -> int:
@@ -149,7 +149,7 @@ def _count(value: Any) -> int:
 
 
 def tetra_criteria(settings: Any) -> TetraCriteria:
-    """Those of a SimulationTetFixedMeshSettings."""
+    """Criteria of a SimulationTetFixedMeshSettings."""
     try:
         lengths = settings.facet_size, settings.facet_distance, settings.cell_size
     except AttributeError:

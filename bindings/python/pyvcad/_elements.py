@@ -14,8 +14,8 @@ import ombre
 from ._arguments import Point
 from ._vtu import read_grid
 
-# What Ombre's mesher asks of tetrahedra, as shares of their size: radii of the balls around facets and around cells, and
-# how far facets may lie from the surface.
+# Criteria of Ombre's mesher for tetrahedra, as shares of their size: radii of the balls around facets and around cells,
+# and the greatest distance of facets from the surface.
 _share_of_radius, _share_of_distance = 0.8, 0.05
 
 
@@ -38,7 +38,7 @@ class Elements(NamedTuple):
 
     @property
     def centroids(self) -> numpy.ndarray:
-        """Of the shape (m, 3), mm."""
+        """Centroids of the shape (m, 3), mm."""
         middles: numpy.ndarray = self.nodes[self.cells].mean(axis=1)
         return middles
 
@@ -65,7 +65,7 @@ class TetraCriteria(NamedTuple):
     formula: str = "min_cell + h*(max_cell - min_cell)"
 
     def options(self) -> dict[str, Any]:
-        """Those of `ombre fea`: as fine as the finest of these asks."""
+        """Options of `ombre fea`, as fine as the finest of these requires."""
         limit = min(self.facet_size / _share_of_radius, self.facet_distance / _share_of_distance)
         if not isinstance(self.cell_size, tuple):
             return {"size": min(self.cell_size / _share_of_radius, limit)}
@@ -85,7 +85,7 @@ def tetrahedra_of(design: ombre.Design, criteria: TetraCriteria, seed: int = 0,
 def _elements_of(design: ombre.Design, seed: int, progress: Callable[[float], Any] | None, options: dict[str, Any]
                  ) -> Elements:
     names = list(design.materials.names)
-    # A study that needs no property of the materials but one, and that holds every piece.
+    # A study that needs only one property of the materials, and that holds every piece.
     study = {"physics": "heat", "materials": {name: {"conductivity_w_mk": 1} for name in names[1:]},
              "supports": [{"on": {"where": "1"}, "temperature_c": 0}]}
     with tempfile.TemporaryDirectory(prefix="ombre_") as folder:

@@ -16,11 +16,11 @@ from ._vectors import Vec3
 from ._vtu import stored_tetrahedra
 
 _most_failures = 10
-_share_of_tolerance, _share_of_rounding = 1e-7, 1e-12  # of the mesh's longest side
+_share_of_tolerance, _share_of_rounding = 1e-7, 1e-12  # shares of the mesh's longest side
 
 
 class FieldAssociation(enum.Enum):
-    """What has the numbers of a field."""
+    """The kind of places that have the numbers of a field."""
 
     POINT = 0
     CELL = 1
@@ -28,7 +28,7 @@ class FieldAssociation(enum.Enum):
 
 @dataclass(frozen=True)
 class FieldMetadata:
-    """What a field is. `minimum` and `maximum` are those of its numbers, of vectors those of their lengths."""
+    """The description of a field. `minimum` and `maximum` are those of its numbers; for vectors those of their lengths."""
 
     name: str
     association: FieldAssociation
@@ -104,11 +104,11 @@ class UnstructuredFieldDataset:
 
     @property
     def field_names(self) -> list[str]:
-        """In the order in which they were added."""
+        """Names of the fields, in the order in which they were added."""
         return list(self._fields)
 
     def field_metadata(self, name: str) -> FieldMetadata:
-        """What a field is. Raises KeyError."""
+        """Returns the description of a field. Raises KeyError."""
         return self._field(name)[0]
 
     def add_point_scalar(self, name: str, values: Any, units: str = "", step_identifier: str = "",
@@ -142,7 +142,7 @@ class UnstructuredFieldDataset:
         return FloatAttribute(self._results(name, 1, outside, max_distance).value)
 
     def vec3_attribute(self, name: str, outside: str = "error", max_distance: float | None = None) -> Vec3Attribute:
-        """The same of a field of vectors."""
+        """An attribute of a field of vectors."""
         vector = self._results(name, 3, outside, max_distance).vector
         return Vec3Attribute(vector.x, vector.y, vector.z)
 

@@ -13,7 +13,7 @@ from ._solids import _Leaf
 from ._tree import Unary, as_node
 
 Kernel = list[list[list[float]]]
-_finest = 7  # voxels on each side of the one in the middle of a box in mm
+_finest = 7  # greatest number of voxels on each side of the middle of a box in mm
 
 
 def _whole(value: Any) -> int:

@@ -37,7 +37,7 @@ def pointwise(function: Callable[..., float]) -> Callable[..., Any]:
 def _parameters(function: Callable[..., float]) -> tuple[str, ...]:
     try:
         parameters = list(inspect.signature(function).parameters.values())
-    except (TypeError, ValueError):  # some functions of compiled code tell nothing
+    except (TypeError, ValueError):  # some compiled functions have no signature
         return _names[:8]
     if any(p.kind is p.VAR_POSITIONAL for p in parameters):
         return _names[:8]

@@ -12,8 +12,8 @@ _liquids = ("liquid", "m.cleanser")
 
 
 class KeepOut(Unary):
-    """Its child, whose mixtures hold no liquid nearer to the surface than a distance, mm; the other materials share its
-    place. What is of liquid alone stays liquid. Raises RuntimeError where the table has no material called "liquid" or
+    """The child, whose mixtures hold no liquid nearer to the surface than a distance, mm; the other materials share its
+    place. Points of liquid alone stay liquid. Raises RuntimeError where the table has no material called "liquid" or
     "M.Cleanser".
     """
 

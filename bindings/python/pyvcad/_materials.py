@@ -26,7 +26,7 @@ class MaterialDefs:
             raise FileNotFoundError(f"MaterialDefs: there is no file {os.fspath(path)}")
         self._path: str | None = os.fspath(path)
         self._read: ombre.Materials | None = None
-        self._colors: dict[int, tuple[int, int, int, int]] = {}  # those that were changed
+        self._colors: dict[int, tuple[int, int, int, int]] = {}  # colours that were changed
 
     def __call__(self) -> MaterialDefs:
         return self
@@ -38,7 +38,7 @@ class MaterialDefs:
         return self._read
 
     def _materials(self) -> ombre.Materials:
-        """What designs are compiled with; the same object until a colour changes."""
+        """The table that designs are compiled with; the same object until a colour changes."""
         if not self._colors:
             return self._table()
         if self._changed is None:

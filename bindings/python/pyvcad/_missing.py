@@ -1,4 +1,4 @@
-"""What scripts may name and Ombre does not have yet: each says so where it is made."""
+"""Names of pyvcad that Ombre does not have yet: each reports that when it is made."""
 from __future__ import annotations
 
 import difflib
@@ -69,7 +69,7 @@ def _absent(package: str, name: str) -> type:
 
 
 def attribute_of(package: str, known: list[str], name: str) -> Any:
-    """For `__getattr__` of a package: what stands for a name that it lacks. Raises AttributeError for other names."""
+    """Returns the stand-in for a missing name, for `__getattr__` of a package. Raises AttributeError for other names."""
     if name in MISSING.get(package, {}):
         return _absent(package, name)
     close = difflib.get_close_matches(name, [*known, *MISSING.get(package, {})], 1)
@@ -85,7 +85,7 @@ def _method_of(node: Node, name: str) -> Any:
     raise AttributeError(f"{type(node).__name__!r} has no attribute {name!r}{hint}")
 
 
-# Put here instead of into the class, so that type checkers still find misspelt names.
+# It is set here instead of in the class, so that type checkers still find misspelt names.
 Node.__getattr__ = _method_of  # type: ignore[attr-defined]
 
 

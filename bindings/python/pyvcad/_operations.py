@@ -83,7 +83,7 @@ class Mirror(Unary):
 
 
 class Identity(Unary):
-    """Its child, unchanged: a place for attributes."""
+    """The child, unchanged: a place for attributes."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(read("Identity", (_child,), arguments, named)["child"])
@@ -119,13 +119,13 @@ class _Boolean(NAry):
 
 
 class Union(_Boolean):
-    """What is in any child: Union(mix=False, children=[...])."""
+    """Points in any child: Union(mix=False, children=[...])."""
 
     _operation = "union"
 
 
 class Intersection(_Boolean):
-    """What is in all children: Intersection(mix=False, children=[...])."""
+    """Points in all children: Intersection(mix=False, children=[...])."""
 
     _operation = "intersection"
 
@@ -158,7 +158,8 @@ class BBoxIntersection(NAry):
 
 
 class Difference(Binary):
-    """What is in the left child and not in the right one: Difference(left, right). Of more, the first without the rest."""
+    """Points in the left child and not in the right one: Difference(left, right). With more children, the first without
+    the rest."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         sides = {"left": as_node, "right": as_node}
@@ -183,7 +184,7 @@ class Difference(Binary):
 
 
 class Sum(NAry):
-    """Where the distances of its children add up to `iso` mm or less: Sum(iso=0, children=[...])."""
+    """Points where the distances of the children add up to `iso` mm or less: Sum(iso=0, children=[...])."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         some = {"children": Optional(as_nodes, None)}
@@ -197,7 +198,7 @@ class Sum(NAry):
 
 
 class Offset(Unary):
-    """Its child, grown by a distance, or shrunk by a negative one: Offset(d, child), mm."""
+    """The child, grown by a distance, or shrunk by a negative one: Offset(d, child), mm."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         values = read("Offset", ({"distance": number, **_child},), arguments, named)
@@ -271,7 +272,7 @@ class FGrade(Unary):
 
 
 class Tile(Unary):
-    """Its child, repeated without end: Tile(child), Tile(cx, cy, cz, child) with the steps in mm; 0: not along that axis.
+    """The child, repeated without end: Tile(child), Tile(cx, cy, cz, child) with the steps in mm; 0: not along that axis.
 
     Without steps, those of the unit cell that the child is; of another child, the lengths of its bounding box. Cut it
     with an Intersection.

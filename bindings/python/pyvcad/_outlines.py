@@ -9,7 +9,7 @@ from ._arguments import Optional, Point, boolean, length, read, text, vector
 from ._enums import FontAspect, HorizontalAlignment, VerticalAlignment
 from ._solids import _Leaf, _one
 
-_free_font = "DejaVu Sans Mono"  # in place of Consolas, the default of pyvcad
+_free_font = "DejaVu Sans Mono"  # replaces Consolas, the default of pyvcad
 _styles = {FontAspect.Regular: "regular", FontAspect.Bold: "bold", FontAspect.Italic: "italic",
            FontAspect.BoldItalic: "bold_italic"}
 _sides = {HorizontalAlignment.Left: "left", HorizontalAlignment.Center: "center", HorizontalAlignment.Right: "right"}

@@ -10,7 +10,7 @@ from ._functions import pointwise
 
 
 class Vec4Mode(enum.Enum):
-    """Whether vectors are compared number by number, or as a whole by their length."""
+    """How vectors are compared: number by number, or as a whole by their length."""
 
     PerChannel = 0
     Magnitude = 1
@@ -99,7 +99,7 @@ def given(whole: ombre.Solid, name: str, resolver: Resolver, solids: list[ombre.
     for solid in solids[1:]:
         mine, inside = numbers_of(solid, name), ombre.distance_to(solid).inside
         both = (have > 0.5) & (inside > 0.5)
-        # Each step is a value of its own, since it stands several times in the next.
+        # Each step is a value of its own, since the next uses it several times.
         now = [ombre.formula(ombre.where(both, combined, ombre.where(inside > 0.5, m, n)))
                for combined, m, n in zip(resolver._combine(now, mine), mine, now)]
         have = ombre.formula(ombre.where((have > 0.5) | (inside > 0.5), 1, 0))

@@ -54,7 +54,9 @@ class SimulationField(_Leaf):
 
 
 class PointMap(SimulationField):
-    """The same for the solid of another file: PointMap(mesh_path, inp_path, csv_path, functions, materials, prob_mode).
+    """Materials by results, for the solid of another file.
+
+    PointMap(mesh_path, inp_path, csv_path, functions, materials, prob_mode)
 
     Where the solid reaches beyond the elements, the nearest place of their border counts.
     """

@@ -1,4 +1,4 @@
-"""What a tree says at points and on grids, attribute by attribute."""
+"""Samples a tree at points and on grids, attribute by attribute."""
 from __future__ import annotations
 
 from typing import Any
@@ -132,5 +132,5 @@ def _array(points: Any) -> numpy.ndarray:
     return numpy.asarray(points, dtype=float).reshape(-1, 3)
 
 
-# Put here instead of into the class, which samples know.
+# It is set here instead of in the class, which samples know.
 Node.sample = lambda self, x, y, z: sampled(self, _array([(x, y, z)]))[0]  # type: ignore[attr-defined]

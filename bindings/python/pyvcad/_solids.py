@@ -23,7 +23,7 @@ _one = Optional(material, _unset)
 
 
 def is_unset(node: Node) -> bool:
-    """Whether the node is a solid that was given no material."""
+    """True if the node is a solid that was given no material."""
     return isinstance(node, _Leaf) and isinstance(node._material, _Unset)
 
 
@@ -148,7 +148,7 @@ class GraphLattice(_Leaf):
 
 
 class Function(_Leaf):
-    """Where an expression is 0 or less, in a box: Function(expr, material=1, min=Vec3(-10, ...), max=Vec3(10, ...)).
+    """Points of a box where an expression is 0 or less: Function(expr, material=1, min=Vec3(-10, ...), max=Vec3(10, ...)).
 
     The expression is a text, or a function of (x, y, z, rho, phic, r, theta, phis), which is slow.
     """

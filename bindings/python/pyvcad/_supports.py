@@ -1,4 +1,4 @@
-"""What parts need while they are printed."""
+"""Supports that parts need while they are printed."""
 from __future__ import annotations
 
 from typing import Any
@@ -43,4 +43,4 @@ class SupportAnalyzer:
 
 
 class SupportAnalyzerParallel(SupportAnalyzer):
-    """The same: both use all cores."""
+    """A SupportAnalyzer; both use all cores."""

@@ -27,7 +27,7 @@ Place = tuple[str, int]  # a file, and a line of it
 
 
 class _Changes:
-    count = 0  # of changes to nodes that something was built from
+    count = 0  # count of changes to nodes that something was built from
 
 
 class Node:
@@ -38,19 +38,19 @@ class Node:
     """
 
     def __init__(self) -> None:
-        self._solid: ombre.Solid | None = None  # as last built
-        self._factory: Any = None  # whose materials that names
-        self._built_from: list[ombre.Solid] = []  # those of the children
-        self._checked_at = -1  # when nothing below had changed, by _Changes.count
+        self._solid: ombre.Solid | None = None  # the solid that was built last
+        self._factory: Any = None  # has the materials that the solid names
+        self._built_from: list[ombre.Solid] = []  # solids of the children
+        self._checked_at = -1  # _Changes.count at the last check that nothing below had changed
         self._attributes: dict[str, Attribute] = {}
         self._place = _call_place()
         self._home: Any = current_factory()  # the materials in use where it was made
 
     def __getstate__(self) -> dict[str, Any]:
-        """For copies, which build their own solids."""
+        """Returns the state for copies, which build their own solids."""
         return {**self.__dict__, "_solid": None, "_factory": None, "_built_from": [], "_checked_at": -1, "_home": None}
 
-    # What a kind of node says of itself.
+    # Properties of a kind of node.
 
     def _inputs(self) -> list[Node]:
         """The nodes below, in order. Raises DesignError where one is missing."""
@@ -129,7 +129,7 @@ class Node:
         return ombre.DesignError(f"{file}:{line}: {self.type()}: {text}")
 
     def _design(self) -> ombre.Design:
-        """For questions, which need no materials but ids."""
+        """Returns the design for questions, which need ids but no materials."""
         if self._solid is not None and self._checked_at == _Changes.count:
             return self._solid.design()
         greatest = max((max(node._own_materials() | (node._fractions() or set()), default=0) for node in in_order(self)),
@@ -409,7 +409,7 @@ class Wrapped(Node):
         return _with_current_materials(self._whole, {name: i for i, name in enumerate(self._given.materials.names)})
 
     def _ombre_design_(self, materials: Any = None) -> ombre.Design:
-        # On its own it keeps its box, its parts and its materials.
+        # As a whole design it keeps its box, its parts and its materials.
         is_changed = isinstance(materials, MaterialDefs) or self._attributes
         return super()._ombre_design_(materials) if is_changed else self._given
 
@@ -524,7 +524,7 @@ def _named_materials(solid: ombre.Solid) -> list[str]:
 
 
 def _in_current_table(value: Any, ids: dict[str, int]) -> Any:
-    """The same for the current table of materials."""
+    """Makes the solid again with the current table of materials."""
     if isinstance(value, str):
         return ids[value]
     if not isinstance(value, ombre.Value):

@@ -34,12 +34,12 @@ class SurfaceMesh:
 
     @property
     def vertices(self) -> numpy.ndarray:
-        """Of the shape (n, 3), mm."""
+        """Vertices of the shape (n, 3), mm."""
         return self._vertices
 
     @property
     def triangles(self) -> numpy.ndarray:
-        """Of the shape (n, 3): numbers of vertices, from 0."""
+        """Triangles of the shape (n, 3): numbers of vertices, from 0."""
         return self._triangles
 
     def write_stl(self, path: Any) -> None:

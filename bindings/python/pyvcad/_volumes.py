@@ -20,8 +20,8 @@ class Volume:
 
     def __init__(self, path: str, options: dict[str, Any] | None = None, center: bool = False, series: str = "",
                  change: tuple[float, float] = (1.0, 0.0), margin: float = 0.0) -> None:
-        """`change` takes the file's numbers to those meant, by a factor and a sum; `margin` is how many voxels at each
-        side are none of the file's own."""
+        """`change` converts the file's numbers by a factor and a sum; `margin` is the number of voxels at each
+        side that are not from the file."""
         self._path, self._options, self._series, self._change = path, dict(options or {}), series, change
         info = ombre.volume_info(path, series or None, None if self._size == 1 else 0)
         if self._size > 1 and info["channels"] < self._size:
@@ -68,7 +68,7 @@ class Volume:
         return self._values[channel]
 
     def _sample(self, x: float, y: float, z: float) -> list[float]:
-        """By straight lines between voxels' centres along each axis."""
+        """Interpolates linearly between voxels' centres along each axis."""
         return [float(self._component(n)([[x, y, z]])[0]) for n in range(self._size)]
 
     def bounding_box(self) -> tuple[Vec3, Vec3]:
@@ -80,7 +80,7 @@ class Volume:
         return self._type
 
     def clone(self) -> Any:
-        """Itself: volumes do not change."""
+        """Returns the volume itself: volumes do not change."""
         return self
 
 
@@ -179,7 +179,7 @@ class DICOMLoader:
                                    change=(factor, self._intercept - factor * own[1]))
 
     def as_volume(self) -> FloatVolume:
-        """Its numbers, with slope and intercept."""
+        """Numbers of the scan, with slope and intercept."""
         return self._volume
 
     def get_bounding_box(self) -> tuple[Vec3, Vec3]:
@@ -250,5 +250,5 @@ class PNGLoader:
 
 
 def _with_mode(named: dict[str, Any]) -> dict[str, Any]:
-    """Whatever the mode is called."""
+    """Returns the mode, whatever its name is."""
     return {"mode" if isinstance(value, PNGColorMode) else name: value for name, value in named.items()}

@@ -44,7 +44,7 @@ def read_grid(path: str) -> Grid:
 
 
 def _plain(name: str) -> str:
-    """Without its unit, and as it was before it was put into XML."""
+    """Returns a name without its unit, and as it was before it was escaped for XML."""
     name = re.sub(r" \[[^\]]*\]$", "", name)
     for entity, sign in (("&lt;", "<"), ("&gt;", ">"), ("&quot;", '"'), ("&amp;", "&")):
         name = name.replace(entity, sign)

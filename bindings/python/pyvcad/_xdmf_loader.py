@@ -79,7 +79,7 @@ class _Reader:
             (fields.add_point_scalar if is_of_points else fields.add_cell_scalar)(name, numbers.reshape(-1))
 
     def _numbers(self, parent: xml.Element) -> numpy.ndarray:
-        """Those of a part's only DataItem: "part.h5:/Mesh/geometry"."""
+        """Numbers of a part's only DataItem: "part.h5:/Mesh/geometry"."""
         items = parent.findall("DataItem")
         if len(items) != 1:
             raise self._error(f"{_named(parent)}: expected one DataItem, found {len(items)}")

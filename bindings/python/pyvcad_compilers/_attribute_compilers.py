@@ -17,7 +17,7 @@ from pyvcad._tree import Node, as_node, in_order
 from ._compilers import Path, _Compiler, _voxel
 
 
-_is_undefined = "attribute_is_undefined"  # 1 where nothing gives the attribute that is looked for
+_is_undefined = "attribute_is_undefined"  # 1 where no solid gives the attribute
 
 
 class _AttributeCompiler(_Compiler):

@@ -49,7 +49,7 @@ class _InkjetCompiler(_AttributeCompiler):
         self._stats: list[tuple[str, Any]] = []
 
     def _tree(self) -> Node:
-        """What is printed: a tree with materials."""
+        """Returns the tree with materials that is printed."""
         raise NotImplementedError
 
     def _check_strictly(self) -> None:
@@ -125,15 +125,15 @@ class MaterialInkjetCompiler(_InkjetCompiler):
         self._fallback = 0
 
     def set_fallback_material_id(self, id: int) -> None:
-        """The material of what nothing says anything of; 0, the void, at first."""
-        (self._materials or default_materials).name(id)  # which raises an error where there is none
+        """Sets the material of places without any; 0, the void, at first."""
+        (self._materials or default_materials).name(id)  # raises an error if there is none
         self._fallback = id
 
     def _check_strictly(self) -> None:
         self._check_everywhere("volume_fractions", is_unset, lambda node: node._fractions() is not None)
 
     def _tree(self) -> Node:
-        """A copy, in which what has no material of its own is of the fallback."""
+        """Returns a copy, in which solids without a material have the fallback."""
         tree = self._root.clone()
         for node in in_order(tree):
             if is_unset(node):
@@ -146,7 +146,7 @@ _clear = "VeroClear"
 
 
 class _Coloured(Unary):
-    """Its child, of the materials that show its attribute color_rgba."""
+    """The child, of the materials that show its attribute color_rgba."""
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         colour = ombre.attribute_of(solids[0], "color_rgba")
@@ -181,7 +181,7 @@ class ColorInkjetCompiler(_InkjetCompiler):
         self._fallback: Any = (0, 0, 0, 0)
 
     def set_fallback_color(self, color: Any) -> None:
-        """The colour, from 0 to 1, of what nothing gives a colour; clear at first."""
+        """Sets the colour, from 0 to 1, of places without any; clear at first."""
         self._fallback = tuple(color)
 
     def _check_strictly(self) -> None:

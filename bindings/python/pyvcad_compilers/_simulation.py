@@ -24,7 +24,7 @@ from ._compilers import Path, _voxel
 
 
 class SimulationBackend(enum.Enum):
-    """What is written: a deck PREFIX.inp; PREFIX.xdmf and PREFIX.h5; nothing, the arrays are in model()."""
+    """The output: a deck PREFIX.inp; PREFIX.xdmf and PREFIX.h5; nothing, the arrays are in model()."""
 
     ABAQUS_INP = 0
     FENICSX_XDMF = 1
@@ -39,7 +39,7 @@ class SimulationMeshKind(enum.Enum):
 
 
 class _Settings:
-    """Members by their names; others are mistakes."""
+    """Settings by their names; other names are mistakes."""
 
     def __setattr__(self, name: str, value: Any) -> None:
         known = [member.name for member in fields(self)]  # type: ignore[arg-type]
@@ -50,15 +50,15 @@ class _Settings:
 
 @dataclass
 class SimulationHexMeshSettings(_Settings):
-    """Of bricks: their size, mm, a length or a Vec3."""
+    """Settings of bricks: their size, mm, a length or a Vec3."""
 
     voxel_size: Any = 1.0
 
 
 @dataclass
 class SimulationTetFixedMeshSettings(_Settings):
-    """Of tetrahedra, mm: radii of the balls around facets and cells, and how far facets lie from the surface. The mesh is
-    as fine as the finest of the three asks; the angle and the ratio are always 25 degrees and 2.2."""
+    """Settings of tetrahedra, mm: radii of the balls around facets and cells, and the distance of facets from
+    the surface. The mesh is as fine as the finest of the three asks; the angle and the ratio are always 25 degrees and 2.2."""
 
     facet_size: float = 1.0
     facet_distance: float = 0.25
@@ -69,7 +69,7 @@ class SimulationTetFixedMeshSettings(_Settings):
 
 @dataclass
 class SimulationCompilerSettings(_Settings):
-    """What a SimulationCompiler makes.
+    """Settings of a SimulationCompiler.
 
     Attributes:
         output_directory: made where it is missing; files of the same names are replaced.

@@ -1,4 +1,4 @@
-"""What scans hold."""
+"""Prints the contents of scans."""
 from __future__ import annotations
 
 from pyvcad import DICOMLoader

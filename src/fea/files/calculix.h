@@ -24,7 +24,7 @@ Conduction conduct_by_calculix(const ModelView& model, const Conditions& conditi
 
 // Results as CalculiX prints them.
 struct PrintedResults {
-  std::vector<std::array<double, 3>> displacements, forces;  // of nodes
+  std::vector<std::array<double, 3>> displacements, forces;  // values of nodes
   std::vector<double> temperatures, heat;
   std::vector<std::array<double, 6>> stresses, strains;  // means over each element: xx, yy, zz, xy, xz, yz
   std::vector<std::array<double, 3>> fluxes;

@@ -94,7 +94,7 @@ Mesh with_middle_nodes(const Mesh& tetrahedra);
 struct MeshQuality {
   size_t inverted = 0;                           // number of elements whose volume is not positive
   double least_dihedral = 0, most_dihedral = 0;  // dihedral angles of tetrahedra, degrees; 0 without tetrahedra
-  double worst_aspect = 0;  // of tetrahedra: longest edge over shortest height, divided by that of a regular one
+  double worst_aspect = 0;  // longest edge over shortest height of tetrahedra, divided by that of a regular one
   double mean_edge_mm = 0;
 };
 MeshQuality quality_of(const MeshView& mesh);

@@ -33,7 +33,7 @@ inline Moduli moduli_of(double modulus_mpa, double poissons_ratio) {
 struct Section {
   std::string name;
   Elastic elastic;
-  double conductivity = 0;  // of heat, W/(m K), or of electricity, S/m; 0: unknown
+  double conductivity = 0;  // conductivity of heat, W/(m K), or of electricity, S/m; 0: unknown
 };
 
 // A field of values for elements or nodes; each has `components` values one after the other.

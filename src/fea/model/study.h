@@ -21,7 +21,7 @@ struct Plane {
 
 // Chooses outer sides that look along a direction.
 struct Facing {
-  Vec3 direction;  // of length one
+  Vec3 direction;  // unit vector
   double most_degrees = 0;
 };
 
@@ -33,7 +33,7 @@ struct PlacedText {
 
 // Chooses nodes of a mesh that meet all conditions that are given.
 struct Selection {
-  std::optional<std::pair<int, bool>> side;  // of the bounding box: axis, and true for the upper side
+  std::optional<std::pair<int, bool>> side;  // side of the bounding box: axis, and true for the upper side
   std::optional<Box> box;                    // mm
   std::optional<Plane> plane;
   std::optional<Facing> facing;
@@ -60,7 +60,7 @@ struct Load {
   } kind = Kind::force;
   Selection on;
   Vec3 force_n;             // distributed over the outer sides there by area, or else evenly over the nodes
-  double pressure_mpa = 0;  // towards the solid
+  double pressure_mpa = 0;  // positive towards the solid
   double flow = 0;          // W or A; for a flux per mm2
   double film_w_m2k = 0, ambient_c = 0;
   std::string name;

@@ -17,7 +17,7 @@ class Factorisation;
 struct Convergence {
   size_t iterations = 0;
   std::optional<DirectUse> direct;
-  double residual = 0;  // of the last iteration, in the norm of the first
+  double residual = 0;  // residual of the last iteration, in the norm of the first
 };
 
 // Conjugate gradients (Hestenes and Stiefel, 1952) with a preconditioner, which is made once for several right sides.

@@ -12,13 +12,13 @@
 namespace ombre::fea {
 
 struct Solution {
-  std::vector<Vec3> displacement_mm;              // of nodes
+  std::vector<Vec3> displacement_mm;              // displacements of nodes
   std::vector<std::array<double, 6>> stress_mpa;  // at the centroid of each brick's part inside: xx, yy, zz, xy, yz, zx
   std::vector<std::array<double, 6>> strain;      // engineering shear
   std::vector<Prescribed> reactions_n;            // forces at held unknowns, in the order of the conditions
   size_t iterations = 0;
   std::optional<DirectUse> direct;
-  double residual = 0;   // of the last iteration, in the norm of the right side
+  double residual = 0;   // residual of the last iteration, in the norm of the right side
   double energy_mj = 0;  // strain energy, N mm
 };
 

@@ -31,7 +31,7 @@ struct LinearSystem {
 std::vector<double> product(const LinearSystem& system, const std::vector<double>& x);
 
 struct LinearOptions {
-  double tolerance = 1e-8;  // of the residual, in the norm of the right side
+  double tolerance = 1e-8;  // greatest residual, in the norm of the right side
   size_t most_iterations = 20000;
 };
 struct LinearReport {

@@ -21,7 +21,7 @@ struct DirectUse {
 };
 
 struct SolveOptions {
-  double tolerance = 1e-8;  // of the residual, in the norm of the right side
+  double tolerance = 1e-8;  // greatest residual, in the norm of the right side
   size_t most_iterations = 20000;
   int threads = 0;  // 0: all cores
   Solver solver = Solver::multigrid;

@@ -16,11 +16,11 @@ struct BundleChoices {
     static const options::Spec<BundleChoices> spec{
         option("design", &BundleChoices::design, kind::file, "The design: a .vcad, .scad or .json file", "FILE")
             .required(),
-        option("--materials", &BundleChoices::materials, kind::file, "Materials file, which is in the bundle too",
+        option("--materials", &BundleChoices::materials, kind::file, "Materials file, which goes into the bundle too",
                "FILE"),
         option("-o,--output", &BundleChoices::output, kind::file,
                "The bundle to write (default: the design's name with .ombre)", "FILE"),
-        flag("--force", &BundleChoices::force, "Replace the bundle if it is there")};
+        flag("--force", &BundleChoices::force, "Replace an existing bundle")};
     return spec;
   }
 };

@@ -55,8 +55,10 @@ struct SamplingOptions {
         option("--layer-height", &SamplingOptions::layer_height, kind::layer_height, "Voxel size along z; mm", "MM"),
         group(&SamplingOptions::rules),
         choice("--place", &SamplingOptions::place, voxel::placement_names(),
-               "Layers cover the design's own box, or the build plate with the part in its middle", "design|center"),
-        flag("--tray", &SamplingOptions::tray, "Layers cover the printer's whole build box, the design where it stands")
+               "Area of the layers: the design's own box, or the build plate with the part in its middle",
+               "design|center"),
+        flag("--tray", &SamplingOptions::tray,
+             "Make layers of the printer's whole build box, with the design where it stands")
             .excludes({"--place"})};
     return spec;
   }
@@ -75,14 +77,14 @@ struct ImageOptions {
         choice("--format", &ImageOptions::format, voxel::image_format_names(),
                "Image format: " + words_text(voxel::image_format_names()) + " (default: the printer's)", "FORMAT"),
         option("--by,--gray,--grey", &ImageOptions::by, kind::text,
-               "Images in shades of gray by an attribute or a material's fraction, black outside, in place of\n"
+               "Show an attribute or a material's fraction in shades of gray, black outside, instead of\n"
                "materials",
                "NAME"),
         option("--range", &ImageOptions::range, kind::range,
-               "The values that are black and white (default: those of the design)", "LO,HI")
+               "Values of black and white (default: the range of the design)", "LO,HI")
             .needs("--by"),
-        choice("--bits", &ImageOptions::bits, {"8", "16"}, "Of a gray pixel: 8 (default, 256 shades) or 16 (65,536)",
-               "8|16")
+        choice("--bits", &ImageOptions::bits, {"8", "16"},
+               "Bits of a gray pixel: 8 (default, 256 shades) or 16 (65,536)", "8|16")
             .needs("--by")};
     return spec;
   }

@@ -17,7 +17,7 @@ namespace ombre::compile {
 struct ValueChoice {
   std::string of;  // a material, for its fraction, or an attribute
   std::optional<Interval>
-      range;     // from black to white; nothing: from the least to the greatest inside, for a fraction 0-1
+      range;     // black and white; nothing: the least and the greatest value inside, for a fraction 0 and 1
   int bits = 8;  // bits of a pixel: 8 or 16
 };
 

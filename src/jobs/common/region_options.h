@@ -31,15 +31,15 @@ struct RegionOptions {
                    "Edge of the smallest cells; mm (default: 4 times the tolerance)", "MM"),
             option("--by", &RegionOptions::by, kind::text,
                    piece +
-                       " for the whole, each of the materials or named parts, or bands of a material's fraction or "
-                       "an attribute; of\nseveral, with commas, for each combination of their bands (default: " +
+                       " for the whole, for each material or named part, or for bands of a material's fraction or "
+                       "an\nattribute; several names with commas: for each combination of their bands (default: " +
                        usual + ")",
                    "whole|materials|parts|NAME"),
             option("--bands", &RegionOptions::bands, kind::whole,
                    "Number of bands of equal width (default 4, of the fraction that varies most)", "N")
                 .between(2, 1000),
             option("--borders", &RegionOptions::borders, rising_numbers_kind,
-                   "Values between bands: fractions from 0 to 1, or the attribute's", "V1,V2,...")
+                   "Values at the borders of bands: fractions from 0 to 1, or values of the attribute", "V1,V2,...")
                 .excludes({"--bands"})};
   }
   bool are_chosen() const { return !by.empty() || bands > 0 || !borders.empty(); }

@@ -19,7 +19,7 @@ struct SamplingRules {
                "How a mixture becomes one material a voxel: stochastic (default), blue-noise, diffusion or threshold",
                "MODE"),
         choice("--evaluator", &SamplingRules::evaluator, voxel::evaluator_names(),
-               "Who computes values: batch (default, floats, fast) or reference (double precision, slow)", "NAME"),
+               "How values are computed: batch (default, floats, fast) or reference (double precision, slow)", "NAME"),
         option("--seed", &SamplingRules::seed, kind::seed,
                "Seed of the dithering (default 0); equal seeds give equal files", "N")};
     return spec;

@@ -45,61 +45,60 @@ struct FeaChoices {
         option("--study", &F::study, kind::file, "The study: properties, supports and loads; a .json file", "FILE")
             .required(),
         choice("--elements", &F::elements, {"brick", "tet4", "tet10"},
-               "brick (default), or up to the surface tet4 or tet10: tetrahedra with\n"
-               "linear or quadratic displacements",
+               "brick (default), or tetrahedra up to the surface with linear (tet4) or\n"
+               "quadratic (tet10) displacements",
                "KIND"),
         option("--cell", &F::cell, kind::voxel, "Size of bricks: one length, or x,y,z; mm", "X,Y,Z"),
-        choice("--fill", &F::fill, {"exact", "centre"},
-               "exact (default): a brick is stiff and heavy by what of it is inside; centre: whole if its centre is "
-               "inside",
-               "RULE"),
-        option("--size", &F::size_mm, kind::number, "About the length of edges of tetrahedra; mm", "MM")
+        choice(
+            "--fill", &F::fill, {"exact", "centre"},
+            "exact (default): the part of a brick inside is stiff and heavy; centre: a brick is whole if its centre is "
+            "inside",
+            "RULE"),
+        option("--size", &F::size_mm, kind::number, "Approximate length of the edges of tetrahedra; mm", "MM")
             .between(1e-6, 1e6),
         option("--size-by", &F::size_by, kind::text,
-               "The same by a formula over x, y, z, attributes, min_cell, max_cell and h, which is 1 where there is "
-               "one\nmaterial and 0 in an even mixture of all",
+               "Size of tetrahedra by a formula in x, y, z, attributes, min_cell, max_cell and h, which is 1 for one\n"
+               "material and 0 for equal shares of all",
                "FORMULA"),
-        option("--min-cell", &F::least_mm, kind::number, "The least that --size-by may give; mm", "MM")
-            .between(1e-6, 1e6),
-        option("--max-cell", &F::most_mm, kind::number, "The most that --size-by may give; mm", "MM")
-            .between(1e-6, 1e6),
+        option("--min-cell", &F::least_mm, kind::number, "Least size by --size-by; mm", "MM").between(1e-6, 1e6),
+        option("--max-cell", &F::most_mm, kind::number, "Greatest size by --size-by; mm", "MM").between(1e-6, 1e6),
         choice("--subdomains", &F::subdomains, {"materials"},
                "materials: borders between materials become faces of tetrahedra, each of one material", "RULE"),
         options::list("-o,--output", &F::outputs, kind::file,
-                      "A file to write, .inp, .vtu, .xdmf or, of rounds, .csv; may be repeated", "FILE"),
-        flag("--solve", &F::solve, "Solve it: displacements, stresses, reactions"),
+                      "A file to write: .inp, .vtu, .xdmf, or .csv with --rounds; may be repeated", "FILE"),
+        flag("--solve", &F::solve, "Solve for displacements, stresses and reactions"),
         choice("--solver", &F::solver, {"auto", "multigrid", "direct", "calculix"},
-               "auto (default), multigrid, direct, or calculix: the program ccx, where it is installed; with "
-               "--solve.\nOn bricks auto begins with multigrid, and factorises the equations (direct) where that is "
+               "Solver: auto (default), multigrid, direct, or calculix (the program ccx, if it is installed); with "
+               "--solve.\nOn bricks auto begins with multigrid, and factorises the equations (direct) if that is "
                "slow",
                "NAME"),
         option("--rounds", &F::rounds, kind::whole,
-               "Solve, hand the results to the design, and again: at most so many times", "N")
+               "Solve again with the results of the round before in the design, at most this many times", "N")
             .between(1, 1000),
         option("--follow", &F::follow, kind::text,
-               "Of rounds: the variable of the design that names the file with the results", "NAME"),
+               "Variable of the design that gets the file with the results of the round before; with --rounds", "NAME"),
         option("--change", &F::change, kind::number,
-               "Of rounds: the greatest change of a fraction or an attribute that counts as none (default 0.001)", "X")
+               "Greatest change of a fraction or an attribute at which rounds end (default 0.001)", "X")
             .between(0, 1),
         choice("--assign", &F::assign, {"draw", "mix"},
-               "What an element of a mixture is made of: draw (default: one material, by the odds of its fractions)\n"
+               "Material of an element of a mixture: draw (default: one material, by the odds of its fractions)\n"
                "or mix (mean properties)",
                "RULE"),
         option("--modulus", &F::modulus, kind::text, "An attribute of the design that is Young's modulus in MPa",
                "NAME"),
         option("--conductivity", &F::conductivity, kind::text,
-               "In conduction: an attribute that is the conductivity in W/(m K) or S/m", "NAME"),
+               "An attribute of the design that is the conductivity in W/(m K) or S/m; in conduction", "NAME"),
         option("--sections", &F::sections, kind::whole,
-               "With mix, --modulus or --conductivity: into how many sections elements are gathered (default 64)", "N")
+               "Number of sections of elements with mix, --modulus or --conductivity (default 64)", "N")
             .between(1, 60000),
         choice("--element", &F::brick, {"C3D8", "C3D8I", "C3D8R"}, "Bricks of a deck: C3D8 (default), C3D8I or C3D8R",
                "TYPE"),
         option("--tolerance", &F::tolerance, kind::number,
-               "How near the forces must come to the loads, as a share (default 1e-8)", "X")
+               "Greatest difference of forces and loads, as a share of the loads (default 1e-8)", "X")
             .between(1e-14, 0.1),
         option("--seed", &F::seed, kind::seed, "Seed of draw (default 0)", "N"),
         group(&F::work, WorkOptions::options("Most memory for meshing or solving (default 8G)")),
-        flag("--force", &F::force, "Replace files that are there")};
+        flag("--force", &F::force, "Replace existing files")};
     return spec;
   }
 

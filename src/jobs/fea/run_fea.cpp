@@ -43,7 +43,7 @@ constexpr const char* fea_footer =
     "  .csv   with --rounds: a line for each round\n\n"
     "--rounds solves a design that reads its own results: the variable --follow gets the name of the .vtu file of the\n"
     "round before, until nothing changes. Files get the number of their round: part_1.vtu, part_2.vtu.\n\n"
-    "STUDY is a JSON file: properties of materials, what is held, what pulls.\n"
+    "STUDY is a JSON file with properties of materials, supports and loads.\n"
     "  {\"materials\": {\"red\": {\"modulus_mpa\": 2850, \"poissons_ratio\": 0.39, \"density_kg_m3\": 1180}},\n"
     "   \"supports\": [{\"on\": \"zmin\", \"fix\": \"xyz\"}],\n"
     "   \"loads\": [{\"on\": \"zmax\", \"force_n\": [0, 0, -10]}]}\n"

@@ -24,17 +24,15 @@ struct GridChoices {
         group(&GridChoices::sampling),
         option("-o,--output", &GridChoices::output, kind::file, "The file to write; its ending says the format", "FILE")
             .required(),
-        option(
-            "--what", &GridChoices::what, kind::text,
-            "What voxels hold: materials (default; .vdb, .nvdb: distance,fractions), fractions, distance, attributes\n"
-            "or names of attributes; several with commas",
-            "WHAT"),
+        option("--what", &GridChoices::what, kind::text,
+               "Contents of voxels: materials (default; .vdb, .nvdb: distance,fractions), fractions, distance,\n"
+               "attributes or names of attributes; several with commas",
+               "WHAT"),
         option("--box", &GridChoices::box, kind::box, "Only the voxels that touch this box; mm", "X0,Y0,Z0,X1,Y1,Z1"),
         group(&GridChoices::work,
               WorkOptions::options("Most memory for slabs of voxels in flight and stages (default 2G)")),
         flag("--gzip", &GridChoices::gzip, "Compress the numbers of a .nrrd file"),
-        flag("--force", &GridChoices::force,
-             "Replace files that are there, and write even if the disk seems too small")};
+        flag("--force", &GridChoices::force, "Replace existing files, and write even if the disk seems too small")};
     return spec;
   }
   // Reads the options; `usual` stands for a missing --what. Sparse grids hold distances near the surface alone. Throws

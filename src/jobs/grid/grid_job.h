@@ -16,7 +16,7 @@ namespace ombre::compile {
 enum class GridKind {
   material,   // id of the material that slicing puts there
   fraction,   // fraction of one material before dithering; 0 outside
-  distance,   // from the voxel's centre to the surface, mm, negative inside
+  distance,   // distance from the voxel's centre to the surface, mm, negative inside
   attribute,  // value of the attribute; the default outside
 };
 

@@ -41,11 +41,11 @@ constexpr const char* voxels_footer =
     "  materials   the number of the material that ombre slice puts there, 0 is void; a byte a voxel\n"
     "  fractions   a grid for each material: its fraction in each voxel before dithering, 0 outside\n"
     "  distance    mm from each voxel's centre to the surface, negative inside. Where a design has only a bound of\n"
-    "              its distance (unions inside, differences, blends) the surface may be farther; of a function\n"
-    "              only the sign is meant. ombre slice --emit tree says which. In .vdb and .nvdb a narrow\n"
-    "              band around the surface, 3 voxels to both sides\n"
-    "  attributes  a grid for each attribute of the design, in its unit; its default outside. Of vectors, colours and\n"
-    "              mixtures one for each of their numbers\n"
+    "              its distance (unions inside, differences, blends) the surface may be farther away; for a\n"
+    "              function only the sign has a meaning. ombre slice --emit tree says which. .vdb and .nvdb hold a\n"
+    "              narrow band around the surface, 3 voxels to both sides\n"
+    "  attributes  a grid for each attribute of the design, in its unit; its default outside. Vectors, colours and\n"
+    "              mixtures have one for each of their numbers\n"
     "  NAME        the attribute of that name, or one of its numbers (fibre.x); several with commas\n\n"
     "Examples:\n"
     "  ombre voxels part.vcad -o part.npy                        materials, as ombre slice has them\n"
@@ -124,7 +124,8 @@ void warn_of_metric(const Events& events, const compile::GridJob& job) {
     return grid.kind == compile::GridKind::distance;
   });
   if (has_distance && job.metric.is_implicit())
-    events.warn("of this design's distance only the sign is meant, since a formula gives it; its values are no mm");
+    events.warn(
+        "only the sign of this design's distance has a meaning, since a formula gives it; its values are not in mm");
 }
 
 // Returns the files of a grid, without descriptions beside them.

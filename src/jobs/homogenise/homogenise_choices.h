@@ -29,31 +29,30 @@ struct HomogeniseChoices {
     using H = HomogeniseChoices;
     static const options::Spec<H> spec{
         group(&H::design),
-        option("--cell", &H::cell_mm, kind::number, "About how large bricks are, mm", "MM")
+        option("--cell", &H::cell_mm, kind::number, "Approximate size of bricks, mm", "MM")
             .required()
             .between(1e-6, 1e6),
         option("--box", &H::box, kind::box, "The box that repeats, mm (default: that of the design)",
                "X0,Y0,Z0,X1,Y1,Z1"),
         option("--study", &H::study, kind::file, "Properties of materials; a .json file", "FILE"),
         option("--density", &H::density, kind::number,
-               "Which share of the box is to be solid: a variable of the design is found for it", "X")
+               "Share of the box that is to be solid: a variable of the design is changed until it is", "X")
             .between(1e-6, 1),
-        option("--by", &H::by, kind::text, "Of --density: the variable, and between which values it is searched",
-               "NAME=LOW:HIGH"),
+        option("--by", &H::by, kind::text, "The variable for --density, and the range of its values", "NAME=LOW:HIGH"),
         choice("--assign", &H::assign, {"draw", "mix"},
-               "What a brick of a mixture is made of: draw (default: one material, by the odds of its fractions) or\n"
+               "Material of a brick of a mixture: draw (default: one material, by the odds of its fractions) or\n"
                "mix (mean properties)",
                "RULE"),
         choice("--fill", &H::fill, {"exact", "centre"},
-               "exact (default): a brick is stiff by what of it is inside; centre: whole if its centre is inside",
+               "exact (default): the part of a brick inside is stiff; centre: a brick is whole if its centre is inside",
                "RULE"),
         option("--seed", &H::seed, kind::seed, "Seed of draw (default 0)", "N"),
         option("-o,--output", &H::output, kind::file, "A chart of Young's modulus by direction, .svg", "FILE"),
-        option("--tolerance", &H::tolerance, kind::number, "How near the forces must come to balance (default 1e-6)",
+        option("--tolerance", &H::tolerance, kind::number, "Greatest imbalance of forces, as a share (default 1e-6)",
                "X")
             .between(1e-12, 0.1),
         group(&H::work, WorkOptions::options("Most memory for solving (default 8G)")),
-        flag("--force", &H::force, "Replace a file that is there")};
+        flag("--force", &H::force, "Replace an existing file")};
     return spec;
   }
 };

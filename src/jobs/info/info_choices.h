@@ -23,13 +23,14 @@ struct InfoChoices {
                "FILE")
             .required(),
         option("--series", &InfoChoices::series, kind::text,
-               "Of several DICOM series, its number or UID; of several grids, its name", "NAME"),
+               "Number or UID of one of several DICOM series, or name of one of several grids", "NAME"),
         option("--channel", &InfoChoices::channel, kind::whole,
-               "Of several values in each voxel of a volume, counted from 0", "N")
+               "Number of one of several values in each voxel of a volume, counted from 0", "N")
             .between(0, 100000),
         option("--picture", &InfoChoices::picture, kind::file,
-               "Write a picture of a volume there: the planes in its middle along x and y, x and z, y and z", "FILE"),
-        flag("--force", &InfoChoices::force, "Replace a picture that is there")};
+               "Write a picture of a volume to this file: the planes in its middle along x and y, x and z, y and z",
+               "FILE"),
+        flag("--force", &InfoChoices::force, "Replace an existing picture")};
     return spec;
   }
 };

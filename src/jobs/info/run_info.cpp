@@ -149,9 +149,9 @@ int show_file(const InfoChoices& a, Session& session) {
 JobKind info_kind() {
   return job_kind<InfoChoices>(
       "info", "Say what a volume, a design, results or a script hold",
-      "Of a volume (a scan, a grid): size, voxels, orientation, values and how often they occur. Of a design: its\n"
-      "attributes with type, unit and range, and how much of it the meshes of its results hold. Of results of a\n"
-      "simulation: their fields. Of an OpenSCAD script: its parameters.\n\n"
+      "For a volume (a scan, a grid) it prints size, voxels, orientation, values and how often they occur. For a\n"
+      "design it prints attributes with type, unit and range, and the share that lies in the meshes of its results;\n"
+      "for results of a simulation the fields, and for an OpenSCAD script the parameters.\n\n"
       "Examples:\n  ombre info models/two_lobes.nrrd\n  ombre info scan/ --picture planes.png\n  ombre info "
       "part.vcad\n  ombre info seat.vtu\n",
       show_file);

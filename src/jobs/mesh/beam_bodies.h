@@ -12,7 +12,7 @@ namespace ombre::compile {
 struct BeamBody {
   std::vector<Vec3> vertices;         // mm
   std::vector<formats::Beam> beams;   // ends are flat, half balls, or, if both radii are equal, balls
-  std::vector<MaterialId> materials;  // of the beams, if each has its own
+  std::vector<MaterialId> materials;  // materials of the beams, if each has its own
   design::Rgba colour{};              // colour of the whole body
   formats::LatticeClipping clipping = formats::LatticeClipping::none;
   std::optional<size_t> clip;  // index of the clip

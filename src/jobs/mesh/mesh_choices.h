@@ -39,24 +39,24 @@ struct MeshChoices {
                                                             "a thousandth of its longest side, up to five where "
                                                             "there would be many cells")),
         option("--colour-by,--color-by", &MeshChoices::colour_by, kind::text,
-               "Colours of vertices by an attribute, or by the mixture: materials; not for .stl and .off",
+               "Colour vertices by an attribute, or by the mixture (materials); not for .stl and .off",
                "materials|NAME"),
-        choice("--palette", &MeshChoices::palette, palette_names(), "Of an attribute that is a number", "NAME")
+        choice("--palette", &MeshChoices::palette, palette_names(), "Palette of an attribute that is a number", "NAME")
             .needs("--colour-by"),
         option("--range", &MeshChoices::range, kind::range,
-               "The values from the first colour to the last (default: those at the vertices)", "LO,HI")
+               "Values of the first and the last colour (default: the range at the vertices)", "LO,HI")
             .needs("--colour-by"),
-        flag("--keep-all", &MeshChoices::keep_all, "Keep the triangles of all cells, also where the surface is flat"),
+        flag("--keep-all", &MeshChoices::keep_all, "Keep the triangles of all cells, even where the surface is flat"),
         choice("--flavour,--flavor", &MeshChoices::flavour, {"generic", "prusa", "bambu"},
-               "Whom a .3mf is for: generic (default), prusa or bambu", "SLICER"),
+               "Program that a .3mf is for: generic (default), prusa or bambu", "SLICER"),
         options::list(
             "--setting", &MeshChoices::settings, kind::text,
             "A slicer's setting for the bodies: KEY=VALUE, KEY=FIRST..LAST from the first region to the last, "
             "or\nKEY=V1,V2,... one by one; may be repeated",
             "KEY=VALUE"),
-        flag("--beams", &MeshChoices::beams, "Write struts and lattices as beams, where they can be; .3mf only"),
+        flag("--beams", &MeshChoices::beams, "Write struts and lattices as beams if possible; .3mf only"),
         group(&MeshChoices::work, WorkOptions::options("Most memory for the cells at the surface (default 4G)")),
-        flag("--force", &MeshChoices::force, "Replace the file if it is there")};
+        flag("--force", &MeshChoices::force, "Replace an existing file")};
     return spec;
   }
   MeshRequest request() const;

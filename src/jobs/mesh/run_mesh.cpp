@@ -27,14 +27,14 @@ using compile::MeshChoices;
 
 constexpr const char* mesh_footer =
     ". Without -o the file is a .3mf. Bodies share their borders exactly: no gaps, no overlaps.\n\n"
-    "What is thinner than a cell may be lost. Cells are cut finer where the surface would lie farther off than the\n"
-    "tolerance, and triangles are drawn together where it is flat within it. A warning says what remains.\n\n"
+    "Details thinner than a cell may be lost. Cells are cut finer where the surface would lie farther off than the\n"
+    "tolerance, and triangles are joined where it is flat within the tolerance. A warning tells what remains.\n\n"
     "Examples:\n"
     "  ombre mesh part.vcad                               a body for each material, in part.3mf\n"
     "  ombre mesh part.vcad --by whole -o part.stl        one body\n"
     "  ombre mesh part.vcad --tolerance 0.01\n"
     "  ombre mesh part.vcad --by parts --flavour prusa    a body for each named part, with its own extruder\n"
-    "  ombre mesh part.vcad --beams -o part.3mf           struts as beams of a 3MF file, all else as "
+    "  ombre mesh part.vcad --beams -o part.3mf           struts as beams of a 3MF file, the rest as "
     "triangles\n"
     "  ombre mesh part.vcad --bands 4                     four bodies by the fraction that varies most\n"
     "  ombre mesh part.vcad --by red --borders 0.2,0.5    three bodies: red below 20 %, to 50 %, from there on\n"

@@ -22,11 +22,11 @@ struct OptimiseChoices {
         option("--study", &O::study, kind::file,
                "The study: variables, objectives, constraints; or topology; a .json file", "FILE")
             .required(),
-        option("-o,--output", &O::folder, kind::file, "The folder for what is found", "FOLDER").required(),
+        option("-o,--output", &O::folder, kind::file, "The folder for the results", "FOLDER").required(),
         flag("--force", &O::force, "Begin again in a folder that has a history"),
         flag("--resume", &O::resume, "Go on with the history in the folder").excludes({"--force"}),
-        option("--best", &O::best, kind::whole, "Write at most so many of the best designs as scripts (default 10)",
-               "N")
+        option("--best", &O::best, kind::whole,
+               "Greatest number of best designs that are written as scripts (default 10)", "N")
             .between(1, 10000),
         group(&O::work, WorkOptions::options("Most memory for solving several designs at once (default 8G)"))};
     return spec;

@@ -60,7 +60,7 @@ struct OptimiseStudy {
   std::optional<ModelChoice> model;  // set if a measure needs bricks
   optimise::SearchOptions search;
 
-  std::vector<Measure> measures() const;  // of objectives, then of limits
+  std::vector<Measure> measures() const;  // measures of objectives, then of limits
   bool needs_solution() const;
 };
 

@@ -34,7 +34,7 @@ using compile::OptimiseStudy;
 using optimise::Outcome;
 
 constexpr const char* optimise_footer =
-    "STUDY is a JSON file: what may change, what shall become small, what has limits.\n"
+    "STUDY is a JSON file with variables, objectives and constraints.\n"
     "  {\"variables\": {\"width\": {\"from\": 2, \"to\": 10}, \"ribs\": {\"from\": 1, \"to\": 6, \"whole\": true}},\n"
     "   \"objectives\": [{\"minimise\": \"mass\"}],\n"
     "   \"constraints\": [{\"measure\": \"displacement\", \"axis\": \"z\", \"at_most\": 0.5}],\n"

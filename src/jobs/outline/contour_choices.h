@@ -24,15 +24,15 @@ struct ContourChoices {
     static const options::Spec<ContourChoices> spec{
         group(&ContourChoices::design),
         option("-o,--output", &ContourChoices::output, kind::file,
-               "The folder or file to write; a file's ending says the format", "FOLDER|FILE")
+               "The folder or file to write; the ending of a file decides its format", "FOLDER|FILE")
             .required(),
         option("--layer-height", &ContourChoices::layer_height, kind::layer_height,
                "Height of layers; mm (default: the design's own, else 0.1)", "MM"),
-        option("--z", &ContourChoices::z_mm, kind::height, "Only one layer: what is cut at this height; mm", "MM"),
+        option("--z", &ContourChoices::z_mm, kind::height, "Write only the layer at this height; mm", "MM"),
         group(&ContourChoices::regions,
               RegionOptions::options("An outline", "whole", "a thousandth of its longest side")),
         group(&ContourChoices::work, WorkOptions::options("Most memory for layers in flight and stages (default 2G)")),
-        flag("--force", &ContourChoices::force, "Replace files that are there")};
+        flag("--force", &ContourChoices::force, "Replace existing files")};
     return spec;
   }
   ContourRequest request() const;

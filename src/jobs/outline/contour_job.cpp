@@ -14,7 +14,7 @@
 namespace ombre::compile {
 namespace {
 
-constexpr int64_t most_corners = int64_t{1} << 30;  // of a layer
+constexpr int64_t most_corners = int64_t{1} << 30;  // limit for a layer
 constexpr int64_t most_layers = int64_t{1} << 30;
 
 Pitch chosen_height(const design::Design& design, const ContourRequest& request) {

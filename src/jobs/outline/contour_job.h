@@ -29,7 +29,7 @@ struct ContourRegion {
 };
 
 struct ContourPlan {
-  Box box;  // of the design
+  Box box;  // box of the design
   double tolerance_mm = 0;
   surface::Partition partition;
   std::vector<ContourRegion> regions;  // without void

@@ -76,7 +76,7 @@ class EndsMemory : public render::KnownEnds {
   design::SubDesignMemory& memory_;
 };
 
-constexpr int64_t most_rays = 2'000'000;  // of a band
+constexpr int64_t most_rays = 2'000'000;  // limit for a band
 
 class Studio {
  public:
@@ -338,7 +338,7 @@ class Studio {
   Box whole_;
   SceneOptions options_;
   std::optional<Interval> shown_range_;  // range of the colours
-  int64_t width_ = 0, height_ = 0;       // of the shown part, pixels
+  int64_t width_ = 0, height_ = 0;       // size of the shown part, pixels
   int64_t samples_ = request_.samples;
   std::optional<PictureLabels> labels_;
   bool is_empty_ = true;  // in the current frame

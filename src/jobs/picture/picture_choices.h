@@ -58,11 +58,11 @@ struct PictureChoices {
         group(&P::design),
         option("-o,--output", &P::output, kind::file,
                "The picture to write, - for stdout (default: the design's name with .png)", "FILE"),
-        option("--size", &P::size, size_kind, "Of the picture in pixels (default 800x600)", "WxH"),
+        option("--size", &P::size, size_kind, "Size of the picture in pixels (default 800x600)", "WxH"),
         choice("--view", &P::view, render::view_names(),
-               "From where: iso (default), front, back, left, right, top or bottom", "NAME"),
+               "Direction of view: iso (default), front, back, left, right, top or bottom", "NAME"),
         option("--from", &P::angles_deg, angles_kind,
-               "From where, as angles: azimuth (0 in front, 90 from the right), elevation", "AZ,EL")
+               "Direction of view by angles: azimuth (0 in front, 90 from the right), elevation", "AZ,EL")
             .excludes({"--view"}),
         option("--perspective", &P::perspective_deg, kind::number,
                "Vertical field of view; degrees (default 0: parallel rays)", "DEG")
@@ -72,43 +72,43 @@ struct PictureChoices {
                       "Cut along a plane: x=0 takes away the side of the eye, x>0 or x<0 that side; x>0,y<0 takes a "
                       "wedge out; may be repeated",
                       "PLANE"),
-        option("--box", &P::box, kind::box, "Show only what is within this box; mm", "X0,Y0,Z0,X1,Y1,Z1"),
+        option("--box", &P::box, kind::box, "Show only the inside of this box; mm", "X0,Y0,Z0,X1,Y1,Z1"),
         options::list("--opacity", &P::opacity, opacity_kind,
-                      "Of a material, 0 (clear) to 1, in place of its own; may be repeated", "MATERIAL=N"),
+                      "Opacity of a material, 0 (clear) to 1, instead of its own; may be repeated", "MATERIAL=N"),
         option(
             "--by,--colour-by,--color-by", &P::by, kind::text,
             "Colour by a material's fraction or an attribute, from dark blue (least) to yellow, or\nby parts, each in "
             "a colour of its own",
             "NAME|parts"),
         option("--range", &P::range, kind::range,
-               "The values from the first colour to the last (default: those of the design)", "LO,HI")
+               "Values of the first and the last colour (default: the range of the design)", "LO,HI")
             .needs("--by"),
         choice("--palette", &P::palette, palette_names(),
-               "From the least value to the greatest: " + join(palette_names(), ", "), "NAME")
+               "Colours from the least value to the greatest: " + join(palette_names(), ", "), "NAME")
             .needs("--by"),
         option("--deform", &P::deform, kind::number,
-               "Of results (.vtu, .xdmf, .frd): how many times the displacement moves the part (default 0)", "X"),
-        option("--background", &P::background, colour_kind, "white (default), black, gray, transparent or #rrggbb",
-               "COLOUR"),
+               "Factor of the displacement that moves the mesh of results (.vtu, .xdmf, .frd; default 0)", "X"),
+        option("--background", &P::background, colour_kind,
+               "Colour of the background: white (default), black, gray, transparent or #rrggbb", "COLOUR"),
         option("--aa", &P::samples, kind::whole, "Rays along the edge of a pixel, which smooth edges (default 2)", "N")
             .between(1, 8),
         option("--frames", &P::frames, kind::whole, "Pictures all around the part, numbered (default 1)", "N")
             .between(1, 3600),
         group(&P::work, WorkOptions::options("Most memory for rays, pixels and stages (default 4G)")),
         option("--slice", &P::slice, plane_kind,
-               "The plane x, y or z = mm in place of a view: flat, in the materials' colours", "PLANE")
+               "Show the plane x, y or z = mm instead of a view: flat, in the materials' colours", "PLANE")
             .excludes({"--view", "--from", "--perspective", "--opacity", "--frames"}),
         flag("--axes", &P::axes, "Draw the directions x, y and z in the corner"),
         flag("--scale-bar", &P::scale_bar, "Draw a length in mm; in perspective it holds at the part's middle"),
         flag("--legend", &P::legend, "List the materials and their colours"),
-        flag("--annotate", &P::annotate, "Axes, scale bar and legend"),
+        flag("--annotate", &P::annotate, "Draw axes, scale bar and legend"),
         choice("--outlines", &P::outlines, {"parts", "materials"},
                "Draw the borders between parts or materials, as they are seen", "parts|materials"),
-        choice("--names", &P::names, {"parts", "materials"}, "Write the names of parts or materials upon them",
+        choice("--names", &P::names, {"parts", "materials"}, "Write the names of parts or materials on them",
                "parts|materials"),
-        option("--font", &P::font, kind::file, "Of what is written (default: DejaVu Sans, or another of the system's)",
-               "FILE"),
-        flag("--force", &P::force, "Replace pictures that are there")};
+        option("--font", &P::font, kind::file,
+               "Font of the labels (default: DejaVu Sans, or another font of the system)", "FILE"),
+        flag("--force", &P::force, "Replace existing pictures")};
     return spec;
   }
   PictureRequest request() const;

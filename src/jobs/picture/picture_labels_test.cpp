@@ -102,7 +102,7 @@ TEST_F(Labels, LegendsHaveTheColours) {
   request.annotations.legend = true;
   const auto picture = take("union() { sphere(5, \"blue\"); translate(9, 0, 0) sphere(5, \"green\"); }", request);
   ASSERT_TRUE(picture);
-  std::vector<Pixel> swatches;  // on the right, in rows of 1.6 lines
+  std::vector<Pixel> swatches;  // swatches on the right, in rows of 1.6 lines
   for (const int64_t row : {16, 34}) {
     for (int64_t column = width - 1; column > 0; --column) {
       const Pixel p = at(*picture, column, row);

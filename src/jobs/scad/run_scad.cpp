@@ -46,7 +46,7 @@ struct ScadChoices {
             .needs("--parameter-file"),
         option("-d,--dependencies", &ScadChoices::dependencies, kind::file,
                "Write the files that the script reads, as a rule for make", "FILE"),
-        option("--export-format", &ScadChoices::format, kind::text, "What to write, whatever the ending", "FORMAT"),
+        option("--export-format", &ScadChoices::format, kind::text, "Format to write, whatever the ending", "FORMAT"),
         options::list("--library", &ScadChoices::libraries, kind::file,
                       "A folder of libraries, before those of OPENSCADPATH", "FOLDER"),
         option("--materials", &ScadChoices::materials, kind::file, "A materials file, for scripts that say use <ombre>",

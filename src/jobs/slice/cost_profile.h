@@ -9,8 +9,8 @@
 namespace ombre::compile {
 
 struct LayerCost {
-  double seconds = 0;  // of one thread
-  double bytes = 0;    // of images
+  double seconds = 0;  // time on one thread
+  double bytes = 0;    // size of images
 };
 
 // A profile in which the cost of a layer changes linearly between known slabs, and is constant beyond them.

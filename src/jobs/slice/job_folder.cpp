@@ -125,7 +125,7 @@ void refuse_used_folder(const std::string& path, FolderUse use) {
                 {{"file", path}});
   }
   const std::vector<std::string> names = names_in(path);
-  const std::string unfinished = job_file + std::string(part_suffix);  // of a run without layers
+  const std::string unfinished = job_file + std::string(part_suffix);  // left by a run without layers
   const auto foreign = std::ranges::find_if(names, [&](const std::string& name) { return name != unfinished; });
   if (foreign != names.end())
     throw Error(Code::exists,

@@ -20,8 +20,8 @@ struct JournalFile {
 struct JournalEntry {
   int64_t layer = 0;                     // counted from the lowest layer of the job
   std::vector<JournalFile> files;        // empty if an empty layer was dropped
-  std::vector<uint64_t> voxels;          // of each of the job's materials
-  std::vector<voxel::CheckHits> checks;  // of each of the job's checks
+  std::vector<uint64_t> voxels;          // count for each of the job's materials
+  std::vector<voxel::CheckHits> checks;  // hits of each of the job's checks
 
   bool is_empty() const;
 };

@@ -33,7 +33,7 @@ const Data* member(const Data* object, const char* name) { return object ? objec
 struct JobSummary {
   exporting::SheetStyle style;
   ImageFormat format = ImageFormat::indexed;
-  std::vector<formats::Rgba> colours;  // of the materials, without void
+  std::vector<formats::Rgba> colours;  // colours of the materials, without void
   double origin_z_mm = 0, layer_mm = 0;
   size_t check_count = 0;
 };

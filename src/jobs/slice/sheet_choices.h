@@ -17,9 +17,9 @@ struct SheetChoices {
     static const options::Spec<SheetChoices> spec{
         option("folder", &SheetChoices::folder, kind::file, "Folder of a slice job", "DIR").required(),
         option("-o,--output", &SheetChoices::picture, kind::file, "The picture to write (default sheet.png)", "FILE"),
-        option("--count", &SheetChoices::layers, kind::whole, "How many layers, evenly spaced (default 12)", "N")
+        option("--count", &SheetChoices::layers, kind::whole, "Number of layers, evenly spaced (default 12)", "N")
             .between(1, 200),
-        flag("--force", &SheetChoices::force, "Replace the picture if it is there")};
+        flag("--force", &SheetChoices::force, "Replace an existing picture")};
     return spec;
   }
 };

@@ -29,19 +29,19 @@ struct SliceChoices {
         option("-o,--output", &SliceChoices::folder, kind::file,
                "Folder for the layers (default: the design's name and _slices)", "DIR"),
         option("--layers", &SliceChoices::layers, kind::text,
-               "Only these layers, a:b as in Python (b excluded), a:, :b or a", "A:B"),
-        option(
-            "--box", &SliceChoices::box, kind::box,
-            "Only the voxels that touch this box, with the materials and in layers with the names that they have in\n"
-            "the whole job; mm",
-            "X0,Y0,Z0,X1,Y1,Z1")
+               "Write only these layers: a:b as in Python (b excluded), a:, :b or a", "A:B"),
+        option("--box", &SliceChoices::box, kind::box,
+               "Write only the voxels that touch this box; mm. Their materials and the names of their layers are\n"
+               "those of the whole job",
+               "X0,Y0,Z0,X1,Y1,Z1")
             .excludes({"--layers"}),
         group(&SliceChoices::work,
               WorkOptions::options("Most memory for layers in flight, with their images and what evaluating them takes "
                                    "(default 2G)")),
         flag("--force", &SliceChoices::force, "Replace the job in the folder, or write beside other files; those stay"),
         flag("--resume", &SliceChoices::resume, "Continue the job in the folder").excludes({"--force"}),
-        flag("--dry-run", &SliceChoices::dry_run, "Say what the job would take, from a few layers; write nothing"),
+        flag("--dry-run", &SliceChoices::dry_run,
+             "Estimate time and memory of the job from a few layers, and write nothing"),
         flag("--strict", &SliceChoices::strict, "End with exit code 3 as soon as a check fails"),
         choice("--emit", &SliceChoices::emit, emit_forms(), "Print an intermediate form to stdout, and slice nothing",
                "FORM")};
@@ -81,7 +81,7 @@ struct LayerChoices {
         option("--box", &LayerChoices::box, kind::rectangle, "Only the pixels that touch this box; mm", "X0,Y0,X1,Y1"),
         group(&LayerChoices::work,
               WorkOptions::options("Most memory for the layer, its image and stages (default 2G)")),
-        flag("--force", &LayerChoices::force, "Replace the image if it is there")};
+        flag("--force", &LayerChoices::force, "Replace an existing image")};
     return spec;
   }
 };

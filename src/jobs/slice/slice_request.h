@@ -120,7 +120,7 @@ struct SliceReport {
 
 struct SliceEstimate {
   double seconds = 0;
-  uint64_t bytes = 0;               // of image files
+  uint64_t bytes = 0;               // size of image files
   bool is_least = false;            // nothing was done in time: it takes this long at least, and bytes are unknown
   size_t memory_bytes = 0;          // the most that layers in flight can take
   std::vector<CheckReport> checks;  // checks that failed in the sampled layers

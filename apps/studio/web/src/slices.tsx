@@ -33,7 +33,7 @@ function fit(plan: Plan, canvas: HTMLCanvasElement): Look {
 class Painter {
   tiles = new Tiles(() => this.paint());
   look?: Look;
-  private before?: { plan: Plan; tiles: Tile[] }; // what was complete last
+  private before?: { plan: Plan; tiles: Tile[] }; // the last complete layer
   constructor(private canvas: HTMLCanvasElement) {}
 
   paint() {

@@ -105,7 +105,7 @@ export interface Hello {
   printers: { name: string; title: string }[];
   job_options: JobOption[]; // options of `ombre slice`
   kinds: JobKind[]; // kinds of other jobs
-  palettes: { name: string; colours: number[][] }[]; // from the least value to the greatest, mixed in linear light
+  palettes: { name: string; colours: number[][] }[]; // colours from the least value to the greatest, mixed in linear light
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
 }
@@ -151,7 +151,7 @@ export interface Probe {
   composition: Record<string, number>;
   attributes: Record<string, number>;
   parts: string[];
-  nodes: NodeCall[]; // from the outermost to the innermost solid that holds the point
+  nodes: NodeCall[]; // nodes from the outermost to the innermost solid that holds the point
   voxel: { index?: number[]; material?: string };
 }
 

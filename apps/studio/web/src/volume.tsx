@@ -25,13 +25,13 @@ out vec4 colour;
 uniform sampler3D fractions0, fractions1;
 uniform vec3 origin, size, target, right, down, forward;
 uniform float height, aspect, unit;
-uniform float distance_to_eye; // from the target; 0: rays are parallel
-uniform vec3 box_lo, box_hi;    // only what is within
-uniform vec3 wedge, wedge_at;   // what lies on all sides is left away; 1 and -1 are sides, 0 any
+uniform float distance_to_eye; // distance from the target; 0: rays are parallel
+uniform vec3 box_lo, box_hi; // only the inside is shown
+uniform vec3 wedge, wedge_at; // the part on all these sides is removed; 1 and -1 are sides, 0 any
 uniform bool has_wedge;
 uniform int steps;
 uniform vec4 materials[${most}]; // colours, and opacities in w
-uniform bool by_value;          // fractions0 has a value times what is inside, and what is inside
+uniform bool by_value; // fractions0 has the value times the share inside, and the share inside
 uniform sampler2D transfer;     // colours, and opacities in w, from the least value to the greatest
 
 float[${most}] fractions(vec3 p) {
@@ -44,7 +44,7 @@ vec4 shade_of_value(vec3 p) {
   vec4 shade = texture(transfer, vec2((clamp(v.r / v.g, 0.0, 1.0) * ${tableSize - 1}.0 + 0.5) / ${tableSize}.0, 0.5));
   return vec4(shade.rgb, 1.0) * shade.a * v.g;
 }
-// The opacity in w, and colours times it.
+// Returns the opacity in w, and colours times it.
 vec4 shade_at(vec3 p) {
   if (by_value) return shade_of_value(p);
   float f[${most}] = fractions(p);
