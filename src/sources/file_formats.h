@@ -8,7 +8,7 @@
 
 namespace ombre::sources {
 
-// In the order of their contents.
+// Returns the formats, sorted by content.
 const std::vector<FileFormat>& file_formats();
 
 // True if a file of this name holds that, and is read.

@@ -26,7 +26,7 @@ struct DenseGrid {
 // named, if the grid holds no numbers or more than 16 GiB, and in builds without the library. Throws Cancelled once
 // `stop`, which may be null, is set.
 DenseGrid read_grid(const std::string& path, const std::string& name, int channel, const StopFlag* stop);
-// Those of OpenVDB and NanoVDB.
+// Returns the formats of OpenVDB and NanoVDB.
 std::vector<ombre::FileFormat> file_formats();
 bool is_vdb(std::string_view bytes);
 

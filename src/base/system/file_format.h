@@ -12,7 +12,7 @@
 
 namespace ombre {
 
-// What a file holds.
+// The kind of content of a file.
 enum class Content : uint8_t { mesh, cad, volume, image, drawing, outlines, elements, results, table, last = table };
 
 // "surface meshes", in the plural.
