@@ -28,7 +28,7 @@ def main():
         subprocess.run([sys.executable, "-m", "venv", venv], check=True)
         environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "OMBRE_DATA")}
         environment["CXX"] = "c++"  # the name that the compiler cache knows
-        subprocess.run([venv / "bin" / "pip", "install", "--quiet", sources], check=True, env=environment)
+        subprocess.run([venv / "bin" / "pip", "install", "--quiet", sources, sources / "bindings" / "pyvcad"], check=True, env=environment)
         subprocess.run([venv / "bin" / "python", "-W", "error", "-c", USE], check=True, cwd=scratch, env=environment)
         subprocess.run([venv / "bin" / "ombre", "nodes"], check=True, cwd=scratch, env=environment,
                        stdout=subprocess.DEVNULL)

@@ -1,19 +1,5 @@
-"""Checks of the Python package, run by ctest with the built package on the path."""
 import pathlib
-import subprocess
 import sys
 
-import pytest
-
-sources = pathlib.Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture
-def run_program(tmp_path):
-    """Runs the command line in an empty folder."""
-    def run(*arguments, status=0):
-        result = subprocess.run([sys.executable, "-m", "ombre", *map(str, arguments)], cwd=tmp_path, text=True,
-                                capture_output=True, timeout=120)
-        assert result.returncode == status, result.stderr
-        return result
-    return run
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from python_fixtures import *  # noqa: E402, F403

@@ -20,7 +20,7 @@ def bcc_distance(p, size, radius):
 
 
 def test_listing_4():
-    design = ombre.load(here / "listings" / "listing4.py")
+    design = ombre.load(here.parent / "pyvcad" / "listings" / "listing4.py")
     assert design.bounds == ((-10, -10, -10), (10, 10, 10))
     p = numpy.random.default_rng(1).uniform(-10, 10, (3000, 3))
     expected = numpy.maximum(bcc_distance(p.T, 5, 0.35), numpy.linalg.norm(p, axis=1) - 10)
