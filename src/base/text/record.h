@@ -135,7 +135,7 @@ Field<T> text(std::string name, Member T::*member) {
           }};
 }
 
-// One of the words, which are in the order of an enumeration's values; or false and true.
+// A choice of words, which are in the order of an enumeration's values; or false and true.
 template <class T, class Member>
 Field<T> choice(std::string name, Member T::*member, std::vector<std::string> words) {
   return {name, [=](T& value, const Data& data, const RecordErrors& errors) {
@@ -165,7 +165,7 @@ Field<T> objects(std::string name, std::vector<Part> T::*member, Record<Part> re
           }};
 }
 
-// What else `read` makes of the member: void(T& value, const Data& data, const RecordErrors& errors).
+// A member of another kind, which `read` sets: void(T& value, const Data& data, const RecordErrors& errors).
 template <class T, class Read>
 Field<T> special(std::string name, Read read) {
   return {std::move(name), read};
