@@ -4,7 +4,6 @@ import html
 import json
 import os
 import pathlib
-import tempfile
 import textwrap
 
 import numpy
@@ -347,10 +346,8 @@ class Design:
 
     def view(self, frames=36, **options):
         """A page for the browser, as text, that holds pictures from all around and turns the part; options of `render`."""
-        from ._show import viewer_page
-        with tempfile.TemporaryDirectory(prefix="ombre_") as folder:
-            self._job("render", os.path.join(folder, "turn.png"), None, {"frames": frames, **options})
-            pictures = [path.read_bytes() for path in sorted(pathlib.Path(folder).glob("*.png"))]
+        from ._show import pictures_in, viewer_page
+        pictures = pictures_in(run("render", {"output": "-", "frames": frames}, options, self._core)[1])
         return viewer_page(pictures, ", ".join(name for name, _ in self.parts))
 
     def show(self, path=None, **options):

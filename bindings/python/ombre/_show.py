@@ -2,6 +2,7 @@
 import base64
 import html
 import os
+import struct
 import sys
 import tempfile
 import webbrowser
@@ -32,6 +33,20 @@ document.onkeydown = e => turn(e.key === "ArrowLeft" ? -1 : e.key === "ArrowRigh
 turn(0);
 </script></body></html>
 """
+
+
+def pictures_in(data):
+    """The PNG files that follow each other in the bytes."""
+    pictures, begin, place = [], 0, 0
+    while place < len(data):
+        if place == begin:
+            place += 8  # the signature
+        size, kind = struct.unpack(">I4s", data[place:place + 8])
+        place += 12 + size  # length, kind and checksum besides
+        if kind == b"IEND":
+            pictures.append(data[begin:place])
+            begin = place
+    return pictures
 
 
 def viewer_page(pictures, title):

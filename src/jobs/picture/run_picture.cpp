@@ -32,13 +32,16 @@ constexpr const char* render_footer =
     "  ombre render part.vcad --by density --cut y=0 --legend    an attribute, cut open\n"
     "  ombre render part.vtu --by von_mises --deform 5 --legend  results of ombre fea, displacements five times as "
     "large\n"
-    "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n";
+    "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n"
+    "  ombre render part.vcad --frames 36 -o - | ffmpeg -f image2pipe -i - turn.mp4\n";
 
-// Returns the files: turn.png becomes turn_00.png and so on if there are several frames.
+// Returns the files: turn.png becomes turn_00.png and so on if there are several frames. Returns none for stdout, where
+// pictures follow each other.
 std::vector<std::string> output_files(const PictureChoices& a) {
   namespace fs = std::filesystem;
+  if (a.output == "-") return {};
   const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
-  if (const std::string ending = ending_of(path); !ending.empty() && ending != ".png" && a.output != "-")
+  if (const std::string ending = ending_of(path); !ending.empty() && ending != ".png")
     throw WrongArgument(spelled::option("-o", a.output) + ": pictures are PNG files; write for example -o " +
                         fs::path(path).replace_extension(".png").string());
   if (a.frames == 1) return {path.string()};
@@ -75,8 +78,8 @@ int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& 
   const auto take = [&](int frame, const compile::Picture& picture) {
     const std::string bytes =
         formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
+    if (files.empty()) return session.events.print(bytes);
     const std::string& file = files[static_cast<size_t>(frame)];
-    if (file == "-") return session.events.print(bytes);
     exporting::write_file(file, bytes);
     progress.finish();
     session.events.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
@@ -90,16 +93,13 @@ int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& 
 
 int render_design(const PictureChoices& a, Session& session) {
   const compile::PictureRequest request = a.request();
-  const bool to_stdout = a.output == "-";
-  if (to_stdout && session.events.prints_among_events())
+  if (a.output == "-" && session.events.prints_among_events())
     throw WrongArgument("-o - writes the picture to stdout, where " + spelled::option("--json") +
                         " writes events; give -o a file name");
-  if (to_stdout && a.frames > 1) throw WrongArgument("stdout holds one picture; give -o a file name");
   const std::vector<std::string> files = output_files(a);
   JobSteps<compile::LoadedPtr> steps;
   steps.refuse = [&] {
-    for (const std::string& file : files)
-      if (!to_stdout) refuse_to_overwrite(file, a.force);
+    for (const std::string& file : files) refuse_to_overwrite(file, a.force);
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
     const compile::LoadedPtr loaded = load_pictured(a, session, diagnostics);
