@@ -1,5 +1,7 @@
 """Designs that scripts put before the studio, without a browser."""
+import base64
 import json
+import re
 import stat
 import tempfile
 import time
@@ -70,7 +72,19 @@ def test_show_prints_the_address(folder, monkeypatch, capfd):
 
 
 def test_a_folder_of_somebody_else_is_refused(folder):
-    import os
+    import base64
+import re
+import os
     (folder / f"ombre-show-{os.getuid()}").mkdir(mode=0o755)
     with pytest.raises(OSError, match="not a folder of this user alone"):
         _studio.show_in_studio(ball)
+
+
+def test_a_view_holds_a_picture_of_each_frame():
+    part = block
+    page = part.view(frames=3, size="40x30")
+    frames = re.findall(r'"(iVBOR[^"]*)"', page)
+    assert len(frames) == 3
+    single = part.render(size="40x30")
+    assert base64.b64decode(frames[0]) == single  # the first frame is the usual view
+    assert len(set(frames)) == 3
