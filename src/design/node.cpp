@@ -1,6 +1,7 @@
 #include "design/node.h"
 
 #include <algorithm>
+#include <new>
 #include <unordered_set>
 
 namespace ombre::design {
@@ -60,11 +61,14 @@ Node::~Node() {
   const auto take_inputs = [&open](Node& node) {
     for (uint32_t i = 0; i < node.input_count_ + node.value_count_; ++i) open.push_back(std::move(node.inputs_[i]));
   };
-  take_inputs(*this);
-  while (!open.empty()) {
-    const NodePtr node = std::move(open.back());
-    open.pop_back();
-    if (node.use_count() == 1) take_inputs(const_cast<Node&>(*node));
+  try {
+    take_inputs(*this);
+    while (!open.empty()) {
+      const NodePtr node = std::move(open.back());
+      open.pop_back();
+      if (node.use_count() == 1) take_inputs(const_cast<Node&>(*node));
+    }
+  } catch (const std::bad_alloc&) {  // NOLINT: without memory for the list, the inputs that are left end by recursion
   }
 }
 

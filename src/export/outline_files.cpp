@@ -1,6 +1,8 @@
 // Writes outlines of layers: one file per layer, or one for all.
 #include "export/outline_files.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <deque>
 #include <filesystem>
@@ -91,8 +93,7 @@ class NewFolder {
     if (error) throw write_error(path, error.value());
   }
   ~NewFolder() {
-    std::error_code ignored;
-    if (is_new_) fs::remove(path_, ignored);  // succeeds only if it is empty
+    if (is_new_) ::rmdir(path_.c_str());  // succeeds only if it is empty
   }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;

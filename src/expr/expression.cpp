@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
 
 #include "base/text/text.h"
@@ -225,7 +226,10 @@ Node::~Node() {
     const std::shared_ptr<const Node> node = std::move(open.back());
     open.pop_back();
     if (node.use_count() != 1) continue;
-    for (auto& operand : const_cast<Node&>(*node).operands) open.push_back(std::move(operand));
+    try {
+      for (auto& operand : const_cast<Node&>(*node).operands) open.push_back(std::move(operand));
+    } catch (const std::bad_alloc&) {  // NOLINT: without memory for the list, the operands that are left end by recursion
+    }
   }
 }
 
