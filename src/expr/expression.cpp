@@ -228,8 +228,7 @@ Node::~Node() {
     if (node.use_count() != 1) continue;
     try {
       for (auto& operand : const_cast<Node&>(*node).operands) open.push_back(std::move(operand));
-    } catch (
-        const std::bad_alloc&) {  // NOLINT: without memory for the list, the operands that are left end by recursion
+    } catch (const std::bad_alloc&) {  // NOLINT: without memory for the list, the other operands end by recursion
     }
   }
 }
