@@ -10,6 +10,7 @@
 
 #include "base/text/data.h"
 #include "base/text/diagnostic.h"
+#include "base/text/record.h"
 #include "fea/model/model.h"
 
 namespace ombre::fea {
@@ -94,10 +95,16 @@ struct Study {
 // Nothing, and diagnostics with places, when it is wrong.
 std::optional<Study> read_study(const Data& data, Diagnostics& diagnostics);
 
+// Parts of studies. Each returns nothing, and reports it, for what is wrong.
+std::optional<Selection> read_selection(const Data& data, const MemberReader& reader);
+extern const char* const selection_help;                                           // what to write for one
+std::optional<Vec3> read_direction(const Data& data, const MemberReader& reader);  // of length one
+std::optional<Box> read_box(const Data& data, const MemberReader& reader);
+
 // Properties as a materials file has them beside a colour: "modulus_mpa" and so on. Nothing when there is none of them;
 // a diagnostic at `data` when one is wrong or missing.
 std::optional<Elastic> read_elastic(const DataMembers& members, const SourceRange& where, Diagnostics& diagnostics);
-// The same of "conductivity_w_mk" or "conductivity_s_m", as physics has it.
+// This reads "conductivity_w_mk" or "conductivity_s_m", as physics has it.
 std::optional<double> read_conductivity(const DataMembers& members, Physics physics, Diagnostics& diagnostics);
 
 // Chooses the nodes of a part or by a formula, as the design has them. Nothing, and diagnostics, when it is wrong.

@@ -22,9 +22,9 @@ struct FeaRequest {
   };
   Assign assign = Assign::draw;
   Fill fill = Fill::exact;
-  std::optional<std::string> modulus;       // an attribute that is Young's modulus in MPa; else that of the materials
-  std::optional<std::string> conductivity;  // the same of conduction, W/(m K) or S/m
-  size_t most_sections = 64;                // elements of mean properties are gathered into so many
+  std::optional<std::string> modulus = {};  // an attribute that is Young's modulus in MPa; else that of the materials
+  std::optional<std::string> conductivity = {};  // the same of conduction, W/(m K) or S/m
+  size_t most_sections = 64;                     // elements of mean properties are gathered into so many
   int threads = 0;
 };
 
