@@ -264,15 +264,15 @@ def wrong_studies_are_reported(folder):
     expect('no top-level variable "width"' in reported and "it has a, b" in reported and "wrong.json:1:" in reported, reported)
     expect("the range of \"a\" is empty" in error(with_variables(a={"from": 1, "to": 1})), "range")
     expect('a variable needs "to"' in error(with_variables(a={"from": 1})), "a bound")
-    expect('"start" is a number from 0 to 1, not 3' in error(with_variables(a={"from": 0, "to": 1, "start": 3})), "start")
+    expect('expected a number from 0 to 1 for "start", not 3' in error(with_variables(a={"from": 0, "to": 1, "start": 3})), "start")
     expect("names no variables" in error({**LIGHT, "variables": {}}), "no variables")
     expect('did you mean "mass"?' in error({**LIGHT, "objectives": [{"minimise": "mas"}]}), "a measure")
-    expect("the measures are volume, mass" in error({**LIGHT, "objectives": [{"minimise": "beauty"}]}), "measures")
+    expect('write one of "volume", "mass"' in error({**LIGHT, "objectives": [{"minimise": "beauty"}]}), "measures")
     expect("has no objectives" in error({**LIGHT, "objectives": []}), "objectives")
     expect('either "minimise" or "maximise"' in error({**LIGHT, "objectives": [{}]}), "an objective")
     expect('either "at_most" or "at_least"' in error({**LIGHT, "constraints": [{"measure": "mass"}]}), "a limit")
     expect("needs loads" in error({**LIGHT, "fea": {**PULL, "loads": []}}), "loads")
-    expect('"fea" is missing' in error({name: LIGHT[name] for name in LIGHT if name != "fea"}), "fea")
+    expect('a study needs "fea"' in error({name: LIGHT[name] for name in LIGHT if name != "fea"}), "fea")
     expect('did you mean "cobyla"?' in error({**LIGHT, "method": "cobila"}), "a method")
     expect("nsga2 takes several objectives" in error({**LIGHT, "method": "nsga2"}), "nsga2")
     expect("bobyqa takes no constraints" in error({**LIGHT, "method": "bobyqa"}), "bobyqa")
@@ -399,8 +399,8 @@ def wrong_topologies_are_reported(folder):
     expect('needs "volume_fraction"' in error({**MBB, "topology": {}}), "a volume")
     expect("a number from 0.01 to 1" in error({**MBB, "topology": {"volume_fraction": 2}}), "a large volume")
     expect("did you mean" in error({**MBB, "topology": {"volume_fraction": 0.5, "radios": 2}}), "a member")
-    for displacement, wanted in (({"on": "xmax"}, '"direction" is missing'), ({"direction": [0, 1, 0]}, '"on" is missing'),
-                                 ({"on": "xmax", "direction": [0, 0, 0]}, "a direction without a length"),
+    for displacement, wanted in (({"on": "xmax"}, 'needs "direction"'), ({"direction": [0, 1, 0]}, 'needs "on"'),
+                                 ({"on": "xmax", "direction": [0, 0, 0]}, "the direction is of no length"),
                                  ({"on": "xmax", "direction": [0, 1, 0], "goal": "most"}, "least"),
                                  ({"on": {"box": [90, 0, 0, 91, 1, 1]}, "direction": [0, 1, 0]}, "in this box")):
         reported = error({**MBB, "topology": {**MBB["topology"], "displacement": displacement}})

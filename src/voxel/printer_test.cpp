@@ -104,11 +104,12 @@ TEST(Printer, ReadsEveryMember) {
 
 TEST(Printer, WrongProfilesAreExplained) {
   expect_message(R"("origen": "center")", "did you mean \"origin\"?");
-  expect_message(R"("first_index": 0.5)", "expected a whole number from 0 to 1000000000, not the number 0.5");
-  expect_message(R"("origin": "middle")", "expected \"design\" or \"center\", not the text \"middle\"");
+  expect_message(R"("first_index": 0.5)", "expected a whole number from 0 to 1000000000 for \"first_index\", not 0.5");
+  expect_message(R"("origin": "middle")", "there is no origin \"middle\"; write one of \"design\", \"center\"");
   expect_message(R"("origin": "center")", "needs \"build_mm\"");
-  expect_message(R"("build_mm": [1, 2])", "[x, y, z] in mm, not a list of 2");
-  expect_message(R"("build_mm": [1, 2, -3])", "a length in mm above 0, not the number -3");
+  expect_message(R"("build_mm": [1, 2])",
+                 "expected 3 numbers for \"build_mm\", not a list of 2; write [x, y, z] in mm");
+  expect_message(R"("build_mm": [1, 2, -3])", "a number above 0 for \"build_mm\", not -3");
   expect_message(R"("flip": ["z"])", "expected \"x\" or \"y\"");
   expect_message(R"("background": [0, 0, 256, 0])", "from 0 to 255");
   expect_message(R"("files": "slice.png")", "slice_{index:05}.png");
@@ -117,11 +118,11 @@ TEST(Printer, WrongProfilesAreExplained) {
   expect_message(R"("smallest_feature": {"distorts_mm": 0.2, "fails_mm": 0.4})", "must not be above");
   expect_message(R"("pitch": {"x": "wide", "y": 0.1, "z": 0.1})", "this is not a pitch");
   expect_message(R"("pitch": {"x": {"dip": 600}, "y": 0.1, "z": 0.1})", "did you mean \"dpi\"?");
-  expect_message(R"("pitch": {"x": 0.1, "y": 0.1})", "\"pitch\" has no \"z\"");
+  expect_message(R"("pitch": {"x": 0.1, "y": 0.1})", "\"pitch\" needs \"z\"");
   expect_message(R"("name": "J 750")", "lower-case letters");
   Diagnostics diagnostics;
   EXPECT_FALSE(parse_printer(make_source("p.json", "[]"), diagnostics));
-  EXPECT_NE(to_text(diagnostics).find("must be an object"), std::string::npos);
+  EXPECT_NE(to_text(diagnostics).find("expected a printer profile in braces"), std::string::npos);
 }
 
 TEST(NamePattern, NamesAndIndicesBelongTogether) {

@@ -1,5 +1,6 @@
 #include "base/text/record.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text/text.h"
@@ -12,60 +13,62 @@ bool is_in(double number, const NumberRange& range) {
   return is_above && number <= range.most && std::isfinite(number) && (!range.is_whole || number == std::floor(number));
 }
 
-// "a whole number from 1 to 255"
-std::string range_words(const NumberRange& range) {
-  std::string words = range.is_whole ? "a whole number" : "a number";
-  if (std::isfinite(range.least) && std::isfinite(range.most) && !range.without_least)
-    return words + " from " + format_number(range.least) + " to " + format_number(range.most);
-  if (std::isfinite(range.least))
-    words += (range.without_least ? " above " : " of at least ") + format_number(range.least);
-  if (range.without_least && std::isfinite(range.most)) words += ", up to " + format_number(range.most);
-  return words;
+// Returns for example "a whole number from 1 to 255".
+std::string words_of(const NumberRange& range) {
+  const auto plain = [&](double end) {
+    return range.is_whole ? std::to_string(static_cast<int64_t>(end)) : format_number(end);
+  };
+  const std::string number = range.is_whole ? "a whole number" : "a number";
+  if (!std::isfinite(range.least)) return number;
+  const std::string least = plain(range.least), most = std::isfinite(range.most) ? plain(range.most) : "";
+  if (range.without_least) return number + " above " + least + (most.empty() ? "" : ", up to " + most);
+  return number + (most.empty() ? " of at least " + least : " from " + least + " to " + most);
 }
+
+std::string quoted(const std::vector<std::string>& words) { return '"' + join(words, "\", \"") + '"'; }
 
 }  // namespace
 
-void RecordErrors::fail_expected(const Data& data, const std::string& expected, const Phrase& hint) const {
-  const double* number = data.number();
-  fail(data.where, "expected " + expected + ", not " + (number ? format_number(*number) : describe(data)), hint);
+void MemberReader::fail_expected(const Data& data, const std::string& expected, const Phrase& hint) const {
+  const double* const number = data.number();
+  fail(data, "expected " + expected + ", not " + (number ? format_number(*number) : describe(data)), hint);
 }
 
-std::optional<double> RecordErrors::number(const Data& data, const std::string& name, const NumberRange& range) const {
+std::optional<double> MemberReader::number(const Data& data, const std::string& name, const NumberRange& range) const {
   if (const double* number = data.number(); number && is_in(*number, range)) return *number;
-  fail_expected(data, range_words(range) + " for \"" + name + '"');
+  fail_expected(data, words_of(range) + " for \"" + name + '"');
   return std::nullopt;
 }
 
-std::optional<bool> RecordErrors::boolean(const Data& data, const std::string& name) const {
+std::optional<bool> MemberReader::boolean(const Data& data, const std::string& name) const {
   if (const bool* value = data.boolean()) return *value;
   fail_expected(data, "true or false for \"" + name + '"');
   return std::nullopt;
 }
 
-std::optional<std::string> RecordErrors::text(const Data& data, const std::string& name) const {
+std::optional<std::string> MemberReader::text(const Data& data, const std::string& name) const {
   if (const std::string* text = data.string(); text && !trim(*text).empty()) return *text;
   fail_expected(data, "a text for \"" + name + '"');
   return std::nullopt;
 }
 
-std::optional<size_t> RecordErrors::choice(const Data& data, const std::string& name,
+std::optional<size_t> MemberReader::choice(const Data& data, const std::string& name,
                                            const std::vector<std::string>& words) const {
-  const std::string* text = data.string();
-  const auto found = text ? std::ranges::find(words, *text) : words.end();
-  if (found != words.end()) return static_cast<size_t>(found - words.begin());
-  const std::string choices = "\"" + join(words, "\", \"") + '"';
-  if (!text)
-    fail_expected(data, "one of " + choices + " for \"" + name + '"');
-  else {
-    const std::string slip = did_you_mean(*text, words);
-    fail(data.where, "there is no " + name + " \"" + *text + '"', slip.empty() ? "write one of " + choices : slip);
+  const std::string* const text = data.string();
+  if (!text) {
+    fail_expected(data, "one of " + quoted(words) + " for \"" + name + '"');
+    return std::nullopt;
   }
+  const auto found = std::ranges::find(words, *text);
+  if (found != words.end()) return static_cast<size_t>(found - words.begin());
+  const std::string slip = did_you_mean(*text, words);
+  fail(data, "there is no " + name + " \"" + *text + '"', slip.empty() ? "write one of " + quoted(words) : slip);
   return std::nullopt;
 }
 
-std::optional<std::vector<double>> RecordErrors::numbers(const Data& data, const std::string& name, size_t count,
+std::optional<std::vector<double>> MemberReader::numbers(const Data& data, const std::string& name, size_t count,
                                                          const std::string& form, const NumberRange& range) const {
-  const DataList* items = data.list();
+  const DataList* const items = data.list();
   if (!items || items->size() != count) {
     fail_expected(data, std::to_string(count) + " numbers for \"" + name + '"', "write " + form);
     return std::nullopt;
@@ -77,25 +80,41 @@ std::optional<std::vector<double>> RecordErrors::numbers(const Data& data, const
   return numbers;
 }
 
-const DataList* RecordErrors::list(const Data& data, const std::string& name) const {
+const DataList* MemberReader::list(const Data& data, const std::string& name) const {
   if (const DataList* items = data.list()) return items;
   fail_expected(data, "a list for \"" + name + "\", in square brackets");
   return nullptr;
 }
 
-bool RecordErrors::members(const Data& data, const std::string& what, const std::vector<std::string>& known) const {
+const DataMembers* MemberReader::named(const Data& data, const std::string& what) const {
+  if (const DataMembers* members = data.members()) return members;
+  fail_expected(data, what + " by their names, in braces");
+  return nullptr;
+}
+
+bool MemberReader::has_only(const Data& data, const std::string& what, const std::vector<std::string>& known) const {
   if (!data.members()) {
     fail_expected(data, what + " in braces", "its members are " + join(known, ", "));
     return false;
   }
-  const size_t before = count();
+  const size_t before = error_count();
   for (const auto& [name, value] : *data.members()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     const std::string slip = did_you_mean(name, known);
-    fail(value.where, std::string(what).append(" has no \"").append(name).append("\""),
+    fail(value, std::string(what).append(" has no \"").append(name).append("\""),
          slip.empty() ? "it has " + join(known, ", ") : slip);
   }
-  return count() == before;
+  return error_count() == before;
+}
+
+void MemberReader::has_one_of(const Data& data, const std::string& what, const std::vector<std::string>& names,
+                              const Phrase& hint) const {
+  const auto found = std::ranges::count_if(names, [&](const std::string& name) { return data.find(name); });
+  if (found == 1) return;
+  if (names.size() == 1) return fail_missing(data, what, names.front(), hint);
+  std::vector<std::string> choices;
+  for (const std::string& name : names) choices.push_back('"' + name + '"');
+  fail(data, what + " has either " + words_text(choices) + (found > 1 ? ", no two of them" : ""), hint);
 }
 
 }  // namespace ombre

@@ -1,8 +1,10 @@
 // JSON objects that become structs: a row for each member says how it is called, what it may be and where it goes.
+//
+//   Record<Search>("a search", {field::choice("method", &Search::method, method_names()).required(),
+//                               field::whole("seed", &Search::seed, 0, 1000)})
 #pragma once
 
-#include <algorithm>
-#include <array>
+#include <concepts>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -21,21 +23,34 @@ struct NumberRange {
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
   bool is_whole = false, without_least = false;  // the least number itself is not in the range
 };
+inline constexpr NumberRange above_zero{0, std::numeric_limits<double>::infinity(), false, true};
 
-// Messages of mistakes in JSON objects. `code` is that of all messages.
-class RecordErrors {
+// The names of rows of a table, to choose from.
+template <class Rows>
+std::vector<std::string> names_in(const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.emplace_back(row.name);
+  return names;
+}
+
+// Reads values of members, and reports what is wrong with them. All messages have the same code.
+class MemberReader {
  public:
-  RecordErrors(Diagnostics& diagnostics, Code code) : diagnostics_(&diagnostics), code_(code) {}
+  explicit MemberReader(Diagnostics& diagnostics, Code code = Code::design) : diagnostics_(diagnostics), code_(code) {}
 
-  void fail(const SourceRange& at, const std::string& message, const Phrase& hint = {}) const {
-    diagnostics_->error(code_, at, message, hint);
+  void fail(const Data& at, const std::string& message, const Phrase& hint = {}) const {
+    diagnostics_.error(code_, at.where, message, hint);
   }
-  // "expected ..., not a number"
+  // "expected a list, not 3"
   void fail_expected(const Data& data, const std::string& expected, const Phrase& hint = {}) const;
-  Diagnostics& diagnostics() const { return *diagnostics_; }
-  size_t count() const { return diagnostics_->error_count(); }
+  void fail_missing(const Data& owner, const std::string& what, const std::string& name,
+                    const Phrase& hint = {}) const {
+    fail(owner, what + " needs \"" + name + '"', hint);
+  }
+  Diagnostics& diagnostics() const { return diagnostics_; }
+  size_t error_count() const { return diagnostics_.error_count(); }
 
-  // Each returns nothing, and reports it, for data of another kind.
+  // Each returns nothing, and reports it, for data of another kind. A text has more than spaces.
   std::optional<double> number(const Data& data, const std::string& name, const NumberRange& range = {}) const;
   std::optional<bool> boolean(const Data& data, const std::string& name) const;
   std::optional<std::string> text(const Data& data, const std::string& name) const;
@@ -45,23 +60,46 @@ class RecordErrors {
   std::optional<std::vector<double>> numbers(const Data& data, const std::string& name, size_t count,
                                              const std::string& form, const NumberRange& range = {}) const;
   const DataList* list(const Data& data, const std::string& name) const;
-  // Reports members that are not known, with the name that may be meant, and data that is no object.
-  bool members(const Data& data, const std::string& what, const std::vector<std::string>& known) const;
+  // The members of an object whose names mean something themselves.
+  const DataMembers* named(const Data& data, const std::string& what) const;
+  // Reports data that is no object, and members that are not known, with the name that may be meant.
+  bool has_only(const Data& data, const std::string& what, const std::vector<std::string>& known) const;
+  // Reports it unless the object has one of these members, and no two.
+  void has_one_of(const Data& data, const std::string& what, const std::vector<std::string>& names,
+                  const Phrase& hint) const;
 
  private:
-  Diagnostics* diagnostics_;
+  Diagnostics& diagnostics_;
   Code code_;
 };
 
+// Sets what a member says of the struct, or reports what is wrong with it.
 template <class T>
 struct Field {
   std::string name;
-  // Sets what the member says of the struct, or reports what is wrong with it.
-  std::function<void(T& value, const Data& data, const RecordErrors& errors)> read;
+  std::function<void(T& value, const Data& data, const MemberReader& reader)> read;
   bool is_required = false;
+  Phrase hint;  // what to write where it is missing
 
-  Field required() && {
+  Field(std::string name, decltype(read) read) : name(std::move(name)), read(std::move(read)) {}
+  // A member of what the struct inherits from.
+  template <class Base>
+  requires(std::derived_from<T, Base> && !std::same_as<T, Base>)
+      Field(const Field<Base>& field)  // NOLINT: rows of both stand in one table
+      : name(field.name), read(field.read), is_required(field.is_required), hint(field.hint) {}
+
+  Field required(Phrase what_to_write = {}) && {
     is_required = true;
+    hint = std::move(what_to_write);
+    return std::move(*this);
+  }
+  // An object with this member has this value in another one, such as its kind.
+  template <class Member>
+  Field sets(Member T::*member, std::type_identity_t<Member> constant) && {
+    read = [=, before = std::move(read)](T& value, const Data& data, const MemberReader& reader) {
+      value.*member = constant;
+      before(value, data, reader);
+    };
     return std::move(*this);
   }
 };
@@ -70,105 +108,174 @@ template <class T>
 class Record {
  public:
   // `what` names the object in messages: "a printer profile".
-  Record(std::string what, std::vector<Field<T>> fields, Code code = Code::design)
-      : what_(std::move(what)), fields_(std::move(fields)), code_(code) {}
-
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const Field<T>& field : fields_) names.push_back(field.name);
-    return names;
+  Record(std::string what, std::vector<Field<T>> fields) : what_(std::move(what)), fields_(std::move(fields)) {
+    for (const Field<T>& field : fields_) names_.push_back(field.name);
   }
 
-  // Sets the members that the data has. Returns false, and reports why, if anything is wrong; then the others are set
-  // all the same.
-  bool read(const Data& data, T& value, Diagnostics& diagnostics) const {
-    const RecordErrors errors(diagnostics, code_);
-    const size_t before = errors.count();
-    if (!errors.members(data, what_, names()) && !data.members()) return false;
+  // The object has these members, too, which something else reads.
+  Record knows(const std::vector<std::string>& names) && {
+    names_.insert(names_.end(), names.begin(), names.end());
+    return std::move(*this);
+  }
+  // The members of a part stand among those of the whole; a part that is optional is there then.
+  template <class Member, class Part>
+  Record with(Member T::*member, const Record<Part>& part) && {
+    parts_.push_back([=](T& value, const Data& data, const MemberReader& reader) {
+      if constexpr (std::same_as<Member, std::optional<Part>>)
+        part.read_members(data, (value.*member).emplace(), reader);
+      else
+        part.read_members(data, value.*member, reader);
+    });
+    return std::move(*this).knows(part.names());
+  }
+  Record one_of(const std::vector<std::string>& names, const Phrase& hint) && {
+    parts_.push_back([=, what = what_](T&, const Data& data, const MemberReader& reader) {
+      reader.has_one_of(data, what, names, hint);
+    });
+    return std::move(*this);
+  }
+  // The check says what several members must be together. It runs once each by itself is right.
+  Record checked(std::function<void(T& value, const Data& data, const MemberReader& reader)> check) && {
+    check_ = std::move(check);
+    return std::move(*this);
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  // Sets the members that the object has. Returns false, and reports why, if anything is wrong; then the others are set
+  // all the same. A struct with a `where` gets the object's place.
+  bool read(const Data& data, T& value, const MemberReader& reader) const {
+    const size_t before = reader.error_count();
+    reader.has_only(data, what_, names_);
+    if (data.members()) read_members(data, value, reader);
+    return reader.error_count() == before;
+  }
+  // This reads an object that may have other members.
+  void read_members(const Data& data, T& value, const MemberReader& reader) const {
+    const size_t before = reader.error_count();
+    if constexpr (requires { value.where = data.where; }) value.where = data.where;
     for (const Field<T>& field : fields_) {
       if (const Data* member = data.find(field.name))
-        field.read(value, *member, errors);
+        field.read(value, *member, reader);
       else if (field.is_required)
-        errors.fail(data.where, what_ + " has no \"" + field.name + '"');
+        reader.fail_missing(data, what_, field.name, field.hint);
     }
-    return errors.count() == before;
-  }
-  T read(const Data& data, Diagnostics& diagnostics) const {
-    T value{};
-    read(data, value, diagnostics);
-    return value;
+    for (const auto& part : parts_) part(value, data, reader);
+    if (check_ && reader.error_count() == before) check_(value, data, reader);
   }
 
  private:
+  using Read = std::function<void(T& value, const Data& data, const MemberReader& reader)>;
+
   std::string what_;
   std::vector<Field<T>> fields_;
-  Code code_;
+  std::vector<std::string> names_;
+  std::vector<Read> parts_;
+  Read check_;
 };
 
 namespace field {
 
+namespace detail {
+template <class Member>
+struct Plain {
+  using Type = Member;
+};
+template <class Value>
+struct Plain<std::optional<Value>> {
+  using Type = Value;
+};
+}  // namespace detail
+// The type of a member, be it optional or not.
+template <class Member>
+using Plain = typename detail::Plain<Member>::Type;
+
+// The member becomes what `read` makes of the data, if anything: std::optional<Value>(const Data&, const
+// MemberReader&).
+template <class T, class Member, class Read>
+Field<T> value(std::string name, Member T::*member, Read read) {
+  return {std::move(name), [=](T& value, const Data& data, const MemberReader& reader) {
+            if (auto found = read(data, reader)) value.*member = std::move(*found);
+          }};
+}
+
+// The function sets what it likes of the struct.
+template <class T>
+Field<T> special(std::string name, void (*read)(T&, const Data&, const MemberReader&)) {
+  return {std::move(name), read};
+}
+
 template <class T, class Member>
-Field<T> number(std::string name, Member T::*member, NumberRange range = {}) {
-  return {name, [=](T& value, const Data& data, const RecordErrors& errors) {
-            using Plain = typename std::conditional_t<std::is_arithmetic_v<Member>, std::type_identity<Member>,
-                                                      std::type_identity<double>>::type;
-            if (const auto read = errors.number(data, name, range)) value.*member = static_cast<Plain>(*read);
+Field<T> number(const std::string& name, Member T::*member, NumberRange range = {}) {
+  return {name, [=](T& value, const Data& data, const MemberReader& reader) {
+            if (const auto read = reader.number(data, name, range)) value.*member = static_cast<Plain<Member>>(*read);
           }};
 }
 
 template <class T, class Member>
-Field<T> whole(std::string name, Member T::*member, double least, double most) {
-  return number(std::move(name), member, {least, most, true});
+Field<T> whole(const std::string& name, Member T::*member, double least, double most) {
+  return number(name, member, {least, most, true});
 }
 
 template <class T>
-Field<T> flag(std::string name, bool T::*member) {
-  return {name, [=](T& value, const Data& data, const RecordErrors& errors) {
-            if (const auto read = errors.boolean(data, name)) value.*member = *read;
-          }};
+Field<T> flag(const std::string& name, bool T::*member) {
+  return value(name, member, [=](const Data& data, const MemberReader& reader) { return reader.boolean(data, name); });
 }
 
 template <class T, class Member>
-Field<T> text(std::string name, Member T::*member) {
-  return {name, [=](T& value, const Data& data, const RecordErrors& errors) {
-            if (auto read = errors.text(data, name)) value.*member = std::move(*read);
-          }};
+Field<T> text(const std::string& name, Member T::*member) {
+  return value(name, member, [=](const Data& data, const MemberReader& reader) { return reader.text(data, name); });
 }
 
-// A choice of words, which are in the order of an enumeration's values; or false and true.
+// The words are in the order of an enumeration's values, or say false and true.
 template <class T, class Member>
-Field<T> choice(std::string name, Member T::*member, std::vector<std::string> words) {
-  return {name, [=](T& value, const Data& data, const RecordErrors& errors) {
-            const auto read = errors.choice(data, name, words);
+Field<T> choice(const std::string& name, Member T::*member, const std::vector<std::string>& words) {
+  return {name, [=](T& value, const Data& data, const MemberReader& reader) {
+            const auto read = reader.choice(data, name, words);
             if (!read) return;
             if constexpr (std::is_same_v<Member, std::string>)
               value.*member = words[*read];
             else
-              value.*member = static_cast<Member>(*read);
+              value.*member = static_cast<Plain<Member>>(*read);
           }};
 }
 
-// An object.
-template <class T, class Member, class Part>
-Field<T> object(std::string name, Member T::*member, Record<Part> record) {
-  return {name, [=](T& value, const Data& data, const RecordErrors& errors) {
-            value.*member = record.read(data, errors.diagnostics());
-          }};
+// The list has as many numbers as the member has places: an array, a vector of the space.
+template <class T, class Member>
+Field<T> numbers(const std::string& name, Member T::*member, const std::string& form, NumberRange range = {}) {
+  return value(name, member, [=](const Data& data, const MemberReader& reader) {
+    Plain<Member> values{};
+    using Number = std::remove_cvref_t<decltype(values[0])>;
+    constexpr size_t count = sizeof(values) / sizeof(Number);
+    const auto read = reader.numbers(data, name, count, form, range);
+    if (read)
+      for (size_t n = 0; n < count; ++n) values[static_cast<int>(n)] = static_cast<Number>((*read)[n]);
+    return read ? std::optional(values) : std::nullopt;
+  });
 }
 
-// A list of objects.
+template <class T, class Member>
+Field<T> object(std::string name, Member T::*member, const Record<Plain<Member>>& record) {
+  return value(std::move(name), member, [=](const Data& data, const MemberReader& reader) {
+    Plain<Member> part{};
+    return record.read(data, part, reader) ? std::optional(part) : std::nullopt;
+  });
+}
+
+// A list of objects. The table may depend on what is already known of the struct: Record<Part>(const T& value).
+template <class T, class Part, class MakeRecord>
+requires std::invocable<MakeRecord, const T&> Field<T> objects(const std::string& name, std::vector<Part> T::*member,
+                                                               MakeRecord make_record) {
+  return {name, [=](T& value, const Data& data, const MemberReader& reader) {
+            const DataList* const items = reader.list(data, name);
+            if (!items) return;
+            const Record<Part> record = make_record(value);
+            for (const Data& item : *items) record.read(item, (value.*member).emplace_back(), reader);
+          }};
+}
 template <class T, class Part>
-Field<T> objects(std::string name, std::vector<Part> T::*member, Record<Part> record) {
-  return {name, [=](T& value, const Data& data, const RecordErrors& errors) {
-            if (const DataList* items = errors.list(data, name))
-              for (const Data& item : *items) (value.*member).push_back(record.read(item, errors.diagnostics()));
-          }};
-}
-
-// A member of another kind, which `read` sets: void(T& value, const Data& data, const RecordErrors& errors).
-template <class T, class Read>
-Field<T> special(std::string name, Read read) {
-  return {std::move(name), read};
+Field<T> objects(const std::string& name, std::vector<Part> T::*member, const Record<Part>& record) {
+  return objects(name, member, [=](const T&) { return record; });
 }
 
 }  // namespace field

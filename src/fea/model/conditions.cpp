@@ -239,7 +239,7 @@ struct Pieces {
 };
 
 struct LooseWords {
-  const char *one, *many, *hint;
+  std::string one, many, hint;
 };
 
 // Reports an error when some pieces are not held.
@@ -250,12 +250,11 @@ void report_loose(const Study& study, const MeshView& mesh, const Pieces& pieces
   const auto example = static_cast<size_t>(std::ranges::find(is_fixed, false) - is_fixed.begin());
   const std::string place = format_point(mesh.centroid(pieces.first[example]));
   const bool is_one = is_fixed.size() == 1;
-  diagnostics.error(
-      study.where,
-      is_one ? words.one
-             : format_count(loose) + " of the mesh's " + format_count(is_fixed.size()) + " pieces " + words.many +
-                   ", for example the one at " + place,
-      is_one ? words.hint : std::string("support each, or choose smaller elements, so that they hang together"));
+  diagnostics.error(study.where,
+                    is_one ? words.one
+                           : format_count(loose) + " of the mesh's " + format_count(is_fixed.size()) + " pieces " +
+                                 words.many + ", for example the one at " + place,
+                    is_one ? words.hint : "support each, or choose smaller elements, so that they hang together");
 }
 
 // Checks that each piece of the mesh is held by supports of its own.
@@ -284,12 +283,11 @@ void check_decided(const Study& study, const MeshView& mesh, const Conditions& c
   std::vector<bool> is_fixed(pieces.first.size());
   for (const Prescribed& here : conditions.displacements) is_fixed[pieces.of_node[here.node]] = true;
   for (const Film& film : conditions.films) is_fixed[pieces.of_node[side_nodes(mesh, film.side)[0]]] = true;
-  const bool is_heat = study.physics == Physics::heat;
+  const PhysicsWords& words = words_of(study.physics);
   report_loose(study, mesh, pieces, is_fixed,
-               {is_heat ? "nothing decides the temperature" : "nothing decides the potential",
-                is_heat ? "have no temperature anywhere" : "have no potential anywhere",
-                is_heat ? "add a support, for example {\"on\": \"zmin\", \"temperature_c\": 20}"
-                        : "add a support, for example {\"on\": \"zmin\", \"potential_v\": 0}"},
+               {"nothing decides the " + words.potential.name, "have no " + words.potential.name + " anywhere",
+                "add a support, for example {\"on\": \"zmin\", \"" + words.potential.member +
+                    "\": " + words.usual_potential + "}"},
                diagnostics);
 }
 

@@ -8,6 +8,7 @@
 
 #include "fea/model/bricks.h"
 #include "fea/model/element_mesh.h"
+#include "fea/model/physics.h"
 #include "fea/model/repeat.h"
 
 namespace ombre::fea {
@@ -87,13 +88,6 @@ struct Prescribed {
   uint32_t node = 0;
   uint8_t axis = 0;  // 0 if a node has one unknown
   double value = 0;  // displacement, mm; or force, N; temperature, degrees Celsius, or heat that enters, W; V or A
-};
-
-// The equations that are solved.
-enum class Physics : uint8_t {
-  mechanics,  // displacements, mm
-  heat,       // temperatures, degrees Celsius
-  electric,   // potentials, V
 };
 
 // Heat that leaves through an outer side: coefficient times (temperature - ambient).

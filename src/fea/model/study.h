@@ -10,6 +10,7 @@
 
 #include "base/text/data.h"
 #include "base/text/diagnostic.h"
+#include "base/text/record.h"
 #include "fea/model/model.h"
 
 namespace ombre::fea {
@@ -93,6 +94,12 @@ struct Study {
 //  "supports": [{"on": "zmin", "potential_v": 0}], "loads": [{"on": "zmax", "current_a": 0.1}]}
 // Returns nothing, and adds diagnostics with places, when it is wrong.
 std::optional<Study> read_study(const Data& data, Diagnostics& diagnostics);
+
+// Parts of studies. Each returns nothing, and reports why, for data that are wrong.
+std::optional<Selection> read_selection(const Data& data, const MemberReader& reader);
+extern const char* const selection_help;                                           // what to write for a selection
+std::optional<Vec3> read_direction(const Data& data, const MemberReader& reader);  // of length one
+std::optional<Box> read_box(const Data& data, const MemberReader& reader);
 
 // Reads properties as a materials file has them beside a colour: "modulus_mpa" and so on. Returns nothing if there is
 // none of them; adds a diagnostic at `data` if one is wrong or missing.

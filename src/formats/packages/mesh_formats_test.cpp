@@ -24,7 +24,7 @@ TEST(MeshFormats, AreReadOrWrittenInOneWay) {
   }
 }
 
-// What each format can hold, as its specification says.
+// The expected lists follow the specifications of the formats.
 TEST(MeshFormats, ListsEndingsByWhatTheyHold) {
   using Endings = std::vector<std::string>;
   EXPECT_EQ(read_mesh_endings(), (Endings{".3mf", ".amf", ".obj", ".off", ".ply", ".stl"}));

@@ -24,7 +24,7 @@ void check_rounds(const FeaChoices& a) {
 }
 
 void check_outputs(const FeaChoices& a) {
-  if (a.solver != "auto" && !a.solves())
+  if (a.own_solver() != fea::Solver::automatic && !a.solves())
     throw WrongValue(option("--solver", a.solver) + " does nothing without " + option("--solve"));
   if (a.outputs.empty() && !a.solves())
     throw WrongValue("there is nothing to do: write " + option("-o", "part.inp") + " or " + option("-o", "part.vtu") +
@@ -51,7 +51,7 @@ void check_tetrahedra(const FeaChoices& a) {
   if (a.fill != FeaRequest::Fill::exact)
     throw WrongValue(option("--fill") + " is of bricks; tetrahedra reach up to the surface");
   if (a.cell) throw WrongValue(option("--cell") + " is of bricks; write " + option("--size", "1.5"));
-  if (a.solver == "multigrid" || a.solver == "direct")
+  if (a.own_solver() && a.own_solver() != fea::Solver::automatic)
     throw WrongValue(option("--solver", a.solver) + " is of bricks; leave it out");
   if (a.brick != fea::BrickType::c3d8)
     throw WrongValue(option("--element") + " is of bricks; tetrahedra are C3D4 or C3D10");
@@ -68,6 +68,18 @@ std::optional<std::string> if_named(const std::string& name) {
 }
 
 }  // namespace
+
+const std::vector<SolverChoice>& solver_choices() {
+  static const std::vector<SolverChoice> table{{"auto", fea::Solver::automatic},
+                                               {"multigrid", fea::Solver::multigrid},
+                                               {"direct", fea::Solver::direct},
+                                               {"calculix", std::nullopt}};
+  return table;
+}
+
+std::optional<fea::Solver> FeaChoices::own_solver() const {
+  return std::ranges::find(solver_choices(), solver, &SolverChoice::name)->own;
+}
 
 SizeRequest FeaChoices::size() const {
   if (size_by.empty()) return {size_mm, size_mm, ""};

@@ -5,12 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "base/text/record.h"
 #include "fea/files/inp_writer.h"
 #include "jobs/common/job_options.h"
 #include "jobs/fea/fea_job.h"
 #include "jobs/fea/tetra_job.h"
 
 namespace ombre::compile {
+
+// Who solves the equations, by the word of --solver.
+struct SolverChoice {
+  std::string name;
+  std::optional<fea::Solver> own;  // CalculiX, a program, is none
+};
+const std::vector<SolverChoice>& solver_choices();  // the first is the default
 
 struct FeaChoices {
   enum class Elements : uint8_t { brick, tet4, tet10 };
@@ -24,7 +32,7 @@ struct FeaChoices {
   std::string size_by, subdomains;
   std::vector<std::string> outputs;
   bool solve = false;
-  std::string solver = "auto";
+  std::string solver = solver_choices().front().name;
   int rounds = 0;  // 0: not chosen
   std::string follow;
   double change = 1e-3;
@@ -67,7 +75,7 @@ struct FeaChoices {
         options::list("-o,--output", &F::outputs, kind::file,
                       "A file to write: .inp, .vtu, .xdmf, or .csv with --rounds; may be repeated", "FILE"),
         flag("--solve", &F::solve, "Solve for displacements, stresses and reactions"),
-        choice("--solver", &F::solver, {"auto", "multigrid", "direct", "calculix"},
+        choice("--solver", &F::solver, names_in(solver_choices()),
                "Solver: auto (default), multigrid, direct, or calculix (the program ccx, if it is installed); with "
                "--solve.\nOn bricks auto begins with multigrid, and factorises the equations (direct) if that is "
                "slow",
@@ -103,6 +111,8 @@ struct FeaChoices {
   }
 
   bool solves() const { return solve || rounds > 0; }
+  // CalculiX is none.
+  std::optional<fea::Solver> own_solver() const;
   SizeRequest size() const;
   FeaRequest request() const;
   // Returns the options that decide the voxels of bricks, and the seed.

@@ -282,16 +282,13 @@ std::optional<fea::Model> fea_model(const LoadedPtr& loaded, const BrickPlan& pl
 std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea::Physics physics,
                                                 const FeaResults& results) {
   const bool is_mechanics = physics == fea::Physics::mechanics;
+  const fea::PhysicsWords& words = fea::words_of(physics);
   std::vector<fea::ValueField> fields = with_vectors(model.fields);
   const std::string property_name = is_mechanics ? "modulus" : "conductivity";
   const bool is_taken = std::ranges::find(fields, property_name, &fea::ValueField::name) != fields.end();
   fea::ValueField section{"section", "", 1, {}};
-  fea::ValueField property{is_taken ? property_name + " used" : property_name,
-                           is_mechanics                    ? "MPa"
-                           : physics == fea::Physics::heat ? "W/(m K)"
-                                                           : "S/m",
-                           1,
-                           {}};
+  fea::ValueField property{
+      is_taken ? property_name + " used" : property_name, is_mechanics ? "MPa" : words.conductivity.unit, 1, {}};
   for (size_t n = 0; n < model.mesh.count(); ++n) {
     section.values.push_back(model.section_of[n]);
     property.values.push_back(
@@ -310,8 +307,7 @@ std::vector<fea::ValueField> fea_element_fields(const fea::ModelView& model, fea
     fields.push_back(std::move(greatest));
   }
   if (const auto& conduction = results.conduction)
-    fields.push_back(physics == fea::Physics::heat ? vectors("heat flux", "W/mm2", conduction->flux)
-                                                   : vectors("current density", "A/mm2", conduction->flux));
+    fields.push_back(vectors(words.flux.name, words.flux.unit, conduction->flux));
   return fields;
 }
 
@@ -324,8 +320,8 @@ std::vector<fea::ValueField> fea_node_fields(fea::Physics physics, const FeaResu
     return fields;
   }
   if (!results.conduction) return {};
-  const bool is_heat = physics == fea::Physics::heat;
-  fea::ValueField field{is_heat ? "temperature" : "potential", is_heat ? "C" : "V", 1, {}};
+  const fea::PhysicsWords& words = fea::words_of(physics);
+  fea::ValueField field{words.potential.name, words.potential.unit, 1, {}};
   for (const double value : results.conduction->value) field.values.push_back(static_cast<float>(value));
   return {field};
 }

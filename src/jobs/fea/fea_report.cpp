@@ -37,10 +37,10 @@ void tell_quality(const Events& events, const compile::TetraModel& made) {
 }
 
 std::string solved_text(const compile::FeaChoices& a, size_t iterations, bool is_direct, double seconds) {
-  const std::string way = a.solver == "calculix" ? "by CalculiX in "
-                          : is_direct            ? "by a factorisation and " + counted(iterations, "iteration") + " in "
-                          : iterations == 0      ? "directly in "
-                                                 : "in " + counted(iterations, "iteration") + " and ";
+  const std::string way = !a.own_solver()   ? "by CalculiX in "
+                          : is_direct       ? "by a factorisation and " + counted(iterations, "iteration") + " in "
+                          : iterations == 0 ? "directly in "
+                                            : "in " + counted(iterations, "iteration") + " and ";
   return "solved " + way + format_rounded(seconds, 3) + " s";
 }
 
@@ -98,7 +98,7 @@ void tell_solution(const compile::FeaChoices& a, const Events& events, const fea
 
 void tell_conduction(const compile::FeaChoices& a, const Events& events, const Case& here, const fea::Conduction& found,
                      double seconds) {
-  const bool is_heat = here.conditions.physics == fea::Physics::heat;
+  const fea::PhysicsWords& words = fea::words_of(here.conditions.physics);
   const fea::ModelView model = here.view();
   const auto [least, most] = std::ranges::minmax_element(found.value);
   std::vector<double> flux;
@@ -108,22 +108,22 @@ void tell_conduction(const compile::FeaChoices& a, const Events& events, const C
   const auto add = [&](double flow) { flow > 0 ? enters += flow : leaves -= flow; };
   for (const fea::Prescribed& flow : found.flows) add(flow.value);
   for (const fea::Prescribed& flow : here.conditions.forces) add(flow.value);
-  const std::string unit = is_heat ? " C" : " V", flow_unit = is_heat ? " W" : " A";
+  const std::string flow_unit = " " + words.flow.unit, of_flow = to_lower(words.flow.unit);
   events.say(solved_text(a, found.iterations, found.direct.has_value(), seconds));
-  events.say(std::string(is_heat ? "temperatures" : "potentials") + " from " + format_rounded(*least) + " to " +
-             format_rounded(*most) + unit + ", the latter at " +
+  events.say(words.potential.name + "s from " + format_rounded(*least) + " to " + format_rounded(*most) + " " +
+             words.potential.unit + ", the latter at " +
              format_point(model.mesh.node(static_cast<size_t>(most - found.value.begin()))));
-  events.say(std::string(is_heat ? "heat flux" : "current density") + " at most " + format_rounded(flux[strong]) +
-             flow_unit + "/mm2, at " + format_point(model.mesh.centroid(strong)));
+  events.say(words.flux.name + " at most " + format_rounded(flux[strong]) + flow_unit + "/mm2, at " +
+             format_point(model.mesh.centroid(strong)));
   events.say(format_rounded(enters, 5) + flow_unit + " enter, " + format_rounded(leaves, 5) + flow_unit + " leave");
   events.event("solution", {{"iterations", static_cast<double>(found.iterations)},
                             {"residual", found.residual},
                             {"seconds", seconds},
-                            {is_heat ? "least_temperature_c" : "least_potential_v", *least},
-                            {is_heat ? "greatest_temperature_c" : "greatest_potential_v", *most},
-                            {is_heat ? "greatest_flux_w_mm2" : "greatest_density_a_mm2", flux[strong]},
-                            {is_heat ? "enters_w" : "enters_a", enters},
-                            {is_heat ? "leaves_w" : "leaves_a", leaves}});
+                            {"least_" + words.potential.member, *least},
+                            {"greatest_" + words.potential.member, *most},
+                            {"greatest_" + words.flux_event, flux[strong]},
+                            {"enters_" + of_flow, enters},
+                            {"leaves_" + of_flow, leaves}});
 }
 
 }  // namespace

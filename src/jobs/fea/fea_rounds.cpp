@@ -70,7 +70,9 @@ void RoundHistory::add(int round, const RoundModel& model, std::optional<double>
               {"change", change ? format_rounded(*change, 6) : ""}};
   for (const auto& [material, share] : model.shares)
     cells.emplace_back("share of " + material, format_rounded(share, 6));
-  const auto add_number = [&](const char* name, double value) { cells.emplace_back(name, format_rounded(value, 9)); };
+  const auto add_number = [&](const std::string& name, double value) {
+    cells.emplace_back(name, format_rounded(value, 9));
+  };
   if (const auto& solution = results.solution) {
     double mises = 0;
     for (const auto& stress : solution->stress_mpa) mises = std::max(mises, fea::von_mises(stress));
@@ -79,12 +81,12 @@ void RoundHistory::add(int round, const RoundModel& model, std::optional<double>
     add_number("strain energy [mJ]", solution->energy_mj);
   }
   if (const auto& conduction = results.conduction) {
-    const bool is_heat = physics == fea::Physics::heat;
+    const fea::PhysicsWords& words = fea::words_of(physics);
+    const std::string potential = words.potential.name + " [" + words.potential.unit + "]";
     const auto [least, most] = std::ranges::minmax_element(conduction->value);
-    add_number(is_heat ? "least temperature [C]" : "least potential [V]", *least);
-    add_number(is_heat ? "greatest temperature [C]" : "greatest potential [V]", *most);
-    add_number(is_heat ? "greatest heat flux [W/mm2]" : "greatest current density [A/mm2]",
-               greatest_length(conduction->flux));
+    add_number("least " + potential, *least);
+    add_number("greatest " + potential, *most);
+    add_number("greatest " + words.flux.name + " [" + words.flux.unit + "]", greatest_length(conduction->flux));
   }
   rows_.push_back(std::move(cells));
 }

@@ -75,7 +75,7 @@ class Properties {
       conductivity = given->second;
     else
       conductivity = fea::read_conductivity(material.properties, study_.physics, diagnostics_);
-    const std::string name = study_.physics == Physics::heat ? "conductivity_w_mk" : "conductivity_s_m";
+    const std::string& name = fea::words_of(study_.physics).conductivity.member;
     if (!conductivity)
       diagnostics_.error(Code::study_value, study_.where, "there is no " + name + " of \"" + material.name + "\"",
                          "write it into the study, \"materials\": {\"" + material.name + "\": {\"" + name +

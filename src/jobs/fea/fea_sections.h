@@ -22,9 +22,10 @@ struct FeaRequest {
   };
   Assign assign = Assign::draw;
   Fill fill = Fill::exact;
-  std::optional<std::string> modulus;  // an attribute that is Young's modulus in MPa; default: that of the materials
-  std::optional<std::string> conductivity;  // an attribute that is the conductivity, W/(m K) or S/m
-  size_t most_sections = 64;                // greatest number of sections of mean properties
+  std::optional<std::string> modulus =
+      {};  // an attribute that is Young's modulus in MPa; default: that of the materials
+  std::optional<std::string> conductivity = {};  // an attribute that is the conductivity, W/(m K) or S/m
+  size_t most_sections = 64;                     // greatest number of sections of mean properties
   int threads = 0;
 };
 

@@ -232,23 +232,18 @@ compile::FeaResults solve_elsewhere(const FeaChoices& a, const Case& here, Sessi
   return results;
 }
 
-fea::Solver solver_of(const FeaChoices& a) {
-  if (a.solver == "direct") return fea::Solver::direct;
-  return a.solver == "multigrid" ? fea::Solver::multigrid : fea::Solver::automatic;
-}
-
 compile::FeaResults solve_case(const FeaChoices& a, const Case& here, Session& session) {
   const Stopwatch watch;
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
   options.threads = a.work.threads;
-  options.solver = solver_of(a);
+  options.solver = a.own_solver().value_or(fea::Solver::automatic);
   options.memory_bytes = static_cast<double>(a.work.memory_bytes) - here.solve_bytes();
   options.announce = [&](const fea::DirectUse& use) { tell_factorisation(session.events, use); };
   JobProgress progress(session.events, Counted::steps);
   const fea::ModelView model = here.view();
   compile::FeaResults results;
-  if (a.solver == "calculix")
+  if (!a.own_solver())
     results = solve_elsewhere(a, here, session);
   else if (!here.is_mechanics())
     results.conduction = fea::conduct(model, here.conditions, options, &progress, &session.stop);
@@ -264,7 +259,7 @@ compile::FeaResults solve_case(const FeaChoices& a, const Case& here, Session& s
 }
 
 void check_memory(const FeaChoices& a, const Case& here) {
-  if (!a.solves() || a.solver == "calculix") return;
+  if (!a.solves() || !a.own_solver()) return;
   const Phrase option = here.tetrahedra() ? spelled::option("--size") : spelled::option("--cell");
   refuse_little_memory(here.solve_bytes(), a.work.memory_bytes, "choose larger elements with " + option);
 }

@@ -158,10 +158,11 @@ void tell(const Events& events, const fea::Homogenised& found, const std::option
   events.event("homogenised", std::move(event));
 }
 
-void tell(const Events& events, const fea::HomogenisedConductivity& found, bool is_heat, double share, double seconds) {
+void tell(const Events& events, const fea::HomogenisedConductivity& found, const fea::PhysicsWords& words, double share,
+          double seconds) {
   events.say(share_text(share, found.solid_share) + "; solved in " + format_count(found.iterations) +
              " iterations and " + format_rounded(seconds, 3) + " s");
-  events.say(std::string("conductivity, ") + (is_heat ? "W/(m K)" : "S/m") + " (x, y, z):");
+  events.say("conductivity, " + words.conductivity.unit + " (x, y, z):");
   DataList rows;
   for (const auto& row : found.conductivity) {
     std::string line;
@@ -174,7 +175,7 @@ void tell(const Events& events, const fea::HomogenisedConductivity& found, bool 
   }
   events.say("between " + format_rounded(found.harmonic_mean, 5) + " and " + format_rounded(found.arithmetic_mean, 5) +
              ", as all that has these shares");
-  events.event("homogenised", {{is_heat ? "conductivity_w_mk" : "conductivity_s_m", rows},
+  events.event("homogenised", {{words.conductivity.member, rows},
                                {"arithmetic_mean", found.arithmetic_mean},
                                {"harmonic_mean", found.harmonic_mean},
                                {"solid_share", share},
@@ -246,12 +247,13 @@ void solve_stiffness(const HomogeniseChoices& a, const HomogenisePlan& plan, con
   files.emplace_back(a.output);
 }
 
-void solve_conductivity(const fea::Model& model, const fea::SolveOptions& options, bool is_heat, Session& session) {
+void solve_conductivity(const fea::Model& model, const fea::SolveOptions& options, const fea::PhysicsWords& words,
+                        Session& session) {
   const Stopwatch watch;
   JobProgress progress(session.events, Counted::steps);
   const fea::HomogenisedConductivity found = fea::homogenise_conductivity(model, options, &progress, &session.stop);
   progress.finish();
-  tell(session.events, found, is_heat, design_share(model), watch.seconds());
+  tell(session.events, found, words, design_share(model), watch.seconds());
 }
 
 // Finds how much of the box is solid for a value of the variable; a cell without bricks is empty.
@@ -347,7 +349,7 @@ int solve(const HomogeniseChoices& a, const HomogenisePlan& plan, Session& sessi
   if (plan.is_mechanics())
     solve_stiffness(a, plan, options, session, files);
   else
-    solve_conductivity(plan.model, options, plan.physics == fea::Physics::heat, session);
+    solve_conductivity(plan.model, options, fea::words_of(plan.physics), session);
   session.events.event("done", {{"files", files}});
   return done;
 }

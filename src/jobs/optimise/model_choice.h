@@ -1,4 +1,4 @@
-// Decides how a study of optimisation makes models of designs.
+// How a study of optimisation makes models of designs.
 #pragma once
 
 #include <array>
@@ -8,20 +8,21 @@
 #include <vector>
 
 #include "base/math/pitch.h"
+#include "base/text/record.h"
 #include "jobs/fea/fea_job.h"
-#include "jobs/optimise/study_reader.h"
 
 namespace ombre::compile {
 
 struct ModelChoice {
   std::array<std::optional<Pitch>, 3> cell;           // size of the bricks
-  std::optional<std::array<int64_t, 3>> brick_count;  // number of bricks along each axis of the design's box
-  FeaRequest request;
+  std::optional<std::array<int64_t, 3>> brick_count;  // or into how many the design's box is cut along each axis
+  // Draws change by leaps where a design changes little, and mean properties do not.
+  FeaRequest request{.assign = FeaRequest::Assign::mix, .most_sections = 1000};
   fea::Study fea;
 };
 
-// Names of the members of a study that decide its models.
-inline const std::vector<std::string> model_members{"fea", "cell", "bricks", "assign", "modulus", "sections"};
-std::optional<ModelChoice> read_model_choice(StudyMembers& members, Diagnostics& diagnostics);
+// The members "fea", "cell" or "bricks", "assign", "modulus" and "sections" of a study, and perhaps "fill". Reading
+// them throws Error for a file that cannot be read.
+Record<ModelChoice> model_record(bool chooses_fill);
 
 }  // namespace ombre::compile

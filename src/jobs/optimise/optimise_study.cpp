@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/text/record.h"
 #include "base/text/text.h"
-#include "jobs/optimise/study_reader.h"
 
 namespace ombre::compile {
 namespace {
 
-constexpr double unbounded = std::numeric_limits<double>::infinity();
+const char* const variables_help = R"(write for example "variables": {"width": {"from": 2, "to": 10}})";
 
 struct MeasureName {
   const char *name, *unit;
@@ -24,175 +23,138 @@ constexpr std::array<MeasureName, 7> measure_names{{{"volume", "mm3"},
                                                     {"compliance", "N mm"},
                                                     {"echo", ""}}};
 
-std::vector<std::string> names_of_measures() {
+std::optional<Measure::Kind> read_kind(const Data& data, const MemberReader& reader) {
+  const auto kind = reader.choice(data, "measure", names_in(measure_names));
+  return kind ? std::optional(static_cast<Measure::Kind>(*kind)) : std::nullopt;
+}
+
+void check_measure(Measure& measure, const Data& data, const MemberReader& reader) {
+  using Kind = Measure::Kind;
+  const bool has_place = measure.kind == Kind::displacement || measure.kind == Kind::stress;
+  if (measure.in && !has_place) reader.fail(*data.find("in"), "only displacement and stress have \"in\"");
+  if (measure.axis && measure.kind != Kind::displacement)
+    reader.fail(*data.find("axis"), "only displacement has \"axis\"");
+  const std::string named_by = measure.kind == Kind::share ? "material" : measure.kind == Kind::echo ? "name" : "";
+  if (named_by.empty()) return;
+  if (const Data* name = data.find(named_by))
+    measure.name = reader.text(*name, named_by).value_or("");
+  else
+    reader.fail_missing(data, "this measure", named_by, "write it as a text in quotes");
+}
+
+// Its kind stands in one of these members.
+Record<Measure> measure_record(const std::string& what, const std::vector<std::string>& kinds) {
+  using M = Measure;
+  std::vector<Field<M>> fields{field::choice("axis", &M::axis, {"x", "y", "z"}),
+                               field::value("in", &M::in, fea::read_box)};
+  for (const std::string& kind : kinds) fields.push_back(field::value(kind, &M::kind, read_kind));
+  return Record<M>(what, fields)
+      .knows({"material", "name"})
+      .one_of(kinds, R"(write for example ")" + kinds.front() + R"(": "mass")")
+      .checked(check_measure);
+}
+
+Record<Objective> objective_record() {
+  return Record<Objective>("an objective", {})
+      .with(&Objective::measure, measure_record("an objective", {"minimise", "maximise"}))
+      .checked([](Objective& objective, const Data& data, const MemberReader&) {
+        objective.is_maximised = data.find("maximise") != nullptr;
+      });
+}
+
+Record<Limit> limit_record() {
+  return Record<Limit>("a constraint", {field::number("at_most", &Limit::value),
+                                        field::number("at_least", &Limit::value).sets(&Limit::is_upper, false)})
+      .one_of({"at_most", "at_least"}, R"(write {"measure": "displacement", "at_most": 0.5})")
+      .with(&Limit::measure, measure_record("a constraint", {"measure"}));
+}
+
+void check_variable(DesignVariable& variable, const Data& data, const MemberReader& reader) {
+  if (variable.is_whole) {
+    variable.low = std::ceil(variable.low);
+    variable.high = std::floor(variable.high);
+  }
+  if (!(variable.low < variable.high))
+    return reader.fail(data, "the range of \"" + variable.name + "\" is empty", "let \"from\" be less than \"to\"");
+  variable.start = (variable.low + variable.high) / 2;
+  if (const Data* start = data.find("start"))
+    variable.start = reader.number(*start, "start", {variable.low, variable.high}).value_or(variable.start);
+}
+
+void read_variables(OptimiseStudy& study, const Data& data, const MemberReader& reader) {
+  using V = DesignVariable;
+  const Record<V> record =
+      Record<V>("a variable", {field::number("from", &V::low).required(), field::number("to", &V::high).required(),
+                               field::flag("whole", &V::is_whole)})
+          .knows({"start"})
+          .checked(check_variable);
+  if (!data.members() || data.members()->empty())
+    return reader.fail(data, "the study names no variables of the design", variables_help);
+  for (const auto& [name, value] : *data.members()) {
+    V& variable = study.variables.emplace_back();
+    variable.name = name;
+    record.read(value, variable, reader);
+  }
+}
+
+// The methods for as many objectives, in the order of the table.
+std::vector<std::string> methods_for(bool has_many, bool has_limits = false) {
   std::vector<std::string> names;
-  for (const MeasureName& measure : measure_names) names.emplace_back(measure.name);
+  for (const optimise::Method& method : optimise::methods())
+    if (method.many_objectives == has_many && (method.takes_constraints || !has_limits)) names.push_back(method.name);
   return names;
 }
 
-std::vector<std::string> names_of_methods() {
+Record<optimise::SearchOptions> search_record() {
+  using S = optimise::SearchOptions;
+  constexpr double most_evaluations = 1e6, most_seed = 4294967295.0;
   std::vector<std::string> names;
   for (const optimise::Method& method : optimise::methods()) names.push_back(method.name);
-  return names;
+  return Record<S>(
+      "a study",
+      {field::choice("method", &S::method, names), field::whole("evaluations", &S::evaluations, 1, most_evaluations),
+       field::whole("population", &S::population, 8, most_evaluations), field::whole("seed", &S::seed, 0, most_seed),
+       field::number("tolerance", &S::tolerance, {1e-9, 1})});
 }
 
-std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string>& more) {
-  names.insert(names.end(), more.begin(), more.end());
-  return names;
+void check_search(OptimiseStudy& study, const Data& data, const MemberReader& reader) {
+  optimise::SearchOptions& search = study.search;
+  const bool has_many = study.objectives.size() > 1, has_limits = !study.limits.empty();
+  const Data* const given = data.find("method");
+  if (!given) search.method = methods_for(has_many).front();
+  if (!data.find("evaluations")) search.evaluations = has_many ? 480 : 200;
+  const optimise::Method& method = *optimise::find_method(search.method);
+  const Data& at = given ? *given : data;
+  const std::string hint = "choose " + words_text(methods_for(has_many, has_limits));
+  if (has_many && !method.many_objectives)
+    reader.fail(at, method.name + " takes one objective, not " + std::to_string(study.objectives.size()),
+                hint + ", or make some of them constraints");
+  if (!has_many && method.many_objectives) reader.fail(at, method.name + " takes several objectives, not one", hint);
+  if (has_limits && !method.takes_constraints) reader.fail(at, method.name + " takes no constraints", hint);
 }
 
-class OptimiseReader {
- public:
-  OptimiseReader(const Data& data, Diagnostics& diagnostics)
-      : diagnostics_(diagnostics),
-        members_(data, "a study",
-                 with({"variables", "objectives", "constraints", "method", "evaluations", "population", "seed",
-                       "tolerance", "fill"},
-                      model_members),
-                 diagnostics) {}
+void check_loads(const OptimiseStudy& study, Diagnostics& diagnostics) {
+  const fea::Study& fea = study.model->fea;
+  const auto moves = [](const fea::Support& support) {
+    return std::ranges::any_of(support.displacement_mm, [](const auto& u) { return u && *u != 0; });
+  };
+  if (!fea.loads.empty() || length(fea.gravity_mm_s2) > 0 || std::ranges::any_of(fea.supports, moves)) return;
+  for (const Measure& measure : study.measures())
+    if (measure.needs_solution())
+      return diagnostics.error(Code::study, measure.where, measure.label() + " needs loads, and the study has none",
+                               R"(write into "fea" for example "loads": [{"on": "zmax", "force_n": [0, 0, -10]}])");
+}
 
-  std::optional<OptimiseStudy> read() {
-    if (diagnostics_.has_errors()) return std::nullopt;
-    read_variables();
-    for (const Data& goal : items("objectives")) study_.objectives.push_back(read_objective(goal));
-    for (const Data& limit : items("constraints")) study_.limits.push_back(read_limit(limit));
-    if (study_.objectives.empty() && !diagnostics_.has_errors())
-      members_.fail(members_.data(), "the study has no objectives",
-                    R"(write for example "objectives": [{"minimise": "mass"}])");
-    if (!diagnostics_.has_errors()) read_search();
-    if (!diagnostics_.has_errors() && needs_bricks()) study_.model = read_model_choice(members_, diagnostics_);
-    if (!diagnostics_.has_errors() && study_.needs_solution()) check_loads();
-    if (diagnostics_.has_errors()) return std::nullopt;
-    return std::move(study_);
-  }
-
- private:
-  DataList items(const char* name) {
-    const Data* const found = members_.find(name);
-    if (!found) return {};
-    if (const DataList* list = found->list()) return *list;
-    members_.fail(*found, std::string("\"").append(name).append("\" is a list, in square brackets"));
-    return {};
-  }
-
-  void read_variables() {
-    const Data* const variables = members_.find("variables");
-    if (!variables || !variables->members() || variables->members()->empty())
-      return members_.fail(variables ? *variables : members_.data(), "the study names no variables of the design",
-                           R"(write for example "variables": {"width": {"from": 2, "to": 10}})");
-    for (const auto& [name, value] : *variables->members()) study_.variables.push_back(read_variable(name, value));
-  }
-
-  DesignVariable read_variable(const std::string& name, const Data& data) {
-    StudyMembers members(data, "a variable", {"from", "to", "start", "whole"}, diagnostics_);
-    DesignVariable variable{name, 0, 0, 0, false, data.where};
-    if (!data.members()) return variable;
-    variable.low = members.number("from", std::nullopt, -unbounded, unbounded);
-    variable.high = members.number("to", std::nullopt, -unbounded, unbounded);
-    if (diagnostics_.has_errors()) return variable;
-    variable.is_whole = members.boolean("whole", false);
-    if (variable.is_whole) {
-      variable.low = std::ceil(variable.low);
-      variable.high = std::floor(variable.high);
-    }
-    if (!(variable.low < variable.high))
-      members.fail(data, "the range of \"" + name + "\" is empty", "let \"from\" be less than \"to\"");
-    else
-      variable.start = members.number("start", (variable.low + variable.high) / 2, variable.low, variable.high);
-    return variable;
-  }
-
-  Measure read_measure(const Data& data, const std::string& key, StudyMembers& members) {
-    Measure measure;
-    measure.where = data.where;
-    const std::vector<std::string> names = names_of_measures();
-    const std::string name = members.text(key, std::nullopt);
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) {
-      if (diagnostics_.has_errors()) return measure;
-      const std::string slip = did_you_mean(name, names);
-      members.fail(*members.find(key), "there is no measure \"" + name + "\"",
-                   slip.empty() ? "the measures are " + join(names, ", ") : slip);
-      return measure;
-    }
-    measure.kind = static_cast<Measure::Kind>(found - names.begin());
-    if (measure.kind == Measure::Kind::share) measure.name = members.text("material", std::nullopt);
-    if (measure.kind == Measure::Kind::echo) measure.name = members.text("name", std::nullopt);
-    const bool has_place = measure.kind == Measure::Kind::displacement || measure.kind == Measure::Kind::stress;
-    if (members.has("in") && !has_place) members.fail(*members.find("in"), "only displacement and stress have \"in\"");
-    if (members.has("axis") && measure.kind != Measure::Kind::displacement)
-      members.fail(*members.find("axis"), "only displacement has \"axis\"");
-    measure.in = members.box("in");
-    if (members.has("axis")) measure.axis = members.choice("axis", "x", {"x", "y", "z"})[0] - 'x';
-    return measure;
-  }
-
-  Objective read_objective(const Data& data) {
-    StudyMembers members(data, "an objective", {"minimise", "maximise", "material", "name", "axis", "in"},
-                         diagnostics_);
-    Objective objective;
-    if (!data.members()) return objective;
-    objective.is_maximised = members.has("maximise");
-    if (members.has("minimise") == objective.is_maximised)
-      members.fail(data, "an objective has either \"minimise\" or \"maximise\"", R"(write {"minimise": "mass"})");
-    else
-      objective.measure = read_measure(data, objective.is_maximised ? "maximise" : "minimise", members);
-    return objective;
-  }
-
-  Limit read_limit(const Data& data) {
-    StudyMembers members(data, "a constraint", {"measure", "at_most", "at_least", "material", "name", "axis", "in"},
-                         diagnostics_);
-    Limit limit;
-    if (!data.members()) return limit;
-    limit.measure = read_measure(data, "measure", members);
-    limit.is_upper = members.has("at_most");
-    if (limit.is_upper == members.has("at_least"))
-      members.fail(data, "a constraint has either \"at_most\" or \"at_least\"",
-                   R"(write {"measure": "displacement", "at_most": 0.5})");
-    else
-      limit.value = members.number(limit.is_upper ? "at_most" : "at_least", std::nullopt, -unbounded, unbounded);
-    return limit;
-  }
-
-  void read_search() {
-    constexpr double most_evaluations = 1e6, most_seed = 4294967295.0;
-    optimise::SearchOptions& search = study_.search;
-    const bool has_many = study_.objectives.size() > 1;
-    search.method = members_.choice("method", has_many ? "nsga2" : "cobyla", names_of_methods());
-    search.evaluations = static_cast<size_t>(members_.number("evaluations", has_many ? 480 : 200, 1, most_evaluations));
-    search.population = static_cast<size_t>(members_.number("population", 24, 8, most_evaluations));
-    search.seed = static_cast<uint32_t>(members_.number("seed", 0, 0, most_seed));
-    search.tolerance = members_.number("tolerance", search.tolerance, 1e-9, 1);
-    const Data& at = members_.has("method") ? *members_.find("method") : members_.data();
-    const optimise::Method& method = *optimise::find_method(search.method);
-    if (has_many && !method.many_objectives)
-      members_.fail(at, method.name + " takes one objective, not " + std::to_string(study_.objectives.size()),
-                    "choose \"nsga2\", or make some of them constraints");
-    if (!has_many && method.many_objectives)
-      members_.fail(at, method.name + " takes several objectives, not one", "choose \"cmaes\" or \"cobyla\"");
-    if (!study_.limits.empty() && !method.takes_constraints)
-      members_.fail(at, method.name + " takes no constraints", "choose \"cobyla\"");
-  }
-
-  bool needs_bricks() const { return std::ranges::any_of(study_.measures(), &Measure::needs_bricks); }
-
-  void check_loads() {
-    const fea::Study& fea = study_.model->fea;
-    const auto moves = [](const fea::Support& support) {
-      return std::ranges::any_of(support.displacement_mm, [](const auto& u) { return u && *u != 0; });
-    };
-    if (!fea.loads.empty() || length(fea.gravity_mm_s2) > 0 || std::ranges::any_of(fea.supports, moves)) return;
-    for (const Measure& measure : study_.measures())
-      if (measure.needs_solution())
-        return diagnostics_.error(Code::study, measure.where, measure.label() + " needs loads, and the study has none",
-                                  R"(write into "fea" for example "loads": [{"on": "zmax", "force_n": [0, 0, -10]}])");
-  }
-
-  Diagnostics& diagnostics_;
-  StudyMembers members_;
-  OptimiseStudy study_;
-};
+void check_study(OptimiseStudy& study, const Data& data, const MemberReader& reader) {
+  const size_t before = reader.error_count();
+  if (study.objectives.empty())
+    return reader.fail(data, "the study has no objectives",
+                       R"(write for example "objectives": [{"minimise": "mass"}])");
+  check_search(study, data, reader);
+  if (reader.error_count() == before && std::ranges::any_of(study.measures(), &Measure::needs_bricks))
+    model_record(true).read_members(data, study.model.emplace(), reader);
+  if (reader.error_count() == before && study.needs_solution()) check_loads(study, reader.diagnostics());
+}
 
 }  // namespace
 
@@ -216,7 +178,16 @@ std::vector<Measure> OptimiseStudy::measures() const {
 bool OptimiseStudy::needs_solution() const { return std::ranges::any_of(measures(), &Measure::needs_solution); }
 
 std::optional<OptimiseStudy> read_optimise_study(const Data& data, Diagnostics& diagnostics) {
-  return OptimiseReader(data, diagnostics).read();
+  using S = OptimiseStudy;
+  const Record<S> record = Record<S>("a study", {field::special("variables", read_variables).required(variables_help),
+                                                 field::objects("objectives", &S::objectives, objective_record()),
+                                                 field::objects("constraints", &S::limits, limit_record())})
+                               .with(&S::search, search_record())
+                               .knows(model_record(true).names())
+                               .checked(check_study);
+  OptimiseStudy study;
+  if (!record.read(data, study, MemberReader(diagnostics, Code::study_value))) return std::nullopt;
+  return study;
 }
 
 }  // namespace ombre::compile

@@ -1,51 +1,39 @@
 #include "jobs/optimise/topology_study.h"
 
-#include <algorithm>
-
-#include "jobs/optimise/study_reader.h"
+#include "base/text/record.h"
 
 namespace ombre::compile {
 namespace {
 
-// Reads a goal: its place is that of a load, and its direction that of the force.
-std::optional<fea::Load> read_goal(const Data& data, bool& is_greatest, Diagnostics& diagnostics) {
-  StudyMembers members(data, "a displacement of a topology", {"on", "direction", "goal"}, diagnostics);
-  if (!data.members()) return std::nullopt;
-  is_greatest = members.choice("goal", "least", {"least", "greatest"}) == "greatest";
-  const Data *on = members.find("on"), *direction = members.find("direction");
-  if (!direction) {
-    members.fail(data, "\"direction\" is missing, along which it is measured", "write for example [0, 0, -1]");
-    return std::nullopt;
-  }
-  DataMembers force{{"force_n", *direction}};
-  if (on) force.emplace_back("on", *on);
-  Data load(std::move(force));
-  load.where = data.where;
-  const auto study = fea::read_study(DataMembers{{"loads", DataList{load}}}, diagnostics);
-  if (!study) return std::nullopt;
-  fea::Load goal = study->loads.front();
-  const double size = length(goal.force_n);
-  if (!(size > 0)) {
-    members.fail(*direction, "a direction without a length", "write for example [0, 0, -1]");
-    return std::nullopt;
-  }
-  goal.force_n = (1 / size) * goal.force_n;
-  return goal;
+// The place is that of a load of the study, the direction its force.
+Record<TopologyStudy> goal_record() {
+  using L = fea::Load;
+  const Record<L> load("a displacement of a topology",
+                       {field::value("on", &L::on, fea::read_selection).required(fea::selection_help),
+                        field::value("direction", &L::force_n, fea::read_direction)
+                            .required("write along what it is measured, for example \"direction\": [0, 0, -1]")});
+  return Record<TopologyStudy>("a displacement of a topology",
+                               {field::choice("goal", &TopologyStudy::is_greatest, {"least", "greatest"})})
+      .with(&TopologyStudy::goal, load);
 }
 
-void read_topology(const Data& data, optimise::TopologyOptions& options, Diagnostics& diagnostics) {
+void read_goal(TopologyStudy& study, const Data& data, const MemberReader& reader) {
+  goal_record().read(data, study, reader);
+}
+
+void read_topology(TopologyStudy& study, const Data& data, const MemberReader& reader) {
+  using O = optimise::TopologyOptions;
   constexpr double longest_mm = 1e6;
-  StudyMembers members(
-      data, "a topology",
-      {"volume_fraction", "radius", "penalty", "steps", "move", "change", "projection", "displacement"}, diagnostics);
-  if (!data.members()) return;
-  options.volume_fraction = members.number("volume_fraction", std::nullopt, 0.01, 1);
-  options.radius_mm = members.number("radius", 0, 0, longest_mm);
-  options.penalty = members.number("penalty", options.penalty, 1, 10);
-  options.steps = static_cast<size_t>(members.number("steps", static_cast<double>(options.steps), 1, 100'000));
-  options.move = members.number("move", options.move, 0.001, 1);
-  options.projection = members.number("projection", 0, 0, 1000);
-  options.change = members.number("change", options.change, 1e-6, 1);
+  const Record<O> options(
+      "a topology",
+      {field::number("volume_fraction", &O::volume_fraction, {0.01, 1}).required(),
+       field::number("radius", &O::radius_mm, {0, longest_mm}), field::number("penalty", &O::penalty, {1, 10}),
+       field::whole("steps", &O::steps, 1, 100'000), field::number("move", &O::move, {0.001, 1}),
+       field::number("projection", &O::projection, {0, 1000}), field::number("change", &O::change, {1e-6, 1})});
+  study.options.radius_mm = 0;
+  Record<TopologyStudy>("a topology", {field::special("displacement", read_goal)})
+      .with(&TopologyStudy::options, options)
+      .read(data, study, reader);
 }
 
 void check_conditions(const fea::Study& fea, const Data& at, Diagnostics& diagnostics) {
@@ -66,20 +54,13 @@ void check_conditions(const fea::Study& fea, const Data& at, Diagnostics& diagno
 }  // namespace
 
 std::optional<TopologyStudy> read_topology_study(const Data& data, Diagnostics& diagnostics) {
-  std::vector<std::string> known = model_members;
-  known.insert(known.begin(), "topology");
-  StudyMembers members(data, "a study of topology", known, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
+  const Record<TopologyStudy> record =
+      Record<TopologyStudy>("a study of topology", {field::special("topology", read_topology).required()})
+          .with(&TopologyStudy::model, model_record(false));
   TopologyStudy study;
-  read_topology(*members.find("topology"), study.options, diagnostics);
-  if (const Data* goal = members.find("topology")->find("displacement"))
-    study.goal = read_goal(*goal, study.is_greatest, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  auto model = read_model_choice(members, diagnostics);
-  if (!model) return std::nullopt;
-  study.model = std::move(*model);
+  if (!record.read(data, study, MemberReader(diagnostics, Code::study_value))) return std::nullopt;
   study.model.request.fill = FeaRequest::Fill::centre;  // densities are those of whole bricks
-  check_conditions(study.model.fea, *members.find("fea"), diagnostics);
+  check_conditions(study.model.fea, *data.find("fea"), diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   return study;
 }
