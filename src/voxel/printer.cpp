@@ -153,7 +153,7 @@ std::optional<NamePattern> NamePattern::parse(std::string_view text) {
 
 bool NamePattern::is_sound() const {
   const std::string rest = of_material("").before_ + of_material("").after_;
-  // Characters that every file system takes; no folders, nothing hidden.
+  // Allows only characters that every file system accepts; no folders or hidden files.
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
            c == '.';
@@ -161,7 +161,7 @@ bool NamePattern::is_sound() const {
   if (!std::all_of(rest.begin(), rest.end(), allowed) || rest.size() > 100) return false;
   if (before_.starts_with('.') || !after_.ends_with(".png")) return false;
 
-  // What stands between number and material is more than digits, so that a name is of one layer only.
+  // The text between number and material must contain more than digits, so that each name belongs to one layer only.
   const size_t in_before = before_.find(material_place), in_after = after_.find(material_place);
   const auto separates = [](std::string_view between) {
     return between.find_first_not_of("0123456789") != std::string_view::npos;
