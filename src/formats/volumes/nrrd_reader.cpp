@@ -97,8 +97,7 @@ class NrrdReader {
     fields_[to_lower(line.substr(0, colon))] = std::string(trim(line.substr(colon + 2)));
   }
 
-  // Returns a value in which "\
-  // " means a line end and "\\\\" a backslash.
+  // Returns a value in which "\n" means a line end and "\\" a backslash.
   static std::string unescaped(std::string_view text) {
     std::string result;
     for (size_t n = 0; n < text.size(); ++n) {
