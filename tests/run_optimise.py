@@ -140,13 +140,57 @@ def searches_go_on(folder):
     folder.run("bars.vcad", "--study", "short.json", "-o", "parts")
     before = folder.read("parts/history.csv")
     expect(before.count("\n") == 13, before)
-    # What a loss of power leaves of a line does not count.
-    (folder.path / "parts/history.csv").write_text(before + "14,0.5,", encoding="utf-8")
+    # What a loss of power leaves of a line does not count, and the table is written from the journal.
+    folder.write("parts/journal.jsonl", folder.read("parts/journal.jsonl") + '{"design":13,"files":[],"val')
+    folder.write("parts/history.csv", before + "13,0.5,")
     events = folder.events("bars.vcad", "--study", "light.json", "-o", "parts", "--resume")
     known = next(event for event in events if event["event"] == "search")["known"]
     expect(known == 12, f"{known} designs were known")
-    for name in ("history.csv", "front.csv", "chart.svg"):
-        expect(folder.read(f"whole/{name}") == folder.read(f"parts/{name}"), name + " differs")
+    expect_same_search(folder, "whole", "parts")
+
+
+def damaged_lines_are_measured_again(folder):
+    """A journal that lost a line in its middle gives the same search, with the same numbers of designs."""
+    folder.write("few.json", {**FRONT, "evaluations": 48})
+    for name in ("whole", "torn"):
+        folder.run("schaffer.vcad", "--study", "few.json", "-o", name)
+    lines = folder.read("torn/journal.jsonl").splitlines(keepends=True)
+    folder.write("torn/journal.jsonl", "".join([*lines[:6], "{}\n", lines[7][:9] + "\n", *lines[8:]]))
+    events = folder.events("schaffer.vcad", "--study", "few.json", "-o", "torn", "--resume")
+    search = next(event for event in events if event["event"] == "search")
+    expect(search["measured"] == 2 and search["known"] == len(lines) - 2, str(search))
+    expect_same_search(folder, "whole", "torn")
+
+
+def the_journal_is_the_table(folder):
+    folder.run("schaffer.vcad", "--study", "front.json", "-o", "found")
+    description = json.loads(folder.read("found/search.json"))
+    expect((description["variables"], description["measures"]) == (["x"], ["near", "far"]), str(description))
+    entries = [json.loads(line) for line in folder.read("found/journal.jsonl").splitlines()]
+    rows = folder.table("found/history.csv")
+    expect(len(entries) == len(rows), f"{len(entries)} lines for {len(rows)} designs")
+    for entry, row in zip(entries, rows):
+        expect(entry["design"] == int(row["design"]) and entry["values"] == [float(row["x"])] and
+               entry["measures"] == [float(row["near"]), float(row["far"])], f"{entry}, {row}")
+
+
+def searches_of_older_versions_are_named(folder):
+    (folder.path / "old").mkdir()
+    folder.write("old/history.csv", 'design,"x","near","far",failure\n1,5,25,9,\n')
+    folder.write("old/study.key", "the study 00\n")
+    job = ["schaffer.vcad", "--study", "front.json", "-o", "old"]
+    for options in ([], ["--resume"]):
+        reported = folder.run(*job, *options, status=1).stderr
+        expect("older version of Ombre" in reported and "--force" in reported, reported)
+    expect(not (folder.path / "old/journal.jsonl").exists(), "a journal was begun")
+    folder.run(*job, "--force")
+    expect(not (folder.path / "old/study.key").exists(), "the old key is left")
+    folder.run(*job, "--resume")
+
+
+def expect_same_search(folder, one, other):
+    for name in ("journal.jsonl", "history.csv", "front.csv", "chart.svg"):
+        expect(folder.read(f"{one}/{name}") == folder.read(f"{other}/{name}"), name + " differs")
 
 
 TETRAHEDRON = """solid t
@@ -312,6 +356,8 @@ def designs_that_fail_are_left_out(folder):
     near(best["variables"]["x"], 1, 0.05, "x")
     failures = [row["failure"] for row in folder.table("half/history.csv") if row["failure"]]
     expect(failures and 'x, or "size", is too small' in failures[0], str(failures[:1]))
+    failed = [json.loads(line) for line in folder.read("half/journal.jsonl").splitlines() if "failure" in line]
+    expect(len(failed) == len(failures) and 'x, or "size", is too small' in failed[0]["failure"], str(failed[:1]))
     folder.write("half.json", {**study, "evaluations": 240})
     folder.run("half.vcad", "--study", "half.json", "-o", "half", "--resume")
 
@@ -423,7 +469,9 @@ def main():
             function(Folder(ombre, scratch))
 
     checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, beams_follow_beam_theory,
-              fronts_are_found, whole_variables_are_whole, searches_go_on, designs_are_turned, changed_files_are_noticed,
+              fronts_are_found, whole_variables_are_whole, searches_go_on,
+              damaged_lines_are_measured_again, the_journal_is_the_table, searches_of_older_versions_are_named, designs_are_turned,
+              changed_files_are_noticed,
         interrupted_topologies_leave_their_steps, ctrl_c_keeps_the_history,
               wrong_studies_are_reported, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published, projection_draws_densities_apart,
               displacements_are_goals_of_topologies,

@@ -102,7 +102,7 @@ def searches_keep_folders(job):
     (job.folder / "out").mkdir()
     job.write("out/history.csv", "mine")
     before = names(job)
-    expect("--resume" in run(job, "optimise", "varied.vcad", "--study", "search.json", "-o", "out", status=1), "variables")
+    expect("--force" in run(job, "optimise", "varied.vcad", "--study", "search.json", "-o", "out", status=1), "variables")
     expect("history.csv exists already" in run(job, "optimise", "wrong.vcad", "--study", "topology.json", "-o", "out",
                                                status=2), "a topology")
     expect(names(job) == before, "it wrote something")

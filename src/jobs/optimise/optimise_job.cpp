@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/text/text.h"
 #include "lang/engine/parser.h"
@@ -192,13 +193,6 @@ bool has_include(const lang::ast::File& file) {
       file.statements, [](const auto& statement) { return statement->kind == lang::ast::Statement::Kind::include; });
 }
 
-// Returns a text for a table, in quotes if it has commas or quotes.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
-  return result + "\"";
-}
-
 }  // namespace
 
 Measured DesignMeter::measure(const std::vector<double>& values, int threads, const StopFlag* stop) const {
@@ -279,72 +273,6 @@ optimise::Outcome outcome_of(const OptimiseStudy& study, const Measured& measure
     outcome.excesses.push_back((limit.is_upper ? beyond : -beyond) / (limit.value != 0 ? std::abs(limit.value) : 1));
   }
   return outcome;
-}
-
-std::string History::header() const {
-  std::vector<std::string> names{"design"};
-  for (const DesignVariable& variable : study_.variables) names.push_back(quoted(variable.name));
-  for (const Measure& measure : study_.measures()) names.push_back(quoted(measure.label()));
-  names.emplace_back("failure");
-  return join(names, ",") + "\n";
-}
-
-std::string History::line(size_t row) const {
-  std::vector<std::string> cells{std::to_string(row + 1)};
-  const Row& here = rows_[row];
-  for (const double value : here.values) cells.push_back(format_number(value));
-  const bool failed = !here.measured.failure.empty();
-  for (size_t n = 0; n < study_.measures().size(); ++n)
-    cells.push_back(failed ? "" : format_number(here.measured.values[n]));
-  cells.push_back(failed ? quoted(here.measured.failure) : "");
-  return join(cells, ",") + "\n";
-}
-
-bool History::read(const std::string& path, const std::string& text, Diagnostics& diagnostics) {
-  const SourcePtr source = make_source(path, text);
-  const std::string wanted = header();
-  if (!text.starts_with(wanted)) {
-    diagnostics.error(Code::other_job, {source, 0, 0}, "this is the history of another study",
-                      "choose another folder, or " + spelled::option("--force"), {{"file", source->name()}});
-    return false;
-  }
-  const size_t variables = study_.variables.size(), measures = study_.measures().size();
-  size_t begin = wanted.size();
-  for (size_t end = text.find('\n', begin); end != std::string::npos; begin = end + 1, end = text.find('\n', begin)) {
-    const std::vector<std::string> cells = split(std::string_view(text).substr(begin, end - begin), ',');
-    Row row;
-    const bool failed = cells.size() > 1 + variables + measures && !cells[1 + variables + measures].empty();
-    bool is_whole = cells.size() >= 2 + variables + measures;
-    for (size_t n = 1; is_whole && n < 1 + variables + (failed ? 0 : measures); ++n) {
-      const auto value = parse_number(cells[n]);
-      is_whole = value.has_value();
-      if (value) (n <= variables ? row.values : row.measured.values).push_back(*value);
-    }
-    if (!is_whole) {
-      diagnostics.error(Code::file_content, {source, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)},
-                        "this line is not one of a history",
-                        "take it out, or begin again with " + spelled::option("--force"), {{"file", path}});
-      return false;
-    }
-    if (failed) {
-      const size_t quote = text.find('"', begin);
-      std::string why = text.substr(quote + 1, end - quote - 2);
-      for (size_t at = why.find("\"\""); at != std::string::npos; at = why.find("\"\"", at + 1)) why.erase(at, 1);
-      row.measured.failure = why;
-    }
-    add(std::move(row));
-  }
-  return true;
-}
-
-const History::Row* History::find(const std::vector<double>& values) const {
-  const auto found = places_.find(values);
-  return found == places_.end() ? nullptr : &rows_[found->second];
-}
-
-void History::add(Row row) {
-  places_.emplace(row.values, rows_.size());
-  rows_.push_back(std::move(row));
 }
 
 }  // namespace ombre::compile

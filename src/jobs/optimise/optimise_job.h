@@ -1,8 +1,7 @@
-// Evaluates designs with other values of their variables, and keeps the results.
+// Evaluates designs with other values of their variables.
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,30 +52,5 @@ std::vector<double> values_at(const OptimiseStudy& study, const optimise::Point&
 // Returns the values that a search minimises, and how far limits are exceeded, in units of the limit, or of 1 if that
 // is 0.
 optimise::Outcome outcome_of(const OptimiseStudy& study, const Measured& measured);
-
-// The designs that were measured, by their values, as a table of comma-separated values.
-class History {
- public:
-  struct Row {
-    std::vector<double> values;
-    Measured measured;
-  };
-
-  explicit History(const OptimiseStudy& study) : study_(study) {}
-
-  // Reads the lines of `text`, and skips incomplete ones. Returns false, and adds a diagnostic, if it is another table.
-  bool read(const std::string& path, const std::string& text, Diagnostics& diagnostics);
-  const Row* find(const std::vector<double>& values) const;
-  void add(Row row);
-  const std::vector<Row>& rows() const { return rows_; }
-
-  std::string header() const;
-  std::string line(size_t row) const;
-
- private:
-  const OptimiseStudy& study_;
-  std::vector<Row> rows_;
-  std::map<std::vector<double>, size_t> places_;
-};
 
 }  // namespace ombre::compile

@@ -1,10 +1,7 @@
 // `ombre optimise` searches for the best values of a design's variables.
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <memory>
 
-#include "base/system/hash.h"
 #include "base/system/tasks.h"
 #include "base/text/file_ending.h"
 #include "base/text/json.h"
@@ -19,10 +16,12 @@
 #include "jobs/optimise/optimise_choices.h"
 #include "jobs/optimise/optimise_job.h"
 #include "jobs/optimise/run_topology.h"
-#include "load/files_read.h"
+#include "jobs/optimise/search_history.h"
+#include "jobs/optimise/stored_search.h"
 #include "load/turned.h"
 #include "optimise/chart.h"
 #include "optimise/ranking.h"
+#include "stores/folder_store.h"
 
 namespace ombre::jobs {
 namespace {
@@ -54,113 +53,47 @@ constexpr const char* optimise_footer =
     "  ombre optimise hook.vcad --study lighter.json -o lighter\n"
     "  ombre optimise hook.vcad --study lighter.json -o lighter --resume\n";
 
-// The files of the folder.
+// The files of the folder beside the journal.
 struct Folder {
   fs::path path;
 
   std::string file(const std::string& name) const { return (path / name).string(); }
+  bool has(const std::string& name) const { return fs::exists(path / name); }
   std::string history() const { return file("history.csv"); }
-  std::string key() const { return file("study.key"); }
 };
 
-// Lists the data that a search depends on, a line for each part: its name and the hash of its content. Searches with
-// equal results have equal keys, whatever number of designs each may measure.
-class SearchKey {
- public:
-  SearchKey(const OptimiseChoices& a, const Data& data, const OptimiseStudy& study) {
-    DataMembers members;
-    for (const auto& [name, value] : *data.members())
-      if (name != "evaluations") members.emplace_back(name, value);
-    add("the study", print_json_line(Data(members)));
-    if (const Data* fea = data.find("fea"); fea && fea->string())
-      add(*fea->string(), formats::read_file((fs::path(study_folder(a.study)) / *fea->string()).string()));
-    std::string definitions;
-    for (const std::string& definition : a.design.definitions) definitions += definition + "\n";
-    add(spelled::option("-D").text(), definitions);
-    const Vec3 turn = a.design.rotate.value_or(Vec3{});
-    add(spelled::option("--rotate").text(),
-        format_number(turn.x) + "," + format_number(turn.y) + "," + format_number(turn.z));
-    add_files(a, study);
-  }
+constexpr const char* earlier_key = "study.key";  // in place of search.json in folders of earlier versions
 
-  std::string text() const { return join(lines_, "\n") + "\n"; }
-
-  // Returns the names of the parts in which an earlier search differs.
-  std::vector<std::string> differences(const std::string& earlier) const {
-    std::vector<std::string> before = split(earlier, '\n'), names;
-    const auto missing_in = [&](const std::vector<std::string>& lines, const std::vector<std::string>& others) {
-      for (const std::string& line : lines) {
-        const std::string name = line.substr(0, line.rfind(' '));
-        if (!line.empty() && std::ranges::find(others, line) == others.end() &&
-            std::ranges::find(names, name) == names.end())
-          names.push_back(name);
-      }
-    };
-    missing_in(lines_, before);
-    missing_in(before, lines_);
-    return names;
-  }
-
- private:
-  void add(const std::string& name, const std::string& content) {
-    lines_.push_back(name + " " + hash_bytes(content).hex());
-  }
-
-  // Adds the files that the first design reads.
-  void add_files(const OptimiseChoices& a, const OptimiseStudy& study) {
-    std::vector<double> start;
-    for (const compile::DesignVariable& variable : study.variables) start.push_back(variable.start);
-    compile::LoadOptions options{a.design.materials, a.design.definitions};
-    for (std::string& definition : compile::definitions_of(study, start))
-      options.definitions.push_back(std::move(definition));
-    Diagnostics ignored;  // measuring the first design reports them
-    const auto files = compile::files_read(a.design.design, options, ignored);
-    const fs::path folder = compile::whole_path(a.design.design).parent_path();
-    if (!files) return add(a.design.design, formats::read_file(a.design.design));
-    for (const fs::path& file : *files)
-      add(fs::proximate(file, folder).generic_string(), formats::read_file(file.string()));
-  }
-
-  std::vector<std::string> lines_;
-};
-
-// Prepares the folder. A resumed search reads its history.
-bool open_folder(const OptimiseChoices& a, const Folder& folder, const SearchKey& key, History& history,
-                 Diagnostics& diagnostics) {
-  std::error_code problem;
-  fs::create_directories(folder.path, problem);
-  if (problem)
-    throw Error(Code::cannot_write, "cannot make the folder " + folder.path.string() + ": " + problem.message());
-  const bool has_history = fs::exists(folder.history());
-  if (has_history && !a.resume && !a.force)
-    throw WrongArgument(folder.history() + " is there; write " + spelled::option("--resume") +
-                        " to go on with it, or " + spelled::option("--force") + " to begin again");
-  if (!has_history && a.resume)
-    throw WrongArgument("there is no " + folder.history() + " to go on with; leave out " + spelled::option("--resume"));
-  if (a.resume) {
-    const auto changed = key.differences(fs::exists(folder.key()) ? formats::read_file(folder.key()) : "");
-    if (!changed.empty())
-      throw WrongArgument("the history in " + folder.path.string() + " is of another study or design, since " +
-                          join(changed, ", ") + (changed.size() == 1 ? " differs" : " differ") + "; choose another " +
-                          spelled::option("-o") + ", or " + spelled::option("--force") + " to begin again");
-    if (!history.read(folder.history(), formats::read_file(folder.history()), diagnostics)) return false;
-  }
-  std::string text = history.header();
-  for (size_t row = 0; row < history.rows().size(); ++row) text += history.line(row);
-  exporting::write_file(folder.history(), text);
-  exporting::write_file(folder.key(), key.text());
-  return true;
+// Throws WrongArgument if the folder holds what the options do not allow.
+void refuse_folder(const OptimiseChoices& a, const Folder& folder) {
+  if (a.force) return;
+  const Phrase begin_again = ", or " + spelled::option("--force") + " to begin again";
+  const bool has_search = folder.has(compile::search_file);
+  if (!has_search && folder.has(earlier_key))
+    throw WrongArgument("the search in " + folder.path.string() +
+                        " was made by an older version of Ombre and has no journal to go on with; choose another " +
+                        spelled::option("-o") + begin_again);
+  if (has_search && !a.resume)
+    throw WrongArgument(folder.path.string() + " holds a search; write " + spelled::option("--resume") +
+                        " to go on with it" + begin_again);
+  if (!has_search && a.resume)
+    throw WrongArgument("there is no " + folder.file(compile::search_file) + " to go on with; leave out " +
+                        spelled::option("--resume"));
+  if (!has_search && fs::exists(folder.history()))
+    throw WrongArgument(folder.history() + " is there; choose another " + spelled::option("-o") + begin_again);
 }
 
 // Measures designs that are not in the history, several at once if memory allows.
 class Evaluator {
  public:
   Evaluator(const OptimiseChoices& a, const OptimiseStudy& study, const compile::DesignMeter& meter, History& history,
-            const Folder& folder, Session& session)
+            const Folder& folder, stores::Store& store, Session& session)
       : study_(study),
         meter_(meter),
         history_(history),
-        file_(folder.history()),
+        store_(store),
+        path_(folder.history()),
+        table_(folder.history()),
         session_(session),
         progress_(session.events, Counted::steps),
         threads_(a.work.threads > 0 ? a.work.threads : core_count()),
@@ -179,7 +112,13 @@ class Evaluator {
     for (const auto& values : all) outcomes.push_back(outcome_of(study_, history_.find(values)->measured));
     return outcomes;
   }
-  void finish() { progress_.finish(); }
+  void finish() {
+    progress_.finish();
+    store_.close();
+    // A design that filled a gap of the history stands at the end of the table.
+    const std::string table = history_.table();
+    if (formats::read_file(path_) != table) exporting::write_file(path_, table);
+  }
   size_t measured() const { return measured_; }
 
  private:
@@ -201,15 +140,18 @@ class Evaluator {
 
   void keep(const std::vector<double>& values, compile::Measured measured) {
     largest_ = std::max(largest_, measured.solve_bytes);
-    history_.add({values, std::move(measured)});
-    file_.append(history_.line(history_.rows().size() - 1));
+    const History::Row& row = history_.add(values, std::move(measured));
+    store_.put(History::piece(row));
+    table_.append(history_.line(row));
     ++measured_;
   }
 
   const OptimiseStudy& study_;
   const compile::DesignMeter& meter_;
   History& history_;
-  exporting::AppendFile file_;
+  stores::Store& store_;
+  std::string path_;
+  exporting::AppendFile table_;
   Session& session_;
   JobProgress progress_;
   int threads_;
@@ -259,8 +201,8 @@ std::vector<size_t> some_of(const std::vector<size_t>& front, size_t most) {
   return some;
 }
 
-std::string chart_of(const OptimiseStudy& study, const History& history, const std::vector<Outcome>& outcomes,
-                     const std::vector<size_t>& front) {
+std::string chart_of(const OptimiseStudy& study, const std::vector<const History::Row*>& rows,
+                     const std::vector<Outcome>& outcomes, const std::vector<size_t>& front) {
   using Kind = optimise::ChartPoint::Kind;
   const auto measures = study.measures();
   const bool has_two = study.objectives.size() > 1;
@@ -270,7 +212,7 @@ std::string chart_of(const OptimiseStudy& study, const History& history, const s
   chart.y_label = measures[has_two ? 1 : 0].label();
   chart.joins_best = has_two;
   const auto add = [&](size_t n, Kind kind) {
-    const auto& values = history.rows()[n].measured.values;
+    const auto& values = rows[n]->measured.values;
     if (has_two)
       chart.points.push_back({values[0], values[1], kind});
     else
@@ -287,22 +229,22 @@ class Report {
  public:
   Report(const OptimiseChoices& a, const OptimiseStudy& study, const History& history, const Folder& folder,
          const Events& events)
-      : a_(a), study_(study), history_(history), folder_(folder), events_(events) {
-    for (const History::Row& row : history.rows()) outcomes_.push_back(outcome_of(study, row.measured));
+      : a_(a), study_(study), history_(history), rows_(history.rows()), folder_(folder), events_(events) {
+    for (const History::Row* row : rows_) outcomes_.push_back(outcome_of(study, row->measured));
     front_ = optimise::front_of(outcomes_);
   }
 
   int write() {
-    write_file("chart.svg", chart_of(study_, history_, outcomes_, front_));
+    write_file("chart.svg", chart_of(study_, rows_, outcomes_, front_));
     if (front_.empty()) return tell_nothing_holds();
     std::string table = history_.header();
-    for (const size_t row : front_) table += history_.line(row);
+    for (const size_t row : front_) table += history_.line(*rows_[row]);
     write_file("front.csv", table);
     size_t number = 0;
     const std::string ending = fs::path(a_.design.design).extension().string();
     for (const size_t row : some_of(front_, static_cast<size_t>(a_.best))) {
       const std::string name = "best_" + std::to_string(++number) + ending;
-      write_file(name, script_of(a_, study_, folder_, history_.rows()[row]));
+      write_file(name, script_of(a_, study_, folder_, *rows_[row]));
       tell(row, name);
     }
     events_.event("done", {{"files", files_}});
@@ -316,7 +258,7 @@ class Report {
   }
 
   void tell(size_t row, const std::string& name) const {
-    const History::Row& best = history_.rows()[row];
+    const History::Row& best = *rows_[row];
     events_.say(name + ": " + values_text(study_, best) + "; " + measures_text(study_, best));
     DataMembers values, measures;
     for (size_t n = 0; n < best.values.size(); ++n) values.emplace_back(study_.variables[n].name, best.values[n]);
@@ -331,7 +273,7 @@ class Report {
       if (!outcomes_[n].failed &&
           (nearest == outcomes_.size() || outcomes_[n].violation() < outcomes_[nearest].violation()))
         nearest = n;
-    const History::Row& row = history_.rows()[nearest];
+    const History::Row& row = *rows_[nearest];
     events_.error(Code::nothing_inside, "no design keeps all limits; the nearest is " + values_text(study_, row) +
                                             ": " + measures_text(study_, row));
     return check_failed;
@@ -340,6 +282,7 @@ class Report {
   const OptimiseChoices& a_;
   const OptimiseStudy& study_;
   const History& history_;
+  std::vector<const History::Row*> rows_;
   const Folder& folder_;
   const Events& events_;
   std::vector<Outcome> outcomes_;
@@ -379,12 +322,19 @@ int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, con
   Diagnostics diagnostics;
   compile::check_variables(study, make_source(a.design.design, formats::read_file(a.design.design)), diagnostics);
   auto plan = plan_options({}, session, diagnostics);
-  const Folder folder{a.folder};
-  History history(study);
-  const bool is_open =
-      plan && !diagnostics.has_errors() && open_folder(a, folder, SearchKey(a, data, study), history, diagnostics);
   session.events.diagnose(diagnostics);
-  if (!is_open) return wrong_input;
+  if (!plan || diagnostics.has_errors()) return wrong_input;
+
+  const Folder folder{a.folder};
+  refuse_folder(a, folder);
+  const compile::StoredSearch search(study, compile::search_key(a, data, study, plan->program));
+  stores::FolderStore store(folder.path.string(), search,
+                            a.resume ? stores::FolderUse::resume : stores::FolderUse::replace,
+                            {a.work.threads, nullptr, &session.stop});
+  fs::remove(folder.file(earlier_key));
+  History history(study);
+  history.read(store.finished());
+  exporting::write_file(folder.history(), history.table());
 
   compile::LoadOptions options{a.design.materials, a.design.definitions};
   options.cache = &session.cache;
@@ -393,13 +343,13 @@ int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, con
     return loaded ? compile::turned(loaded, a.design.rotate.value_or(Vec3{}), found) : nullptr;
   };
   const compile::DesignMeter meter(study, load, options, *plan);
-  Evaluator evaluator(a, study, meter, history, folder, session);
-  const size_t known = history.rows().size();
+  Evaluator evaluator(a, study, meter, history, folder, store, session);
+  const size_t known = history.size();
   try {
     if (!run_search(study, history, evaluator, session)) return wrong_input;
   } catch (const Cancelled&) {
     evaluator.finish();
-    session.events.say(folder.history() + " has " + format_count(history.rows().size()) +
+    session.events.say(folder.history() + " has " + format_count(history.size()) +
                        " designs; the same command with --resume goes on");
     throw;
   }

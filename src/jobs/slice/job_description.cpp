@@ -94,14 +94,14 @@ DataMembers describe_job(const SliceRequest& request) {
   return job;
 }
 
-Data describe_totals(const SliceRequest& request, const std::vector<JournalEntry>& layers) {
+Data describe_totals(const SliceRequest& request, const std::map<int64_t, LayerEntry>& layers) {
   std::vector<uint64_t> voxels(request.materials.size());
   uint64_t files = 0, bytes = 0;
-  const JournalEntry *lowest = nullptr, *highest = nullptr;
-  for (const JournalEntry& layer : layers) {
+  const LayerEntry *lowest = nullptr, *highest = nullptr;
+  for (const auto& [index, layer] : layers) {
     for (size_t i = 0; i < voxels.size(); ++i) voxels[i] += layer.voxels[i];
     files += layer.files.size();
-    for (const JournalFile& file : layer.files) bytes += file.bytes;
+    for (const stores::StoredFile& file : layer.files) bytes += file.bytes;
     if (layer.is_empty()) continue;
     if (!lowest) lowest = &layer;
     highest = &layer;

@@ -12,7 +12,8 @@
 #include "export/contact_sheet.h"
 #include "export/material_stack.h"
 #include "formats/containers/file.h"
-#include "jobs/slice/job_folder.h"
+#include "jobs/slice/stored_slices.h"
+#include "stores/journal_folder.h"
 
 namespace ombre::compile {
 namespace {
@@ -81,7 +82,7 @@ JobSummary read_summary(const std::string& path) {
 }
 
 // Returns a layer's files, with the materials' colours for masks.
-exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& summary,
+exporting::SheetLayer sheet_layer(const LayerEntry& entry, const JobSummary& summary,
                                   const std::filesystem::path& folder) {
   exporting::SheetLayer layer;
   layer.layer = entry.layer;
@@ -98,9 +99,9 @@ exporting::SheetLayer sheet_layer(const JournalEntry& entry, const JobSummary& s
 std::string contact_sheet(const std::string& folder, int layer_count) {
   const std::filesystem::path base(folder);
   const JobSummary summary = read_summary((base / job_file).string());
-  const std::string journal = formats::read_file((base / journal_file).string());
+  const std::string journal = formats::read_file((base / stores::journal_file).string());
   std::vector<exporting::SheetLayer> layers;
-  for (const JournalEntry& entry : parse_journal(journal, summary.colours.size(), summary.check_count))
+  for (const LayerEntry& entry : parse_layers(journal, summary.colours.size(), summary.check_count))
     if (!entry.is_empty() && !entry.files.empty()) layers.push_back(sheet_layer(entry, summary, base));
   if (layers.empty())
     throw Error(Code::file_content, folder + " has no layer with material to draw", {{"file", folder}});

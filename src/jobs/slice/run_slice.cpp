@@ -9,10 +9,11 @@
 #include "jobs/common/job_kind.h"
 #include "jobs/common/job_steps.h"
 #include "jobs/common/session.h"
-#include "jobs/slice/job_folder.h"
 #include "jobs/slice/plan_part.h"
 #include "jobs/slice/slice_choices.h"
 #include "jobs/slice/slice_report.h"
+#include "jobs/slice/stored_slices.h"
+#include "stores/folder_store.h"
 
 namespace ombre::jobs {
 namespace {
@@ -119,7 +120,7 @@ int slice(const SliceChoices& a, Session& session) {
   if (!a.emit.empty()) return emit(a, session);
   JobSteps<compile::Plan> steps;
   steps.refuse = [&] {
-    if (!a.dry_run) compile::refuse_used_folder(a.output_folder(), a.folder_use());
+    if (!a.dry_run) stores::refuse_used_folder(a.output_folder(), a.folder_use(), compile::slice_words());
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::Plan> {
     auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);

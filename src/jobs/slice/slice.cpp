@@ -9,8 +9,9 @@
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "jobs/slice/forecast.h"
-#include "jobs/slice/job_folder.h"
 #include "jobs/slice/slice_work.h"
+#include "jobs/slice/stored_slices.h"
+#include "stores/folder_store.h"
 
 namespace ombre::compile {
 namespace {
@@ -59,16 +60,18 @@ class SliceRun {
         watched_(progress),
         stop_(stop),
         size_(size_work(request, options)),
-        folder_(options.folder, request, options.use, size_.threads, progress, stop),
+        slices_(request),
+        store_(options.folder, slices_, options.use, {size_.threads, progress, stop}),
         layers_(requested_layers(request, options)),
-        slabs_(missing_slabs(layers_, folder_.finished(), size_.slab_layers)),
+        slabs_(missing_slabs(layers_, store_.finished(), size_.slab_layers)),
         forecast_(slabs_, size_.threads),
         progress_(progress, request, layers_) {}
 
   SliceReport run() {
     count_finished();
     if (!failed_check_ && prepare_stages()) write();
-    report_.whole_job_finished = folder_.close();
+    store_.close();
+    report_.whole_job_finished = slices_.is_complete(store_.finished());
     if (skipped_ && !failed_check_) throw Cancelled();
     finish_report();
     return std::move(report_);
@@ -81,7 +84,7 @@ class SliceRun {
   };
 
   void count_finished() {
-    for (const auto& [layer, entry] : folder_.finished()) {
+    for (const auto& [layer, entry] : slices_.layers(store_.finished())) {
       if (layer < layers_.begin || layer >= layers_.end) continue;
       ++report_.layers_kept;
       note_checks(entry);
@@ -143,7 +146,7 @@ class SliceRun {
       ++(layer.images.empty() ? report_.layers_dropped : report_.layers_written);
       report_.bytes_written += layer.bytes();
       note_checks(layer.entry);
-      folder_.add(std::move(layer.entry), layer.images);
+      store_.put(slices_.piece(layer.entry, std::move(layer.images)));
     }
     if (is_whole(range, slab))
       forecast_.add_written(slab.cost, watch.seconds());
@@ -152,7 +155,7 @@ class SliceRun {
     progress_.add_layers(slab.layers.size(), forecast_);
   }
 
-  void note_checks(const JournalEntry& entry) {
+  void note_checks(const LayerEntry& entry) {
     const auto hit = [](const voxel::CheckHits& hits) { return hits.count > 0; };
     if (options_.strict && std::any_of(entry.checks.begin(), entry.checks.end(), hit)) failed_check_ = true;
   }
@@ -162,7 +165,7 @@ class SliceRun {
     report_.stopped_by_check = failed_check_;
     report_.material_voxels.resize(request_.materials.size());
     CheckSums checks(request_);
-    for (const auto& [layer, entry] : folder_.finished()) {
+    for (const auto& [layer, entry] : slices_.layers(store_.finished())) {
       if (layer < layers_.begin || layer >= layers_.end) continue;
       for (size_t i = 0; i < entry.voxels.size(); ++i) report_.material_voxels[i] += entry.voxels[i];
       checks.add(entry.checks);
@@ -177,7 +180,8 @@ class SliceRun {
   Progress* watched_;
   const StopFlag* stop_;
   WorkSize size_;
-  JobFolder folder_;
+  StoredSlices slices_;
+  stores::FolderStore store_;
   LayerRange layers_;
   const std::vector<LayerRange> slabs_;  // slabs that are missing
   Forecast forecast_;

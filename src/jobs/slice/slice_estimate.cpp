@@ -15,7 +15,7 @@
 namespace ombre::compile {
 namespace {
 
-constexpr size_t most_samples = 64;
+constexpr size_t most_sampled_slabs = 64;
 // After most_seconds no slab is begun, after deadline_seconds none continues.
 constexpr double most_seconds = 2, deadline_seconds = 4;
 // Times of writing to an idle disk.
@@ -35,7 +35,7 @@ struct RowPiece {
 struct Sample {
   LayerRange slab;
   LayerCost cost;  // cost of the slab, if the piece is like the rest of it
-  std::vector<JournalEntry> layers;
+  std::vector<LayerEntry> layers;
 };
 
 // Returns about the bytes that a layer's files take beside its rows.
@@ -134,7 +134,7 @@ class RowPieces {
 class SampledChecks {
  public:
   void add(const Sample& sample) {
-    for (const JournalEntry& entry : sample.layers) layers_[entry.layer] = entry.checks;
+    for (const LayerEntry& entry : sample.layers) layers_[entry.layer] = entry.checks;
   }
   std::vector<CheckReport> reports(const SliceRequest& request) const {
     CheckSums sums(request);
@@ -194,7 +194,7 @@ SliceEstimate estimate_slice(const SliceRequest& request, const RegionProducer& 
   const LayerRange range = options.layers.value_or(LayerRange{0, request.lattice.count[2]});
   const WorkSize size = size_work(request, options);
   const PieceMaker maker(request, regions);
-  const std::vector<LayerRange> slabs = spread(missing_slabs(range, {}, size.slab_layers), most_samples);
+  const std::vector<LayerRange> slabs = spread(missing_slabs(range, {}, size.slab_layers), most_sampled_slabs);
   RowPieces pieces(request, slabs);
 
   const Stopwatch watch;

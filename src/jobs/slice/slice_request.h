@@ -14,6 +14,7 @@
 #include "formats/images/png.h"
 #include "jobs/common/sampling_rules.h"
 #include "stages/job_stages.h"
+#include "stores/folder_use.h"
 #include "voxel/lattice.h"
 #include "voxel/layers.h"
 #include "voxel/printer.h"
@@ -81,11 +82,7 @@ using LayerProducer = std::function<std::vector<voxel::LayerResult>(int64_t begi
 // Returns a producer of layers of the whole width and height of the lattice.
 LayerProducer whole_layers(RegionProducer regions, const voxel::Lattice& lattice);
 
-enum class FolderUse {
-  fresh,    // the folder must be empty or missing
-  resume,   // continues the job there, if there is one
-  replace,  // removes the files of the job there; files of others stay
-};
+using stores::FolderUse;
 
 // Options that do not decide any bytes.
 struct SliceOptions {

@@ -84,8 +84,7 @@ SliceOptions without_stages_memory(const SliceOptions& options) {
   return rest;
 }
 
-std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
-                                      int64_t slab_layers) {
+std::vector<LayerRange> missing_slabs(LayerRange range, const stores::Entries& finished, int64_t slab_layers) {
   std::vector<LayerRange> slabs;
   for (int64_t layer = range.begin; layer < range.end; ++layer) {
     if (finished.count(layer) > 0) continue;

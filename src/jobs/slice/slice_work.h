@@ -1,12 +1,11 @@
 // Cuts a slice job into slabs, and makes the bytes of a layer's files from its runs.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "export/material_stack.h"
-#include "jobs/slice/job_journal.h"
+#include "jobs/slice/layer_entry.h"
 #include "jobs/slice/slice_request.h"
 
 namespace ombre::compile {
@@ -29,14 +28,13 @@ StageLoan stage_loan(const SliceOptions& options, Progress* progress, const Stop
 SliceOptions without_stages_memory(const SliceOptions& options);
 
 // Returns the stretches of `range` that are not finished, cut at multiples of slab_layers.
-std::vector<LayerRange> missing_slabs(LayerRange range, const std::map<int64_t, JournalEntry>& finished,
-                                      int64_t slab_layers);
+std::vector<LayerRange> missing_slabs(LayerRange range, const stores::Entries& finished, int64_t slab_layers);
 
 // Returns up to `most` of the slabs, in an order in which any number of first ones is spread over all of them.
 std::vector<LayerRange> spread(const std::vector<LayerRange>& slabs, size_t most);
 
 struct EncodedLayer {
-  JournalEntry entry;               // without its files
+  LayerEntry entry;                 // without its files
   std::vector<std::string> images;  // bytes of its files; empty if an empty layer is dropped
 
   uint64_t bytes() const;

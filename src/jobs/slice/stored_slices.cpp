@@ -1,0 +1,112 @@
+// A slice job as a job whose pieces are stored.
+#include "jobs/slice/stored_slices.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/system/assert.h"
+#include "base/text/error.h"
+#include "base/text/json.h"
+#include "jobs/slice/job_description.h"
+
+namespace ombre::compile {
+namespace {
+
+// Returns the names of the job's materials, without void.
+std::optional<std::vector<std::string>> material_names(const Data* materials) {
+  if (!materials || !materials->list() || materials->list()->empty()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Data& material : *materials->list()) {
+    const Data* name = material.find("name");
+    if (!name || !name->string()) return std::nullopt;
+    names.push_back(*name->string());
+  }
+  names.erase(names.begin());
+  return names;
+}
+
+// Returns the names of the layers' files by a folder's job.json.
+std::optional<LayerFiles> layer_files(const Data& job) {
+  const Data* images = job.find("images");
+  const Data* sampling = job.find("sampling");
+  const Data* files = images ? images->find("files") : nullptr;
+  const Data* first = images ? images->find("first_index") : nullptr;
+  const Data* voxels = sampling ? sampling->find("voxels") : nullptr;
+  if (!files || !files->string() || !first || !first->number()) return std::nullopt;
+  if (!voxels || !voxels->list() || voxels->list()->size() != 3 || !voxels->list()->back().number())
+    return std::nullopt;
+  const auto pattern = voxel::NamePattern::parse(*files->string());
+  const auto materials = material_names(job.find("materials"));
+  const double first_index = *first->number(), count = *voxels->list()->back().number();
+  if (!pattern || !materials || std::abs(first_index) > 1e9 || !(count >= 0 && count < 1e9)) return std::nullopt;
+  return LayerFiles(*pattern, *materials, static_cast<int64_t>(first_index), static_cast<int64_t>(count));
+}
+
+}  // namespace
+
+const stores::JobWords& slice_words() {
+  static const stores::JobWords words{"slice job", "layers", job_file, layer_member, ".png"};
+  return words;
+}
+
+stores::Piece StoredSlices::piece(const LayerEntry& layer, std::vector<std::string> images) const {
+  const std::vector<std::string> names = files_.names(layer.layer);
+  ASSERT(images.empty() || images.size() == names.size());
+  stores::Piece piece{layer.layer, {}, record_of(layer)};
+  for (size_t i = 0; i < images.size(); ++i) piece.files.emplace_back(names[i], std::move(images[i]));
+  return piece;
+}
+
+std::map<int64_t, LayerEntry> StoredSlices::layers(const stores::Entries& finished) const {
+  std::map<int64_t, LayerEntry> layers;
+  for (const auto& [id, entry] : finished) layers.emplace(id, *layer_of(entry));
+  return layers;
+}
+
+std::string StoredSlices::description(const stores::Entries& finished) const {
+  DataMembers job = describe_job(request_);
+  const bool complete = is_complete(finished);
+  job.emplace_back("status", complete ? "complete" : "unfinished");
+  if (complete) job.emplace_back("totals", describe_totals(request_, layers(finished)));
+  return print_json(job);
+}
+
+bool StoredSlices::is_complete(const stores::Entries& finished) const {
+  return static_cast<int64_t>(finished.size()) == request_.lattice.count[2];
+}
+
+void StoredSlices::check_same(const std::string& folder, const DataMembers& there) const {
+  DataMembers job = there;
+  std::erase_if(job, [](const auto& member) { return member.first == "status" || member.first == "totals"; });
+  if (const std::string difference = first_difference(job, describe_job(request_)); !difference.empty())
+    throw Error(Code::other_job,
+                folder + " holds another job: " + difference + "; replace it with " + spelled::option("--force") +
+                    ", or choose another folder",
+                {{"file", folder}});
+}
+
+bool StoredSlices::accepts(const stores::Entry& entry) const {
+  const std::optional<LayerEntry> layer = layer_of(entry);
+  if (!layer || layer->layer >= request_.lattice.count[2]) return false;
+  if (layer->files.empty() && layer->is_empty() && request_.drop_empty_layers) return true;
+  const std::vector<std::string> names = files_.names(layer->layer);
+  const auto is_named = [](const stores::StoredFile& file, const std::string& name) { return file.name == name; };
+  return std::equal(layer->files.begin(), layer->files.end(), names.begin(), names.end(), is_named);
+}
+
+bool StoredSlices::is_kind(const Data& description) const {
+  const Data* format = description.find("format");
+  return format && format->string() && format->string()->starts_with(job_format);
+}
+
+std::optional<stores::NameTest> StoredSlices::files_of(const Data& description) const {
+  const std::optional<LayerFiles> files = layer_files(description);
+  if (!files) return std::nullopt;
+  return [files = *files](std::string_view name) { return files.contains(name); };
+}
+
+std::optional<LayerEntry> StoredSlices::layer_of(const stores::Entry& entry) const {
+  return compile::layer_of(entry, request_.materials.size(), request_.check_texts.size());
+}
+
+}  // namespace ombre::compile
