@@ -21,7 +21,7 @@ struct StoredFile {
   bool operator==(const StoredFile&) const = default;
 };
 
-// What the journal says of a piece.
+// The line of a journal for a piece.
 struct Entry {
   int64_t id = 0;                 // the number of the piece
   std::vector<StoredFile> files;  // empty if the piece has none

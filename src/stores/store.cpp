@@ -1,4 +1,4 @@
-// Where a long job keeps what it has done: pieces, each with its files and a record.
+// A store keeps the finished pieces of a long job, each with its files and a record.
 #include "stores/store.h"
 
 #include "base/system/hash.h"

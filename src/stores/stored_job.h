@@ -1,4 +1,4 @@
-// What a store of files asks of the job whose pieces it keeps.
+// The questions that a store of files has for the job whose pieces it keeps.
 #pragma once
 
 #include <functional>
