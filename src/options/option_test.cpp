@@ -77,8 +77,6 @@ TEST(Options, SayWhatTheyTake) {
   EXPECT_EQ(row("--note").takes, Takes::several);
   EXPECT_EQ(row("--on").takes, Takes::nothing);
   EXPECT_EQ(row("--on").excludes, std::vector<std::string>{"--note"});
-  EXPECT_EQ(words_text({"red", "green", "blue"}), "red, green or blue");
-  EXPECT_EQ(words_text({"red"}), "red");
 }
 
 TEST(Options, ThatDecideResultsAreDescribedInOrder) {

@@ -105,6 +105,13 @@ TEST(JoinAndSplit, AreInverse) {
   EXPECT_EQ(join(Strings{"a", "b", "c"}, ", "), "a, b, c");
 }
 
+TEST(WordsText, PutsOrBeforeTheLast) {
+  EXPECT_EQ(words_text(Strings{"red", "green", "blue"}), "red, green or blue");
+  EXPECT_EQ(words_text(Strings{"red", "green"}), "red or green");
+  EXPECT_EQ(words_text(Strings{"red"}), "red");
+  EXPECT_EQ(words_text(Strings{}), "");
+}
+
 TEST(Trim, OuterBlanksAlone) {
   const std::pair<std::string, std::string> cases[] = {
       {" a b ", "a b"}, {"\t\r\na\n", "a"}, {"", ""}, {" \n ", ""}, {"a", "a"}};
