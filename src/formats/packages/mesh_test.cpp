@@ -149,7 +149,7 @@ TEST(Mesh, EveryFormatGivesTheSameTriangles) {
 
 TEST(Mesh, UnknownFormatsAreNamed) {
   expect_message_of("a.xyz", "1 2 3\n", "neither the name nor the content tells which mesh format this is");
-  expect_message_of("a.glb", "glTF", "name the file .stl, .obj, .ply, .off, .3mf or .amf");
+  expect_message_of("a.glb", "glTF", "name the file .3mf, .amf, .obj, .off, .ply or .stl");
 }
 
 TEST(Mesh, EmptyFilesAreNamed) {
