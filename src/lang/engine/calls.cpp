@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lang/engine/for_each.h"
+#include "lang/engine/evaluation_loops.h"
 #include "lang/engine/interpreter.h"
 
 namespace ombre::lang {
@@ -41,7 +41,7 @@ void Interpreter::call_module(const ast::ModuleDef& module, const ScopePtr& home
   const ScopePtr inner = make_scope(home, &module.body.plan);
   const SpecialsMark mark(*this);
   inner->set_children(&children);
-  bind(module.parameters, statement.arguments, scope, inner, statement.name.span, mark.size());
+  bind(module.parameters, statement.arguments, scope, home, inner, statement.name.span, mark.size());
   inner->set(children_count_name_, static_cast<double>(statement.children.plan.actions.size()));
 
   struct Entered {
@@ -171,43 +171,6 @@ void Interpreter::make_node(Invocation invocation, const ast::Span& where, Nodes
   if (node) out.push_back(std::move(node));
 }
 
-void Interpreter::bind(const std::vector<ast::Parameter>& parameters, const std::vector<ast::Argument>& arguments,
-                       const ScopePtr& caller, const ScopePtr& into, const ast::Span& callee, size_t specials_from) {
-  into->reserve(parameters.size());
-  size_t position = 0;
-  for (const ast::Argument& argument : arguments) {
-    bind_argument(parameters, argument, position, caller, *into, callee, specials_from);
-    if (!argument.name.symbol) ++position;
-  }
-  for (const ast::Parameter& parameter : parameters) {
-    if (into->own(parameter.name.symbol)) continue;
-    // A special parameter without a value keeps that of the caller.
-    if (parameter.name.is_special() && !parameter.value) continue;
-    Value value;
-    if (parameter.value) value = eval(*parameter.value, into);
-    into->set(parameter.name.symbol, value);
-    if (parameter.name.is_special()) set_special(parameter.name.symbol, std::move(value), specials_from);
-  }
-}
-
-void Interpreter::bind_argument(const std::vector<ast::Parameter>& parameters, const ast::Argument& argument,
-                                size_t position, const ScopePtr& caller, Scope& into, const ast::Span& callee,
-                                size_t specials_from) {
-  Symbol target = argument.name.symbol;
-  if (!target) {
-    if (position >= parameters.size()) fail_too_many(argument.value->span, callee, parameters);
-    target = parameters[position].name.symbol;
-  } else {
-    const auto is_target = [&](const ast::Parameter& parameter) { return parameter.name.symbol == target; };
-    const bool is_declared = std::any_of(parameters.begin(), parameters.end(), is_target);
-    if (!is_declared && !argument.name.is_special()) fail_parameter(argument.name, callee, parameters);
-  }
-  Value value = eval(*argument.value, caller);
-  if (into.own(target)) fail_twice(argument, target);
-  if (target->front() == '$') set_special(target, value, specials_from);
-  into.set(target, std::move(value));
-}
-
 void Interpreter::assert_true(const std::vector<ast::Argument>& arguments, const ast::Span& where,
                               const ScopePtr& scope) {
   const ast::Expr *condition = nullptr, *message = nullptr;
@@ -224,16 +187,6 @@ void Interpreter::assert_true(const std::vector<ast::Argument>& arguments, const
   std::string text;
   append_text(text, eval(*message, scope), false, meter_);
   fail(condition->span, "the assertion does not hold: " + text);
-}
-
-void Interpreter::echo(const std::vector<ast::Argument>& arguments, const ScopePtr& scope) {
-  std::string text;
-  for (const ast::Argument& argument : arguments) {
-    if (!text.empty()) text += ", ";
-    if (argument.name.symbol) text += argument.name.text() + " = ";
-    append_text(text, eval(*argument.value, scope), true, meter_);
-  }
-  if (options_.echo) options_.echo(text);
 }
 
 }  // namespace ombre::lang

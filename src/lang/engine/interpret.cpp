@@ -6,22 +6,17 @@ namespace ombre::lang {
 
 Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const Options& options,
                          Diagnostics& diagnostics)
-    : program_(program),
+    : Evaluation(program, options.limits, options.stop),
       vocabulary_(vocabulary),
       options_(options),
       diagnostics_(diagnostics),
-      meter_(options.limits, options.stop),
-      captured_(options.limits),
-      children_name_(program.names->intern("children")),
-      children_count_name_(program.names->intern("$children")),
-      facets_name_(program.names->intern("$fn")) {
+      children_name_(symbol("children")),
+      children_count_name_(symbol("$children")),
+      facets_name_(symbol("$fn")) {
   for (const auto table : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
-    for (const Builtin& builtin : table) builtins_[program.names->intern(builtin.name)] = &builtin;
-  constants_[program.names->intern("PI")] = 3.14159265358979323846;
+    for (const Builtin& builtin : table) builtins_[symbol(builtin.name)] = &builtin;
   // Initial values of OpenSCAD's special variables.
-  const auto special = [&](const char* name, Value value) {
-    specials_.emplace_back(program.names->intern(name), std::move(value));
-  };
+  const auto special = [&](const char* name, Value value) { specials_.emplace_back(symbol(name), std::move(value)); };
   special("$fn", 0.0);
   special("$fa", 12.0);
   special("$fs", 2.0);
@@ -56,7 +51,7 @@ Interpreter::Nodes Interpreter::run() {
     const ScopePtr& scope = unit_scope(main);
     try {
       run_actions(main.plan, scope, nodes);
-    } catch (const Failure&) {  // a failed assertion stops the script
+    } catch (const Stopped&) {  // a failed assertion stops the script
     }
   } catch (const LimitReached& limit) {
     report({Severity::error, at_.range(), limit.message, limit.hint, Code::limit});

@@ -43,7 +43,7 @@ void Interpreter::fail(const ast::Span& where, std::string_view message, const P
 void Interpreter::fail(Code code, const ast::Span& where, std::string_view message, const Phrase& hint,
                        CodeValues values) {
   report({Severity::error, where.range(), std::string(message), hint, code, std::move(values)});
-  throw Failure{};
+  throw Stopped{};
 }
 
 void Interpreter::fail_found(const ast::Span& where, std::string_view expected, const Value& found,
@@ -63,19 +63,34 @@ void Interpreter::fail_operator(ast::Operator op, const ast::Span& where, const 
        is_text ? "write str(a, b) to join texts" : "");
 }
 
-void Interpreter::fail_parameter(const ast::Name& name, const ast::Span& callee,
-                                 const std::vector<ast::Parameter>& parameters) {
+void Interpreter::stop_at_depth(const ast::Span&) {
+  throw LimitReached{"calls and operators are evaluated inside each other deeper than " +
+                         format_count(static_cast<unsigned>(options_.limits.depth)) + " levels",
+                     "end the recursion, or let the function end with its own call, which takes no depth"};
+}
+
+void Interpreter::stop_without_part(const ast::Member& member, const Object& object, const std::string& known) {
+  fail(member.member.span, object.describe() + " has no \"." + member.member.text() + '"', known);
+}
+
+void Interpreter::stop_at_choice(const ast::Span& where, const Value& yes, const Value& no) {
+  fail(where, "this condition varies in space, and cannot choose between " + describe(yes) + " and " + describe(no),
+       "give numbers on both sides of the colon, or materials, or lists of them");
+}
+
+void Interpreter::report_parameter(const ast::Name& name, const ast::Span& callee,
+                                   const std::vector<ast::Parameter>& parameters) {
   const std::string suggestion = did_you_mean(name.text(), names_of(parameters));
   fail(name.span, '"' + text_at(callee) + "\" has no parameter \"" + name.text() + '"',
        suggestion.empty() ? listed(parameters) : suggestion);
 }
 
-void Interpreter::fail_too_many(const ast::Span& where, const ast::Span& callee,
-                                const std::vector<ast::Parameter>& parameters) {
-  fail(where, "too many arguments for \"" + text_at(callee) + '"', listed(parameters));
+void Interpreter::report_too_many(const ast::Argument& argument, const ast::Span& callee,
+                                  const std::vector<ast::Parameter>& parameters) {
+  fail(argument.value->span, "too many arguments for \"" + text_at(callee) + '"', listed(parameters));
 }
 
-void Interpreter::fail_twice(const ast::Argument& argument, Symbol parameter) {
+void Interpreter::report_twice(const ast::Argument& argument, Symbol parameter, const ast::Span&) {
   const ast::Span& where = argument.name.symbol ? argument.name.span : argument.value->span;
   fail(where, "the parameter \"" + *parameter + "\" is given twice");
 }
@@ -103,7 +118,7 @@ void Interpreter::fail_unknown(Code code, const ast::Name& name, const char* wha
         {"similar", suggestion.empty() ? "" : closest_name(name.text(), candidates).value_or("")}});
 }
 
-void Interpreter::fail_unknown_variable(const ast::Name& name, const Scope& scope) {
+Value Interpreter::value_of_unknown(const ast::Name& name, const Scope& scope) {
   std::vector<std::string> candidates = vocabulary_.constants();
   for (const auto& [symbol, value] : specials_) candidates.push_back(*symbol);
   candidates.emplace_back("PI");

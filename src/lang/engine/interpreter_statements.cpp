@@ -1,5 +1,5 @@
 // Statements: scopes, conditions, loops.
-#include "lang/engine/for_each.h"
+#include "lang/engine/evaluation_loops.h"
 #include "lang/engine/interpreter.h"
 #include "lang/engine/parser.h"
 
@@ -17,40 +17,6 @@ bool makes_solids(const Statement& statement) {
 }
 
 }  // namespace
-
-Interpreter::Level::Level(Interpreter& interpreter, const ast::Span& at, int weight)
-    : interpreter_(interpreter), weight_(weight) {
-  interpreter.at_ = at;
-  interpreter.meter_.spend();
-  const int limit = interpreter.options_.limits.depth;
-  if (interpreter.depth_ + weight > limit)
-    throw LimitReached{"calls and operators are evaluated inside each other deeper than " +
-                           format_count(static_cast<unsigned>(limit)) + " levels",
-                       "end the recursion, or let the function end with its own call, which takes no depth"};
-  interpreter.depth_ += weight;
-}
-
-void Interpreter::set_special(Symbol name, Value value, size_t from) {
-  for (size_t i = from; i < specials_.size(); ++i) {
-    if (specials_[i].first != name) continue;
-    specials_[i].second = std::move(value);
-    return;
-  }
-  specials_.emplace_back(name, std::move(value));
-}
-
-const Value* Interpreter::find_special(Symbol name) const {
-  for (size_t i = specials_.size(); i > 0; --i)
-    if (specials_[i - 1].first == name) return &specials_[i - 1].second;
-  return nullptr;
-}
-
-void Interpreter::set_variable(const ast::Name& name, Value value, Scope& scope, size_t specials_from) {
-  if (name.is_special())
-    set_special(name.symbol, std::move(value), specials_from);
-  else
-    scope.set(name.symbol, std::move(value));
-}
 
 const ScopePtr& Interpreter::unit_scope(const Unit& unit) {
   const auto found = unit_scopes_.find(&unit);
@@ -71,7 +37,7 @@ void Interpreter::assign(const ast::Plan& plan, const ScopePtr& scope, bool is_m
     Value value = Broken{};
     try {
       value = eval(*assignment->value, scope);
-    } catch (const Failure&) {  // code that reads the variable later fails without a diagnostic
+    } catch (const Stopped&) {  // code that reads the variable later fails without a diagnostic
     }
     set_variable(assignment->name, std::move(value), *scope, specials_from);
   }
@@ -99,7 +65,7 @@ void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Node
 void Interpreter::run_action(const Statement& statement, const ScopePtr& scope, Nodes& out) {
   try {
     execute(statement, scope, out);
-  } catch (const Failure&) {
+  } catch (const Stopped&) {
     ++failures_;
     if (statement.kind == Statement::Kind::assertion) throw;
   }
@@ -161,7 +127,7 @@ void Interpreter::run_condition(const ast::Condition& statement, const ScopePtr&
 void Interpreter::run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Nodes& out) {
   if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
   const Level level(*this, statement.whole, heavy);
-  for_each_scope(statement.arguments[variable], scope,
+  for_each_scope(statement.arguments[variable], statement.span, scope,
                  [&](const ScopePtr& inner) { run_loop(statement, variable + 1, inner, out); });
 }
 

@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numbers>
 
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
 
 Evaluator::Evaluator(const Program& program, const Options& options, Messages& messages)
-    : program_(program),
-      options_(options),
-      messages_(messages),
-      meter_(options.limits, options.stop),
-      captured_(options.limits) {
-  const auto symbol = [&](std::string_view name) { return program.names->intern(name); };
+    : Evaluation(program, options.limits, options.stop), options_(options), messages_(messages) {
   children_name_ = symbol("children"), child_name_ = symbol("child");
   intersection_for_name_ = symbol("intersection_for"), assign_name_ = symbol("assign");
   children_count_ = symbol("$children"), parent_modules_ = symbol("$parent_modules");
@@ -28,7 +22,6 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
   for (const char* name : {"cube", "sphere", "cylinder", "polyhedron", "square", "circle", "polygon"})
     std::ranges::find(module_table_, std::string_view(name), &Module::name)->warns_of_children = true;
   for (const Module& module : module_table_) modules_[symbol(module.name)] = &module;
-  constants_[symbol("PI")] = std::numbers::pi;
 
   const auto special = [&](std::string_view name, Value value) {
     specials_.emplace_back(symbol(name), std::move(value));
@@ -91,7 +84,7 @@ std::string shown_path(const std::string& path, const std::string& folder) {
 
 std::string folder_of(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
 
-std::pair<std::string, int> Evaluator::place(const ast::Span& where) {
+std::pair<std::string, int> Evaluator::file_and_line(const ast::Span& where) {
   if (!where.source) return {};
   const auto known = shown_files_.find(where.source);
   const int line = (*where.source)->place(where.begin).line;
@@ -101,7 +94,7 @@ std::pair<std::string, int> Evaluator::place(const ast::Span& where) {
 }
 
 void Evaluator::say(Message::Kind kind, std::string text, const ast::Span& where, Code code) {
-  auto [file, line] = place(where);
+  auto [file, line] = file_and_line(where);
   messages_.add({kind, std::move(text), std::move(file), line, code});
   if (kind == Message::Kind::warning && options_.stops_at_warnings) throw Stopped{};
 }
@@ -126,32 +119,8 @@ void Evaluator::stop(std::string text, const ast::Span& where, Code code) {
 void Evaluator::trace(const std::string& name, const ast::Span& where) {
   constexpr int most_traced = 12;
   if (++traced_ > most_traced) return;
-  auto [file, line] = place(where);
+  auto [file, line] = file_and_line(where);
   messages_.add({Message::Kind::trace, "called by '" + name + '\'', std::move(file), line});
-}
-
-// Functions for special variables.
-
-void Evaluator::set_special(Symbol name, Value value, size_t from) {
-  for (size_t i = from; i < specials_.size(); ++i) {
-    if (specials_[i].first != name) continue;
-    specials_[i].second = std::move(value);
-    return;
-  }
-  specials_.emplace_back(name, std::move(value));
-}
-
-const Value* Evaluator::find_special(Symbol name) const {
-  for (size_t i = specials_.size(); i > 0; --i)
-    if (specials_[i - 1].first == name) return &specials_[i - 1].second;
-  return nullptr;
-}
-
-void Evaluator::set_variable(const ast::Name& name, Value value, Scope& scope, size_t specials_from) {
-  if (name.symbol && name.is_special())
-    set_special(name.symbol, std::move(value), specials_from);
-  else if (name.symbol)
-    scope.set(name.symbol, std::move(value));
 }
 
 double Evaluator::special_number(Symbol name) const {

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lang/engine/loader.h"
-#include "lang/engine/scope.h"
+#include "lang/engine/evaluation.h"
 #include "lang/openscad/script_functions.h"
 #include "lang/openscad/script_messages.h"
 #include "lang/openscad/script_options.h"
@@ -79,52 +78,43 @@ std::vector<Module> transform_modules();
 std::vector<Module> operation_modules();
 std::vector<Module> file_modules();
 
-class Evaluator {
+class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
  public:
   Evaluator(const Program& program, const Options& options, Messages& messages);
   // Returns the group of all nodes, or the node marked "!"; null after an error.
   solids::TreePtr run();
 
  private:
+  friend Evaluation;
   friend class ModuleCall;
+
+  static constexpr Rules rules{.call_levels = 1,
+                               .names_whole_constructs = true,
+                               .prefers_variables = true,
+                               .prefers_last_use = true,
+                               .defaults_see_parameters = false,
+                               .arguments_set_specials_last = true};
 
   // Levels that are reserved for what the last allowed call still evaluates.
   static constexpr int spare_levels = 200;
 
-  // Thrown to stop the evaluation after a message was added.
-  struct Stopped {};
-
-  class Level {
+  // The calls that were entered without a further level. A function that calls itself at its end counts once.
+  class EnteredCalls {
    public:
-    explicit Level(Evaluator& evaluator) : evaluator_(evaluator) { ++evaluator_.depth_; }
-    ~Level() { --evaluator_.depth_; }
-    Level(const Level&) = delete;
-    Level& operator=(const Level&) = delete;
+    void add(const ast::Call& call, const ast::Expr& body) {
+      if (!first_)
+        first_ = &call;
+      else if (&body != body_)
+        others_.push_back(&call);
+      body_ = &body;
+    }
+    const ast::Call* first() const { return first_; }
+    const std::vector<const ast::Call*>& others() const { return others_; }
 
    private:
-    Evaluator& evaluator_;
-  };
-
-  // Removes the special variables that were set during its life.
-  class SpecialsMark {
-   public:
-    explicit SpecialsMark(Evaluator& evaluator) : evaluator_(evaluator), size_(evaluator.specials_.size()) {}
-    ~SpecialsMark() { evaluator_.specials_.resize(size_); }
-    SpecialsMark(const SpecialsMark&) = delete;
-    SpecialsMark& operator=(const SpecialsMark&) = delete;
-    size_t size() const { return size_; }
-
-   private:
-    Evaluator& evaluator_;
-    size_t size_;
-  };
-
-  // A function to call, and the scope in which it was defined.
-  struct Callee {
-    const std::vector<ast::Parameter>* parameters = nullptr;
-    const ast::Expr* body = nullptr;
-    ScopePtr scope;
-    const Unit* used = nullptr;  // the file that defines the function, if it is one of `use`
+    const ast::Call* first_ = nullptr;
+    std::vector<const ast::Call*> others_;
+    const ast::Expr* body_ = nullptr;  // of the last call
   };
 
   // Functions that report messages.
@@ -133,7 +123,8 @@ class Evaluator {
   void warn_all(Problems& problems, const ast::Span& where);
   [[noreturn]] void stop(std::string text, const ast::Span& where, Code code = Code::script);
   void trace(const std::string& name, const ast::Span& where);
-  std::pair<std::string, int> place(const ast::Span& where);
+  void trace(const EnteredCalls& entered);
+  std::pair<std::string, int> file_and_line(const ast::Span& where);
 
   // Defined in script_statements.cpp.
   const ScopePtr& unit_scope(const Unit& unit);
@@ -171,55 +162,50 @@ class Evaluator {
                        const ScopePtr& scope, std::string& written);
   void report_words(const Diagnostics& found, const ast::Span& where);
   Data data_of(const Value& value, const SourceRange& where, const ast::Span& argument);
-  std::optional<Value> of_objects(std::string_view function, const std::vector<Value>& arguments);
-  Value choice(const ast::Conditional& conditional, size_t branch, const Value& condition, const ScopePtr& scope);
 
   // Defined in script_expressions.cpp.
-  Value eval(const ast::Expr& expr, const ScopePtr& scope);
-  Value eval_compound(const ast::Expr& expr, const ScopePtr& scope);
-  Value eval_variable(const ast::Name& name, const Scope& scope);
-  const Value* find_variable(Symbol name, const Scope& scope) const;
+  [[noreturn]] void stop_at_depth(const ast::Span& where);
+  double passes(const Range& range, const ast::Span& where);
+  bool is_one_pass(const Value& values, const ast::Span&, const char*) { return !values.is_undef(); }
+  void check_pass(uint64_t count, const ast::GenerateLoop& loop);
+  const Value* find_constant(Symbol) { return nullptr; }
+  Value value_of_unknown(const ast::Name& name, const Scope& scope);
+  Value mistaken(const ast::Span&, std::string_view, const Value&) { return {}; }
   Value eval_range(const ast::Range& range, const ScopePtr& scope);
-  Value eval_list(const ast::List& list, const ScopePtr& scope);
-  Value eval_chain(const ast::Chain& chain, const ScopePtr& scope);
-  Value eval_index(const ast::Index& index, const ScopePtr& scope);
-  Value eval_member(const ast::Member& member, const ScopePtr& scope);
-  Value operate(ast::Operator op, const Value& left, const Value& right, const ast::Span& where);
-  Value at_index(const Value& base, double index);
+  Value eval_other_member(const ast::Member& member, const Value& base);
+  [[noreturn]] void stop_without_part(const ast::Member& member, const Object& object, const std::string& known);
+  [[noreturn]] void stop_at_choice(const ast::Span& where, const Value& yes, const Value& no);
+  bool is_chosen(const Value& condition, const ast::Span&) { return truth(condition); }
+  Value unary(ast::Operator op, const ast::Span& where, const Value& operand);
+  Value binary(ast::Operator op, const ast::Span& where, const Value& left, const Value& right) {
+    if (left.number() && right.number()) {  // a shortcut for the most frequent operators
+      const double a = *left.number(), b = *right.number();
+      if (op == ast::Operator::add) return a + b;
+      if (op == ast::Operator::subtract) return a - b;
+      if (op == ast::Operator::multiply) return a * b;
+    }
+    return operate(op, where, left, right);
+  }
+  Value operate(ast::Operator op, const ast::Span& where, const Value& left, const Value& right);
 
   // Defined in script_function_calls.cpp.
-  Value eval_tail(const ast::Expr& expr, const ScopePtr& scope);
-  const ast::Expr* enter_prefix(const ast::Prefix& prefix, ScopePtr& scope, size_t specials_from);
-  bool find_function(const ast::Call& call, const ScopePtr& scope, Callee& callee);
-  bool find_named_function(Symbol name, const ScopePtr& scope, Callee& callee);
-  Value call_builtin(const ast::Call& call, const ScopePtr& scope);
-  void bind(const std::vector<ast::Parameter>& parameters, const std::vector<ast::Argument>& arguments,
-            const ScopePtr& caller, const ScopePtr& home, const ScopePtr& into, const ast::Span& where,
-            size_t specials_from);
-  void bind_let(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t specials_from);
+  void check_depth(const ast::Call& call);
+  void enter(const Unit& used, size_t specials_from);
+  void replace_callee(const ast::Call& call, const Value& value, const ScopePtr& scope, Callee& callee);
+  Value call_other(const ast::Call& call, const ScopePtr& scope);
+  void report_too_many(const ast::Argument& argument, const ast::Span& where,
+                       const std::vector<ast::Parameter>& parameters);
+  void report_parameter(const ast::Name& name, const ast::Span& where, const std::vector<ast::Parameter>& parameters);
+  void report_twice(const ast::Argument& argument, Symbol parameter, const ast::Span& where);
+  bool ignores(const std::vector<ast::Argument>& arguments, size_t n, const Value& value);
   void assert_true(const std::vector<ast::Argument>& arguments, const ast::Span& where, const ScopePtr& scope);
-  void echo(const std::vector<ast::Argument>& arguments, const ScopePtr& scope);
+  void append(std::string& text, const Value& value);
+  void print(std::string text);
 
-  // Defined in script_generators.cpp.
-  void generate(const ast::Expr& expr, const ScopePtr& scope, ListBuilder& out);
-  void generate_for(const ast::GenerateFor& loop, size_t variable, const ScopePtr& scope, ListBuilder& out);
-  void generate_loop(const ast::GenerateLoop& loop, const ScopePtr& scope, ListBuilder& out);
-  void generate_each(const ast::GenerateEach& each, const ScopePtr& scope, ListBuilder& out);
-  template <class Body>
-  void for_each(const Value& values, const ast::Span& where, const Body& body);
-  template <class Body>
-  void for_each_scope(const ast::Argument& loop, const ScopePtr& scope, const ast::Span& where, const Body& body);
-
-  void set_special(Symbol name, Value value, size_t from);
-  const Value* find_special(Symbol name) const;
-  void set_variable(const ast::Name& name, Value value, Scope& scope, size_t specials_from);
   double special_number(Symbol name) const;
 
-  const Program& program_;
   const Options& options_;
   Messages& messages_;
-  Meter meter_;
-  CapturedScopes captured_;
   std::mt19937 random_{0};
 
   Symbol children_name_, child_name_, intersection_for_name_, assign_name_, children_count_, parent_modules_, fn_, fa_,
@@ -227,33 +213,18 @@ class Evaluator {
   std::unordered_map<Symbol, NamedFunction> functions_;
   std::vector<Module> module_table_;
   std::unordered_map<Symbol, const Module*> modules_;
-  std::unordered_map<Symbol, Value> constants_;
   std::unordered_map<const Unit*, ScopePtr> unit_scopes_;
   std::unordered_map<const Unit*, std::vector<std::pair<Symbol, Value>>> unit_specials_;
   std::unordered_map<const SourcePtr*, std::string> shown_files_;
 
-  // Special variables of the calls that are being evaluated, innermost last.
-  std::vector<std::pair<Symbol, Value>> specials_;
   std::vector<std::string> module_names_;   // names of the modules that are being evaluated, outermost first
   std::vector<const solids::Tree*> roots_;  // marked with "!"
-  ast::Span at_;                            // position of the current evaluation
-  int depth_ = 0, nested_statements_ = 0;
+  int nested_statements_ = 0;
   int traced_ = 0;  // number of calls around an error that were reported
 };
 
-template <class Body>
-void Evaluator::for_each_scope(const ast::Argument& loop, const ScopePtr& scope, const ast::Span& where,
-                               const Body& body) {
-  const Value values = eval(*loop.value, scope);
-  const SpecialsMark mark(*this);
-  ScopePtr inner = make_scope(scope);
-  for_each(values, where, [&](const Value& value) {
-    // Reuses the scope for the next pass, unless a closure holds it.
-    if (inner->use_count() > 1) inner = make_scope(scope);
-    inner->clear();
-    if (loop.name.symbol) set_variable(loop.name, value, *inner, mark.size());
-    body(inner);
-  });
-}
-
 }  // namespace ombre::lang::openscad
+
+namespace ombre::lang {
+extern template class Evaluation<openscad::Evaluator, solids::TreePtr>;
+}

@@ -1,6 +1,8 @@
 // Statements: scopes, conditions, loops, calls of modules.
+#include "lang/engine/evaluation_loops.h"
 #include "lang/engine/parser.h"
-#include "lang/openscad/loops.h"
+#include "lang/openscad/script_evaluator.h"
+#include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
 
@@ -49,9 +51,7 @@ TreePtr Evaluator::run_statement(const Statement& statement, const ScopePtr& sco
   };
   ++nested_statements_;
   const Nested nested{nested_statements_};
-  const Level level(*this);
-  at_ = statement.span;
-  meter_.spend();
+  const Level level(*this, statement.span);
   TreePtr tree = dispatch(statement, scope);
   const bool needs_modifiers = tree && !statement.modifiers.empty() && tree->where == statement.span.range();
   if (!needs_modifiers) return tree;
@@ -117,7 +117,8 @@ TreePtr Evaluator::run_loops(const CallStatement& statement, solids::Operation o
 // Runs a loop over its variables, starting with number `variable`.
 void Evaluator::run_loop(const CallStatement& statement, size_t variable, const ScopePtr& scope, Trees& out) {
   if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
-  for_each_scope(statement.arguments[variable], scope, statement.span,
+  const Level level(*this, statement.span);
+  for_each_scope(statement.arguments[variable], statement.span, scope,
                  [&](const ScopePtr& inner) { run_loop(statement, variable + 1, inner, out); });
 }
 
@@ -172,8 +173,7 @@ TreePtr Evaluator::run_module(const ast::ModuleDef& module, const ScopePtr& home
   const ScopePtr inner = make_scope(home, &module.body.plan);
   const SpecialsMark mark(*this);
   inner->set_children(&children);
-  if (used)
-    for (const auto& [name, value] : unit_specials_[used]) set_special(name, value, mark.size());
+  if (used) enter(*used, mark.size());
   bind(module.parameters, statement.arguments, scope, home, inner, statement.span, mark.size());
   set_special(children_count_, static_cast<double>(statement.children.plan.actions.size()), mark.size());
   set_special(parent_modules_, static_cast<double>(module_names_.size() + 1), mark.size());
@@ -243,7 +243,7 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
   if (index.number())
     run_child(index);
   else
-    for_each(index, statement.span, run_child);
+    for_each(index, statement.span, "", run_child);
   if (!index.number()) return result;
   return result->children.empty() ? nullptr : result->children.front();
 }

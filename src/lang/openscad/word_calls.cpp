@@ -1,7 +1,8 @@
 // Words of `use <ombre>`: their calls as statements and in expressions, and values that vary in space.
 #include <algorithm>
 
-#include "lang/openscad/loops.h"
+#include "lang/engine/evaluation_loops.h"
+#include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
@@ -142,39 +143,13 @@ Data Evaluator::data_of(const Value& value, const SourceRange& where, const ast:
   if (value.is_undef()) return nothing;
   DataList items;
   const List* list = value.list();
-  if (value.range()) for_each(value, argument, [&](const Value& item) { items.emplace_back(*item.number(), where); });
+  if (value.range())
+    for_each(value, argument, "", [&](const Value& item) { items.emplace_back(*item.number(), where); });
   for (size_t i = 0; list && i < list->items.size(); ++i) {
     const ast::Expr* written = list->origin ? list->origin->elements[i].get() : nullptr;
     items.push_back(data_of(list->items[i], written ? written->span.range() : where, argument));
   }
   return {std::move(items), where};
-}
-
-// Applies an operator or function to values that vary in space. Returns nothing if no operand does.
-std::optional<Value> Evaluator::of_objects(std::string_view function, const std::vector<Value>& arguments) {
-  const List* list = arguments.size() == 1 ? arguments[0].list() : nullptr;
-  const bool takes_list = function == "min" || function == "max" || function == "norm";
-  if (list && !takes_list) return std::nullopt;
-  const std::span<const Value> operands = list ? std::span(list->items) : std::span(arguments);
-  const Object* object = first_object(operands);
-  return object ? object->apply(function, operands, meter_) : std::nullopt;
-}
-
-// Returns a value that selects the branches of a conditional at each point, starting with number `branch`.
-Value Evaluator::choice(const ast::Conditional& conditional, size_t branch, const Value& condition,
-                        const ScopePtr& scope) {
-  const auto otherwise = [&](size_t next) -> Value {
-    for (; next < conditional.branches.size(); ++next) {
-      const Value decision = eval(*conditional.branches[next].first, scope);
-      if (decision.object()) return choice(conditional, next, decision, scope);
-      if (truth(decision)) return eval(*conditional.branches[next].second, scope);
-    }
-    return eval(*conditional.otherwise, scope);
-  };
-  const std::vector<Value> operands{condition, eval(*conditional.branches[branch].second, scope),
-                                    otherwise(branch + 1)};
-  if (auto made = condition.object()->apply("?:", operands, meter_)) return *made;
-  stop("this condition varies in space, and chooses between numbers or materials only", conditional.span);
 }
 
 }  // namespace ombre::lang::openscad
