@@ -1,4 +1,4 @@
-// What the script languages evaluate alike. A language derives from Evaluation, and says what a mistake does, which
+// The evaluation that the script languages share. A language derives from Evaluation, and says what a mistake does, which
 // functions and modules there are, and what statements make (interpreter.h, ../openscad/script_evaluator.h).
 #pragma once
 
