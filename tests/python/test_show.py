@@ -72,9 +72,7 @@ def test_show_prints_the_address(folder, monkeypatch, capfd):
 
 
 def test_a_folder_of_somebody_else_is_refused(folder):
-    import base64
-import re
-import os
+    import os
     (folder / f"ombre-show-{os.getuid()}").mkdir(mode=0o755)
     with pytest.raises(OSError, match="not a folder of this user alone"):
         _studio.show_in_studio(ball)
