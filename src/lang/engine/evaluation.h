@@ -1,5 +1,5 @@
-// The evaluation that the script languages share. A language derives from Evaluation, and says what a mistake does, which
-// functions and modules there are, and what statements make (interpreter.h, ../openscad/script_evaluator.h).
+// The evaluation that the script languages share. A language derives from Evaluation, and says what a mistake does,
+// which functions and modules there are, and what statements make (interpreter.h, ../openscad/script_evaluator.h).
 #pragma once
 
 #include <string>
