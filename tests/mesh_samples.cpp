@@ -58,7 +58,7 @@ MeshDocument coloured_box() {
 }
 
 void write_all(const std::string& folder, const std::string& name, const MeshDocument& document) {
-  const formats::MeshFormat& three_mf = *formats::find_mesh_format(".3mf");
+  const formats::MeshFormat& three_mf = *formats::find_mesh_format("a.3mf");
   for (const char* ending : {".stl", ".obj", ".ply", ".off", ".amf", ".glb", ".3mf"}) {
     const std::string path = (std::filesystem::path(folder) / (name + ending)).string();
     exporting::write_mesh_file(path, document, *formats::find_mesh_format(path));
