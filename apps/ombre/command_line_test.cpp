@@ -103,7 +103,6 @@ TEST(CommandLine, PicturesSayWhatToWrite) {
   expect_wrong({"render", "part.vcad", "--background", "#12345"}, "for example #20304a");
   expect_wrong({"render", "part.vcad", "--box", "0,0,0,1,1,0"}, "write for example --box");
   expect_wrong({"render", "part.vcad", "--view", "below"}, "below");
-  expect_wrong({"render", "part.vcad", "-o", "-", "--frames", "3"}, "stdout holds one picture");
 }
 
 TEST(CommandLine, MissingFilesAreFailuresOfTheMachine) {

@@ -40,7 +40,7 @@ TEST(Completion, OfCommandsAndOptionsByTheirBeginning) {
   EXPECT_EQ(words_for({"--ver"}), Words{"--version"});
   EXPECT_EQ(words_for({"slice", "part.vcad", "--dry"}), Words{"--dry-run"});
   EXPECT_EQ(words_for({"slice", "--me"}), Words{"--memory"});
-  EXPECT_EQ(lines_for({"sheet", "--coun"}), Words{"--count\tHow many layers, evenly spaced (default 12)"});
+  EXPECT_EQ(lines_for({"sheet", "--coun"}), Words{"--count\tNumber of layers, evenly spaced (default 12)"});
 }
 
 TEST(Completion, OfValuesThatAreListed) {

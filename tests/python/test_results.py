@@ -38,7 +38,7 @@ def test_listing_5(tmp_path):
     seat.write_to_inp(tmp_path / "bike_seat_new.inp")
     table = [f"{n},0,0,{-0.000055 - 0.00035 * x / 40}" for n, (x, _, _) in enumerate(seat.nodes, 1)]
     (tmp_path / "bike_seat_point_map.csv").write_text("\n".join(table) + "\n", encoding="utf-8")
-    shutil.copy(pathlib.Path(__file__).parent / "listings" / "listing5.py", tmp_path)
+    shutil.copy(pathlib.Path(__file__).parents[1] / "pyvcad" / "listings" / "listing5.py", tmp_path)
     design = ombre.load(tmp_path / "listing5.py")
     assert design.volume(0.5) == pytest.approx(40 * 10 * 4)
     points = [[0.5, 5, 2], [10, 1, 3], [20, 5, 2], [39.5, 9, 1]]
