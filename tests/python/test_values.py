@@ -78,4 +78,4 @@ def test_what_is_wrong_is_said():
         ombre.translate(ombre.sphere(5), (ombre.noise(), 0, 0))
     with pytest.raises(TypeError, match="neither true nor false"):
         bool(ombre.noise() > 0.5)
-    assert "From 0 to 1" in ombre.noise.__doc__
+    assert "Number from 0 to 1" in ombre.noise.__doc__

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lang/engine/evaluation_loops.h"
+#include "lang/engine/evaluation_calls.h"
 #include "lang/engine/interpreter.h"
 
 namespace ombre::lang {
@@ -15,43 +15,14 @@ bool Interpreter::knows(const ast::Name& name) {
   return known_nodes_[name.symbol] = vocabulary_.knows(name.text());
 }
 
-std::pair<const ast::ModuleDef*, ScopePtr> Interpreter::find_module(Symbol name, const ScopePtr& scope) {
-  for (const ScopePtr* at = &scope; *at; at = &(*at)->parent()) {
-    if ((*at)->plan())
-      if (const ast::ModuleDef* module = (*at)->plan()->module(name)) return {module, *at};
-    if (!(*at)->unit()) continue;
-    for (const Unit* used : (*at)->unit()->uses)
-      if (const ast::ModuleDef* module = used->plan.module(name)) return {module, unit_scope(*used)};
-  }
-  return {};
-}
-
-void Interpreter::call(const CallStatement& statement, const ScopePtr& scope, Nodes& out) {
-  const auto [module, home] = find_module(statement.name.symbol, scope);
-  if (module) return call_module(*module, home, statement, scope, out);
+void Interpreter::call_other(const CallStatement& statement, const ScopePtr& scope, Nodes& out) {
   if (statement.name.symbol == children_name_) return call_children(statement, scope, out);
   if (!knows(statement.name)) fail_unknown_module(statement.name, *scope);
   call_node(statement, scope, out);
 }
 
-void Interpreter::call_module(const ast::ModuleDef& module, const ScopePtr& home, const CallStatement& statement,
-                              const ScopePtr& scope, Nodes& out) {
-  meter_.count_call();
-  const Children children{&statement.children, scope};
-  const ScopePtr inner = make_scope(home, &module.body.plan);
-  const SpecialsMark mark(*this);
-  inner->set_children(&children);
-  bind(module.parameters, statement.arguments, scope, home, inner, statement.name.span, mark.size());
-  inner->set(children_count_name_, static_cast<double>(statement.children.plan.actions.size()));
-
-  struct Entered {
-    std::vector<const CallStatement*>& calls;
-    ~Entered() { calls.pop_back(); }
-  };
-  module_calls_.push_back(&statement);
-  const Entered entered{module_calls_};
-  assign(module.body.plan, inner, false);
-  run_actions(module.body.plan, inner, out);
+void Interpreter::set_counts(const CallStatement& statement, Scope& inner, size_t) {
+  inner.set(children_count_name_, static_cast<double>(statement.children.plan.actions.size()));
 }
 
 void Interpreter::call_children(const CallStatement& statement, const ScopePtr& scope, Nodes& out) {
@@ -65,7 +36,7 @@ void Interpreter::call_children(const CallStatement& statement, const ScopePtr& 
   if (statement.arguments.empty()) return run_block(*children->block, children->scope, out);
   const ScopePtr inner = make_scope(children->scope, &plan);
   const SpecialsMark mark(*this);
-  assign(plan, inner, false);
+  assign(plan, inner);
   for (const size_t index : chosen) run_action(*plan.actions[index], inner, out);
 }
 
@@ -97,7 +68,7 @@ std::vector<size_t> Interpreter::chosen_children(const CallStatement& statement,
 void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scope, Nodes& out) {
   Invocation invocation;
   const SpecialsMark mark(*this);
-  node_arguments(statement.arguments, scope, invocation);
+  node_arguments(statement.arguments, scope, invocation, ignore);
   if (const Value* facets = find_special(facets_name_); facets && facets->number())
     invocation.facets = *facets->number();
   else if (facets && invocation.has_own_facets && !facets->is_undef())
@@ -113,52 +84,21 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
     run_block(statement.children, scope, invocation.children, &invocation.group_ends);
     invocation.has_wrong_children = failures_ > failures;
   }
-  invocation.braces = !statement.children.statements.empty() ? Invocation::Braces::filled
-                      : statement.children.has_braces        ? Invocation::Braces::empty
-                                                             : Invocation::Braces::none;
+  invocation.braces = braces_of(statement);
   invocation.name = statement.name.text();
   invocation.where = statement.name.span.range();
   invocation.whole = statement.whole.range();
   invocation.is_top_level = node_depth_ == 0 && module_calls_.empty();
-  for (size_t i = module_calls_.size(); i > 0 && invocation.called_from.size() < most_callers; --i)
-    invocation.called_from.push_back(module_calls_[i - 1]->whole.range());
+  invocation.called_from = callers();
   make_node(std::move(invocation), statement.span, out);
 }
 
-namespace {
-
-// Returns the number or object in the script's variable of this name, which formulas may use.
-std::optional<Data> named_value(const std::string& name, const Scope& scope) {
-  const Value* value = scope.find_text(name);
-  if (value && value->number()) return Data(*value->number());
-  return value && value->object() ? std::optional(value->object()->data()) : std::nullopt;
-}
-
-}  // namespace
-
-void Interpreter::node_arguments(const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
-                                 Invocation& invocation) {
-  const size_t specials_from = specials_.size();
-  invocation.variable = [&scope](const std::string& name) { return named_value(name, *scope); };
-  invocation.arguments.reserve(arguments.size());
-  uint64_t bytes = 0;
-  for (const ast::Argument& argument : arguments) {
-    const Value value = eval(*argument.value, scope);
-    const ast::Span& span = argument.value->span;
-    if (argument.name.symbol && argument.name.is_special()) {
-      set_special(argument.name.symbol, value, specials_from);  // makes the variable visible to the children
-      invocation.has_own_facets |= argument.name.symbol == facets_name_;
-      continue;
-    }
-    Argument& result = invocation.arguments.emplace_back();
-    if (argument.name.symbol) {
-      result.name = argument.name.text();
-      result.name_where = argument.name.span.range();
-    }
-    argument_bytes_ = bytes;  // evaluating the argument may have overwritten it
-    result.value = to_data(value, span.range(), span);
-    bytes = argument_bytes_;
-  }
+// Returns the enclosing calls of modules, innermost first.
+std::vector<SourceRange> Interpreter::callers() const {
+  std::vector<SourceRange> ranges;
+  for (size_t i = module_calls_.size(); i > 0 && ranges.size() < most_callers; --i)
+    ranges.push_back(module_calls_[i - 1]->whole.range());
+  return ranges;
 }
 
 void Interpreter::make_node(Invocation invocation, const ast::Span& where, Nodes& out) {

@@ -1,4 +1,4 @@
-// The evaluation that the script languages share. A language derives from Evaluation, and says what a mistake does,
+// Evaluates what is alike in the script languages. A language derives from Evaluation, and says what a mistake does,
 // which functions and modules there are, and what statements make (interpreter.h, ../openscad/script_evaluator.h).
 #pragma once
 
@@ -10,6 +10,7 @@
 
 #include "lang/engine/loader.h"
 #include "lang/engine/scope.h"
+#include "lang/engine/vocabulary.h"
 
 namespace ombre::lang {
 
@@ -73,7 +74,7 @@ class Evaluation {
   };
 
   Evaluation(const Program& program, const Limits& limits, const StopFlag* stop)
-      : program_(program), meter_(limits, stop), captured_(limits) {
+      : program_(program), meter_(limits, stop), captured_(limits), facets_name_(symbol("$fn")) {
     constants_[symbol("PI")] = 3.14159265358979323846;
   }
 
@@ -145,6 +146,14 @@ class Evaluation {
   void bind_let(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t specials_from);
   void echo(const std::vector<ast::Argument>& arguments, const ScopePtr& scope);
 
+  template <class Seen>
+  void node_arguments(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, Invocation& invocation,
+                      const Seen& seen);
+  static std::optional<Data> named_value(const std::string& name, const Scope& scope);
+  static Invocation::Braces braces_of(const ast::CallStatement& statement);
+  Data to_data(const Value& value, const SourceRange& where, const ast::Span& argument);
+  Data to_list(const Value& value, const SourceRange& where, const ast::Span& argument);
+
   // Defined in evaluation_loops.h.
   void generate(const ast::Expr& expr, const ScopePtr& scope, ListBuilder& out);
   void generate_for(const ast::GenerateFor& loop, size_t variable, const ScopePtr& scope, ListBuilder& out);
@@ -157,14 +166,37 @@ class Evaluation {
   template <class Body>
   void for_each_scope(const ast::Argument& loop, const ast::Span& whole, const ScopePtr& scope, const Body& body);
 
+  // Defined in evaluation_statements.h.
+  const ScopePtr& unit_scope(const Unit& unit);
+  void assign(const ast::Plan& plan, const ScopePtr& scope);
+  // `more` is passed to the language's run_actions.
+  template <class... More>
+  void run_block(const ast::Block& block, const ScopePtr& outer, Products& out, More... more) {
+    if (block.plan.defines_nothing()) return self().run_actions(block.plan, outer, out, more...);
+    const ScopePtr scope = make_scope(outer, &block.plan);
+    const SpecialsMark mark(*this);
+    assign(block.plan, scope);
+    self().run_actions(block.plan, scope, out, more...);
+  }
+  void dispatch(const ast::Statement& statement, const ScopePtr& scope, Products& out);
+  void run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Products& out);
+  void run_let(const ast::CallStatement& statement, const ScopePtr& scope, Products& out);
+  void call(const ast::CallStatement& statement, const ScopePtr& scope, Products& out);
+  void call_module(const ast::ModuleDef& module, const ScopePtr& home, const Unit* used,
+                   const ast::CallStatement& statement, const ScopePtr& scope, Products& out);
+
   const Program& program_;
   Meter meter_;
   CapturedScopes captured_;
+  Symbol facets_name_;
   std::unordered_map<Symbol, Value> constants_;
+  std::unordered_map<const Unit*, ScopePtr> unit_scopes_;
   // Special variables of the calls that are being evaluated, innermost last.
   std::vector<std::pair<Symbol, Value>> specials_;
+  std::vector<const ast::CallStatement*> module_calls_;  // calls that are being evaluated, innermost last
   int depth_ = 0;
-  ast::Span at_;  // position of the current evaluation
+  ast::Span at_;                 // position of the current evaluation
+  uint64_t argument_bytes_ = 0;  // bytes in the arguments of the current call
 };
 
 }  // namespace ombre::lang

@@ -1,9 +1,9 @@
-// Calls in expressions, and the conditionals, let and further calls with which they may end.
+// Calls in expressions, the conditionals, let and further calls with which they may end, and arguments of calls.
 #pragma once
 
 #include <algorithm>
 
-#include "lang/engine/evaluation.h"
+#include "lang/engine/evaluation_loops.h"
 
 namespace ombre::lang {
 
@@ -188,6 +188,84 @@ void Evaluation<Language, Product>::echo(const std::vector<ast::Argument>& argum
     self().append(text, eval(*argument.value, scope));
   }
   self().print(std::move(text));
+}
+
+// Conversion of values to arguments of nodes: plain data with source positions.
+
+// `seen` is called with each argument and its value.
+template <class Language, class Product>
+template <class Seen>
+void Evaluation<Language, Product>::node_arguments(const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
+                                                   Invocation& invocation, const Seen& seen) {
+  const size_t specials_from = specials_.size();
+  invocation.variable = [&scope](const std::string& name) { return named_value(name, *scope); };
+  invocation.arguments.reserve(arguments.size());
+  uint64_t bytes = 0;
+  for (const ast::Argument& argument : arguments) {
+    const Value value = eval(*argument.value, scope);
+    const ast::Span& span = argument.value->span;
+    seen(argument, value);
+    if (argument.name.symbol && argument.name.is_special()) {
+      set_special(argument.name.symbol, value, specials_from);  // makes the variable visible to the children
+      invocation.has_own_facets |= argument.name.symbol == facets_name_;
+      continue;
+    }
+    Argument& result = invocation.arguments.emplace_back();
+    if (argument.name.symbol) {
+      result.name = argument.name.text();
+      result.name_where = argument.name.span.range();
+    }
+    argument_bytes_ = bytes;  // evaluating the argument may have overwritten it
+    result.value = to_data(value, span.range(), span);
+    bytes = argument_bytes_;
+  }
+}
+
+// Returns the number or object in the script's variable of this name, which formulas may use.
+template <class Language, class Product>
+std::optional<Data> Evaluation<Language, Product>::named_value(const std::string& name, const Scope& scope) {
+  const Value* value = scope.find_text(name);
+  if (value && value->number()) return Data(*value->number());
+  return value && value->object() ? std::optional(value->object()->data()) : std::nullopt;
+}
+
+template <class Language, class Product>
+Invocation::Braces Evaluation<Language, Product>::braces_of(const ast::CallStatement& statement) {
+  if (!statement.children.statements.empty()) return Invocation::Braces::filled;
+  return statement.children.has_braces ? Invocation::Braces::empty : Invocation::Braces::none;
+}
+
+template <class Language, class Product>
+Data Evaluation<Language, Product>::to_data(const Value& value, const SourceRange& where, const ast::Span& argument) {
+  meter_.spend();
+  if (const double* number = value.number()) return {*number, where};
+  if (const Text* text = value.text()) {
+    argument_bytes_ += text->text.size();
+    meter_.check_text(argument_bytes_);
+    // A literal string has a position of its own, even if the value was passed on through variables.
+    const bool is_literal = text->origin && text->origin->is_plain;
+    return {text->text, is_literal ? text->origin->inside().range() : where};
+  }
+  if (const bool* boolean = value.boolean()) return {*boolean, where};
+  if (value.list() || value.range()) return to_list(value, where, argument);
+  if (value.closure()) self().stop_at_function(argument);
+  Data data = value.object() ? value.object()->data() : Data();
+  data.where = where;
+  return data;
+}
+
+template <class Language, class Product>
+Data Evaluation<Language, Product>::to_list(const Value& value, const SourceRange& where, const ast::Span& argument) {
+  DataList items;
+  if (value.range())
+    for_each(value, argument, "", [&](const Value& item) { items.emplace_back(*item.number(), where); });
+  const List* list = value.list();
+  if (list) items.reserve(list->items.size());
+  for (size_t i = 0; list && i < list->items.size(); ++i) {
+    const ast::Expr* written = list->origin ? list->origin->elements[i].get() : nullptr;
+    items.push_back(to_data(list->items[i], written ? written->span.range() : where, argument));
+  }
+  return {std::move(items), where};
 }
 
 }  // namespace ombre::lang

@@ -11,8 +11,7 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
       options_(options),
       diagnostics_(diagnostics),
       children_name_(symbol("children")),
-      children_count_name_(symbol("$children")),
-      facets_name_(symbol("$fn")) {
+      children_count_name_(symbol("$children")) {
   for (const auto table : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
     for (const Builtin& builtin : table) builtins_[symbol(builtin.name)] = &builtin;
   // Initial values of OpenSCAD's special variables.

@@ -12,7 +12,6 @@
 #include "lang/engine/operators.h"
 #include "lang/engine/read_ahead.h"
 #include "lang/engine/run_options.h"
-#include "lang/engine/vocabulary.h"
 
 namespace ombre::lang {
 
@@ -39,6 +38,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
     void add(const ast::Call&, const ast::Expr&) {}
   };
   void trace(const EnteredCalls&) {}
+  void trace(const ast::Statement&) {}
 
   // Makes `now` the current reader of deferred calls while the actions of a list run.
   class Reading {
@@ -70,6 +70,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
     fail_found(where, expected, found);
   }
   [[noreturn]] void stop_without_part(const ast::Member& member, const Object& object, const std::string& known);
+  [[noreturn]] void stop_at_function(const ast::Span& argument);
   [[noreturn]] void stop_at_choice(const ast::Span& where, const Value& yes, const Value& no);
   [[noreturn]] void report_parameter(const ast::Name& name, const ast::Span& callee,
                                      const std::vector<ast::Parameter>& parameters);
@@ -86,32 +87,41 @@ class Interpreter : Evaluation<Interpreter, Product> {
   [[noreturn]] void fail_unknown_module(const ast::Name& name, const Scope& scope);
 
   // Defined in interpreter_statements.cpp.
-  const ScopePtr& unit_scope(const Unit& unit);
-  void assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main);
+  void begin(const Unit& unit, Scope& scope);
+  void end(const Unit&, size_t) {}
+  bool is_overridden(const ast::Assign& assignment, const Scope& scope) const;
+  Value assigned(const ast::Assign& assignment, const ScopePtr& scope);
   void report_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main);
   // If `ends` is given, it gets the size of `out` after each statement that makes solids.
-  void run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends = nullptr);
   void run_action(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
   void execute(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
   void execute_modified(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
-  void dispatch(const ast::Statement& statement, const ScopePtr& scope, Nodes& out);
   void run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Nodes& out);
   void run_condition(const ast::Condition& statement, const ScopePtr& scope, Nodes& out);
-  void run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Nodes& out);
-  void run_let(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
+  void run_loops(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out) {
+    run_loop(statement, 0, scope, out);
+  }
+  void run_inside(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out) {
+    run_block(statement.children, scope, out);
+  }
+  // Nodes of a module, a loop or let stand among those around them.
+  template <class Body>
+  void group(const ast::Span&, Nodes& out, const Body& body) {
+    body(out);
+  }
 
   // Defined in calls.cpp.
-  void call(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
-  void call_module(const ast::ModuleDef& module, const ScopePtr& home, const ast::CallStatement& statement,
-                   const ScopePtr& scope, Nodes& out);
+  void call_other(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
+  void check_depth(const ast::CallStatement&) {}
+  void set_counts(const ast::CallStatement& statement, Scope& inner, size_t specials_from);
   void call_children(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   std::vector<size_t> chosen_children(const ast::CallStatement& statement, const ScopePtr& scope, size_t count);
   void call_node(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
-  void node_arguments(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, Invocation& invocation);
+  std::vector<SourceRange> callers() const;
+  static void ignore(const ast::Argument&, const Value&) {}
   void make_node(Invocation invocation, const ast::Span& where, Nodes& out);
   bool knows(const ast::Name& name);
-  std::pair<const ast::ModuleDef*, ScopePtr> find_module(Symbol name, const ScopePtr& scope);
   void assert_true(const std::vector<ast::Argument>& arguments, const ast::Span& where, const ScopePtr& scope);
   void append(std::string& text, const Value& value) { append_text(text, value, true, meter_); }
   void print(const std::string& text) {
@@ -143,25 +153,17 @@ class Interpreter : Evaluation<Interpreter, Product> {
                                        std::vector<const ast::Expr*>& places);
   size_t builtin_place(const Builtin& builtin, const ast::Argument& argument, size_t position);
 
-  // Defined in call_arguments.cpp.
-  Data to_data(const Value& value, const SourceRange& where, const ast::Span& argument);
-  Data list_to_data(const List& list, const SourceRange& where, const ast::Span& argument);
-  Data range_to_data(const Range& range, const SourceRange& where, const ast::Span& argument);
-
   Vocabulary& vocabulary_;
   const Options& options_;
   Diagnostics& diagnostics_;
-  Symbol children_name_, children_count_name_, facets_name_;
+  Symbol children_name_, children_count_name_;
   std::unordered_map<Symbol, const Builtin*> builtins_;
   std::unordered_set<Symbol> no_constants_;
   std::unordered_map<Symbol, bool> known_nodes_;
   std::unordered_map<Symbol, Value> overrides_;  // values of variables from the command line
-  std::unordered_map<const Unit*, ScopePtr> unit_scopes_;
 
-  std::vector<const ast::CallStatement*> module_calls_;  // calls that are being evaluated, innermost last
-  int node_depth_ = 0;                                   // number of calls of nodes whose children are being evaluated
-  uint64_t argument_bytes_ = 0;                          // bytes in the arguments of the current call
-  Nodes roots_;                                          // nodes of statements marked "!"
+  int node_depth_ = 0;  // number of calls of nodes whose children are being evaluated
+  Nodes roots_;         // nodes of statements marked "!"
   bool has_roots_ = false;
   ReadAhead* reader_ = nullptr;               // reader of the latest action, or null
   std::unordered_set<std::string> reported_;  // diagnostics that were reported

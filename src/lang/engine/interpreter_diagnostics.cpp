@@ -73,6 +73,10 @@ void Interpreter::stop_without_part(const ast::Member& member, const Object& obj
   fail(member.member.span, object.describe() + " has no \"." + member.member.text() + '"', known);
 }
 
+void Interpreter::stop_at_function(const ast::Span& argument) {
+  fail(argument, "a function cannot be a parameter of a node", "call it, and give its result");
+}
+
 void Interpreter::stop_at_choice(const ast::Span& where, const Value& yes, const Value& no) {
   fail(where, "this condition varies in space, and cannot choose between " + describe(yes) + " and " + describe(no),
        "give numbers on both sides of the colon, or materials, or lists of them");

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lang/engine/evaluation_calls.h"
-#include "lang/engine/evaluation_loops.h"
+#include "lang/engine/evaluation_statements.h"
 #include "lang/engine/interpreter.h"
 
 namespace ombre::lang {

@@ -1,4 +1,5 @@
 // Calls of builtin functions, and of nodes that give values.
+#include "lang/engine/evaluation_calls.h"
 #include "lang/engine/interpreter.h"
 
 namespace ombre::lang {
@@ -36,12 +37,11 @@ Value Interpreter::call_builtin(const Builtin& builtin, const ast::Call& call, c
 Value Interpreter::call_value_node(const ast::Call& call, const ScopePtr& scope) {
   Invocation invocation;
   const SpecialsMark mark(*this);
-  node_arguments(call.arguments, scope, invocation);
+  node_arguments(call.arguments, scope, invocation, ignore);
   invocation.name = static_cast<const ast::Variable&>(*call.callee).name.text();
   invocation.where = call.callee->span.range();
   invocation.whole = call.span.range();
-  for (size_t i = module_calls_.size(); i > 0 && invocation.called_from.size() < most_callers; --i)
-    invocation.called_from.push_back(module_calls_[i - 1]->whole.range());
+  invocation.called_from = callers();
   at_ = call.span;
   meter_.count_instance();
   Diagnostics found;

@@ -1,5 +1,4 @@
-// Statements: scopes, conditions, loops.
-#include "lang/engine/evaluation_loops.h"
+// Statements of .vcad scripts, which make nodes.
 #include "lang/engine/interpreter.h"
 #include "lang/engine/parser.h"
 
@@ -18,37 +17,23 @@ bool makes_solids(const Statement& statement) {
 
 }  // namespace
 
-const ScopePtr& Interpreter::unit_scope(const Unit& unit) {
-  const auto found = unit_scopes_.find(&unit);
-  if (found != unit_scopes_.end()) return found->second;
-  const ScopePtr& scope = unit_scopes_[&unit] = make_scope(ScopePtr(), &unit.plan);
-  scope->set_unit(&unit);
-  const bool is_main = &unit == &program_.units.front();
-  if (is_main)
-    for (const auto& [name, value] : overrides_) set_variable({name, {}}, value, *scope, 0);
-  assign(unit.plan, scope, is_main);
-  return scope;
+// Sets the variables of the command line.
+void Interpreter::begin(const Unit& unit, Scope& scope) {
+  if (&unit != &program_.units.front()) return;
+  for (const auto& [name, value] : overrides_) set_variable({name, {}}, value, scope, 0);
 }
 
-void Interpreter::assign(const ast::Plan& plan, const ScopePtr& scope, bool is_main) {
-  const size_t specials_from = specials_.size();
-  for (const ast::Assign* assignment : plan.assignments) {
-    if (is_main && overrides_.count(assignment->name.symbol)) continue;
-    Value value = Broken{};
-    try {
-      value = eval(*assignment->value, scope);
-    } catch (const Stopped&) {  // code that reads the variable later fails without a diagnostic
-    }
-    set_variable(assignment->name, std::move(value), *scope, specials_from);
+bool Interpreter::is_overridden(const ast::Assign& assignment, const Scope& scope) const {
+  return scope.unit() == &program_.units.front() && overrides_.count(assignment.name.symbol) > 0;
+}
+
+// Code that reads a variable whose assignment failed fails without a diagnostic.
+Value Interpreter::assigned(const ast::Assign& assignment, const ScopePtr& scope) {
+  try {
+    return eval(*assignment.value, scope);
+  } catch (const Stopped&) {
+    return Broken{};
   }
-}
-
-void Interpreter::run_block(const ast::Block& block, const ScopePtr& outer, Nodes& out, std::vector<size_t>* ends) {
-  if (block.plan.defines_nothing()) return run_actions(block.plan, outer, out, ends);
-  const ScopePtr scope = make_scope(outer, &block.plan);
-  const SpecialsMark mark(*this);
-  assign(block.plan, scope, false);
-  run_actions(block.plan, scope, out, ends);
 }
 
 void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends) {
@@ -88,28 +73,6 @@ void Interpreter::execute_modified(const Statement& statement, const ScopePtr& s
   roots_.insert(roots_.end(), nodes.begin(), nodes.end());
 }
 
-void Interpreter::dispatch(const Statement& statement, const ScopePtr& scope, Nodes& out) {
-  if (statement.kind == Statement::Kind::condition)
-    return run_condition(static_cast<const ast::Condition&>(statement), scope, out);
-  if (statement.kind == Statement::Kind::deferred)
-    return run_deferred(static_cast<const ast::Deferred&>(statement), scope, out);
-  const auto& named = static_cast<const ast::CallStatement&>(statement);
-  switch (statement.kind) {
-    case Statement::Kind::loop:
-      return run_loop(named, 0, scope, out);
-    case Statement::Kind::let:
-      return run_let(named, scope, out);
-    case Statement::Kind::assertion:
-      assert_true(named.arguments, named.whole, scope);
-      return run_block(named.children, scope, out);
-    case Statement::Kind::echo:
-      echo(named.arguments, scope);
-      return run_block(named.children, scope, out);
-    default:
-      return call(named, scope, out);
-  }
-}
-
 // Runs a deferred call. Values must not point into the statement after it, since it is freed.
 void Interpreter::run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Nodes& out) {
   if (const Statement* known = reader_ ? reader_->call(statement) : nullptr) return dispatch(*known, scope, out);
@@ -121,21 +84,6 @@ void Interpreter::run_condition(const ast::Condition& statement, const ScopePtr&
   for (const auto& [condition, block] : statement.branches)
     if (holds(*condition, scope)) return run_block(block, scope, out);
   run_block(statement.otherwise, scope, out);
-}
-
-// Runs a loop over its variables, starting with number `variable`.
-void Interpreter::run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Nodes& out) {
-  if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
-  const Level level(*this, statement.whole, heavy);
-  for_each_scope(statement.arguments[variable], statement.span, scope,
-                 [&](const ScopePtr& inner) { run_loop(statement, variable + 1, inner, out); });
-}
-
-void Interpreter::run_let(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out) {
-  const ScopePtr inner = make_scope(scope);
-  const SpecialsMark mark(*this);
-  bind_let(statement.arguments, inner, mark.size());
-  run_block(statement.children, inner, out);
 }
 
 }  // namespace ombre::lang

@@ -12,7 +12,7 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
   children_name_ = symbol("children"), child_name_ = symbol("child");
   intersection_for_name_ = symbol("intersection_for"), assign_name_ = symbol("assign");
   children_count_ = symbol("$children"), parent_modules_ = symbol("$parent_modules");
-  fn_ = symbol("$fn"), fa_ = symbol("$fa"), fs_ = symbol("$fs"), semantics_ = symbol("$semantics");
+  fa_ = symbol("$fa"), fs_ = symbol("$fs"), semantics_ = symbol("$semantics");
   for (const auto& table : {math_functions(), value_functions(), drawing_functions()})
     for (const NamedFunction& function : table) functions_[symbol(function.name)] = function;
   module_table_ = operation_modules();
@@ -242,7 +242,7 @@ void ModuleCall::deprecate_here(const std::string& text) const {
 void ModuleCall::note(const std::string& text) const { evaluator_.messages_.add({Message::Kind::note, text, "", 0}); }
 
 solids::Fragments ModuleCall::fragments() const {
-  return {evaluator_.special_number(evaluator_.fn_), evaluator_.special_number(evaluator_.fa_),
+  return {evaluator_.special_number(evaluator_.facets_name_), evaluator_.special_number(evaluator_.fa_),
           evaluator_.special_number(evaluator_.fs_)};
 }
 

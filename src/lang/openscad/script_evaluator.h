@@ -124,26 +124,34 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   [[noreturn]] void stop(std::string text, const ast::Span& where, Code code = Code::script);
   void trace(const std::string& name, const ast::Span& where);
   void trace(const EnteredCalls& entered);
+  void trace(const ast::Statement& statement);
   std::pair<std::string, int> file_and_line(const ast::Span& where);
 
   // Defined in script_statements.cpp.
-  const ScopePtr& unit_scope(const Unit& unit);
-  void assign(const ast::Plan& plan, const ScopePtr& scope);
+  void begin(const Unit&, Scope&) {}
+  void end(const Unit& unit, size_t specials_before);
+  bool is_overridden(const ast::Assign&, const Scope&) const { return false; }
+  Value assigned(const ast::Assign& assignment, const ScopePtr& scope) { return eval(*assignment.value, scope); }
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Trees& out);
-  void run_block(const ast::Block& block, const ScopePtr& outer, Trees& out);
-  solids::TreePtr run_statement(const ast::Statement& statement, const ScopePtr& scope);
-  solids::TreePtr dispatch(const ast::Statement& statement, const ScopePtr& scope);
-  solids::TreePtr run_condition(const ast::Condition& statement, size_t branch, const ScopePtr& scope);
-  solids::TreePtr run_call(const ast::CallStatement& statement, const ScopePtr& scope);
-  solids::TreePtr run_loops(const ast::CallStatement& statement, solids::Operation operation, const ScopePtr& scope);
-  void run_loop(const ast::CallStatement& statement, size_t variable, const ScopePtr& scope, Trees& out);
-  solids::TreePtr run_module(const ast::ModuleDef& module, const ScopePtr& home, const Unit* used,
-                             const ast::CallStatement& statement, const ScopePtr& scope);
+  void run_statement(const ast::Statement& statement, const ScopePtr& scope, Trees& out);
+  void run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Trees& out);
+  void run_condition(const ast::Condition& statement, const ScopePtr& scope, Trees& out, size_t branch = 0);
+  void run_loops(const ast::CallStatement& statement, const ScopePtr& scope, Trees& out,
+                 solids::Operation operation = solids::Group{});
+  void run_inside(const ast::CallStatement& statement, const ScopePtr& scope, Trees& out);
+  // A module, a loop or let makes one tree.
+  template <class Body>
+  void group(const ast::Span& where, Trees& out, const Body& body, solids::Operation operation = solids::Group{}) {
+    auto result = tree(std::move(operation), where);
+    body(result->children);
+    out.push_back(std::move(result));
+  }
+  void check_depth(const ast::CallStatement& statement);
+  void set_counts(const ast::CallStatement& statement, const Scope& inner, size_t specials_from);
+  void call_other(const ast::CallStatement& statement, const ScopePtr& scope, Trees& out);
   solids::TreePtr run_builtin(const Module& module, const ast::CallStatement& statement, const ScopePtr& scope);
   solids::TreePtr run_children(const ast::CallStatement& statement, const ScopePtr& scope);
   std::optional<size_t> chosen_child(const Value& index, size_t count);
-  solids::TreePtr run_let(const ast::CallStatement& statement, const ScopePtr& scope);
-  solids::TreePtr group(const ast::CallStatement& statement, const ScopePtr& scope, bool is_null_without);
   void bind_builtin(const Module& module, const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
                     ModuleCall& call, size_t specials_from);
   std::shared_ptr<solids::Tree> tree(solids::Operation operation, const ast::Span& where);
@@ -161,7 +169,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   Invocation word_call(const ast::Name& name, const ast::Span& whole, const std::vector<ast::Argument>& arguments,
                        const ScopePtr& scope, std::string& written);
   void report_words(const Diagnostics& found, const ast::Span& where);
-  Data data_of(const Value& value, const SourceRange& where, const ast::Span& argument);
+  [[noreturn]] void stop_at_function(const ast::Span& argument);
 
   // Defined in script_expressions.cpp.
   [[noreturn]] void stop_at_depth(const ast::Span& where);
@@ -208,16 +216,14 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   Messages& messages_;
   std::mt19937 random_{0};
 
-  Symbol children_name_, child_name_, intersection_for_name_, assign_name_, children_count_, parent_modules_, fn_, fa_,
-      fs_, semantics_;
+  Symbol children_name_, child_name_, intersection_for_name_, assign_name_, children_count_, parent_modules_, fa_, fs_,
+      semantics_;
   std::unordered_map<Symbol, NamedFunction> functions_;
   std::vector<Module> module_table_;
   std::unordered_map<Symbol, const Module*> modules_;
-  std::unordered_map<const Unit*, ScopePtr> unit_scopes_;
   std::unordered_map<const Unit*, std::vector<std::pair<Symbol, Value>>> unit_specials_;
   std::unordered_map<const SourcePtr*, std::string> shown_files_;
 
-  std::vector<std::string> module_names_;   // names of the modules that are being evaluated, outermost first
   std::vector<const solids::Tree*> roots_;  // marked with "!"
   int nested_statements_ = 0;
   int traced_ = 0;  // number of calls around an error that were reported

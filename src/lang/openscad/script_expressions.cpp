@@ -2,7 +2,7 @@
 #include "lang/engine/evaluation_expressions.h"
 
 #include "lang/engine/evaluation_calls.h"
-#include "lang/engine/evaluation_loops.h"
+#include "lang/engine/evaluation_statements.h"
 #include "lang/openscad/ranges.h"
 #include "lang/openscad/script_evaluator.h"
 

@@ -17,8 +17,8 @@ struct FunctionCall {
   std::vector<Value> arguments;
   Meter& meter;
   Problems& problems;
-  const std::vector<std::string>& modules;  // names of the modules that are being evaluated, outermost first
-  std::mt19937& random;                     // generator of rands() without a seed
+  const std::vector<const ast::CallStatement*>& modules;  // calls that are being evaluated, innermost last
+  std::mt19937& random;                                   // generator of rands() without a seed
   const ast::Call& written;
 
   size_t size() const { return arguments.size(); }

@@ -1,4 +1,4 @@
-// Statements: scopes, conditions, loops, calls of modules.
+// Statements of OpenSCAD scripts, which make trees.
 #include "lang/engine/evaluation_loops.h"
 #include "lang/engine/parser.h"
 #include "lang/openscad/script_evaluator.h"
@@ -10,41 +10,20 @@ using ast::CallStatement;
 using ast::Statement;
 using solids::TreePtr;
 
-const ScopePtr& Evaluator::unit_scope(const Unit& unit) {
-  const auto found = unit_scopes_.find(&unit);
-  if (found != unit_scopes_.end()) return found->second;
-  const ScopePtr& scope = unit_scopes_[&unit] = make_scope(ScopePtr(), &unit.plan);
-  scope->set_unit(&unit);
-  const size_t before = specials_.size();
-  assign(unit.plan, scope);
-  if (&unit == &program_.units.front()) return scope;
-  // Keeps the special variables of a used file for its functions and modules.
-  const auto first = specials_.begin() + static_cast<std::ptrdiff_t>(before);
+// Keeps the special variables of a used file for its functions and modules.
+void Evaluator::end(const Unit& unit, size_t specials_before) {
+  if (&unit == &program_.units.front()) return;
+  const auto first = specials_.begin() + static_cast<std::ptrdiff_t>(specials_before);
   unit_specials_[&unit].assign(first, specials_.end());
-  specials_.resize(before);
-  return unit_scopes_[&unit];
-}
-
-void Evaluator::assign(const ast::Plan& plan, const ScopePtr& scope) {
-  const size_t specials_from = specials_.size();
-  for (const ast::Assign* assignment : plan.assignments)
-    set_variable(assignment->name, eval(*assignment->value, scope), *scope, specials_from);
-}
-
-void Evaluator::run_block(const ast::Block& block, const ScopePtr& outer, Trees& out) {
-  if (block.plan.defines_nothing()) return run_actions(block.plan, outer, out);
-  const ScopePtr scope = make_scope(outer, &block.plan);
-  const SpecialsMark mark(*this);
-  assign(block.plan, scope);
-  run_actions(block.plan, scope, out);
+  specials_.resize(specials_before);
 }
 
 void Evaluator::run_actions(const ast::Plan& plan, const ScopePtr& scope, Trees& out) {
-  for (const Statement* action : plan.actions)
-    if (TreePtr tree = run_statement(*action, scope)) out.push_back(std::move(tree));
+  for (const Statement* action : plan.actions) run_statement(*action, scope, out);
 }
 
-TreePtr Evaluator::run_statement(const Statement& statement, const ScopePtr& scope) {
+// Makes one tree at most.
+void Evaluator::run_statement(const Statement& statement, const ScopePtr& scope, Trees& out) {
   struct Nested {
     int& depth;
     ~Nested() { --depth; }
@@ -52,142 +31,84 @@ TreePtr Evaluator::run_statement(const Statement& statement, const ScopePtr& sco
   ++nested_statements_;
   const Nested nested{nested_statements_};
   const Level level(*this, statement.span);
-  TreePtr tree = dispatch(statement, scope);
-  const bool needs_modifiers = tree && !statement.modifiers.empty() && tree->where == statement.span.range();
-  if (!needs_modifiers) return tree;
-  auto with_modifiers = std::make_shared<solids::Tree>(*tree);
+  const size_t before = out.size();
+  dispatch(statement, scope, out);
+  if (out.size() == before || statement.modifiers.empty() || out.back()->where != statement.span.range()) return;
+  auto with_modifiers = std::make_shared<solids::Tree>(*out.back());
   with_modifiers->background |= statement.has('%');
   with_modifiers->highlight |= statement.has('#');
   if (statement.has('!')) roots_.push_back(with_modifiers.get());
-  return with_modifiers;
+  out.back() = std::move(with_modifiers);
 }
 
-TreePtr Evaluator::dispatch(const Statement& statement, const ScopePtr& scope) {
-  if (statement.kind == Statement::Kind::deferred) {
-    const ast::StatementPtr call =
-        read(static_cast<const ast::Deferred&>(statement), *program_.names, Dialect::openscad);
-    return dispatch(*call, scope);
-  }
+void Evaluator::run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Trees& out) {
+  const ast::StatementPtr call = read(statement, *program_.names, Dialect::openscad);
+  dispatch(*call, scope, out);
+}
+
+void Evaluator::trace(const Statement& statement) {
   const bool is_condition = statement.kind == Statement::Kind::condition;
-  try {
-    if (is_condition) return run_condition(static_cast<const ast::Condition&>(statement), 0, scope);
-    const auto& named = static_cast<const CallStatement&>(statement);
-    switch (statement.kind) {
-      case Statement::Kind::loop:
-        return run_loops(named, solids::Group{}, scope);
-      case Statement::Kind::let:
-        return run_let(named, scope);
-      case Statement::Kind::assertion:
-        assert_true(named.arguments, named.whole, scope);
-        return group(named, scope, true);
-      case Statement::Kind::echo:
-        echo(named.arguments, scope);
-        return group(named, scope, true);
-      default:
-        return run_call(named, scope);
-    }
-  } catch (const Stopped&) {
-    trace(is_condition ? "if" : static_cast<const CallStatement&>(statement).name.text(), statement.span);
-    throw;
-  }
+  trace(is_condition ? "if" : static_cast<const CallStatement&>(statement).name.text(), statement.span);
 }
 
-// Runs a condition. An "else if" is a separate condition within "else".
-TreePtr Evaluator::run_condition(const ast::Condition& statement, size_t branch, const ScopePtr& scope) {
+// Runs a condition, starting with number `branch`. An "else if" is a separate condition within "else".
+void Evaluator::run_condition(const ast::Condition& statement, const ScopePtr& scope, Trees& out, size_t branch) {
   const auto result = tree(solids::Group{}, statement.span);
   const auto& [condition, block] = statement.branches[branch];
-  if (truth(eval(*condition, scope))) {
+  if (holds(*condition, scope))
     run_block(block, scope, result->children);
-  } else if (branch + 1 < statement.branches.size()) {
-    if (TreePtr inner = run_condition(statement, branch + 1, scope)) result->children.push_back(std::move(inner));
-  } else if (statement.has_otherwise) {
+  else if (branch + 1 < statement.branches.size())
+    run_condition(statement, scope, result->children, branch + 1);
+  else if (statement.has_otherwise)
     run_block(statement.otherwise, scope, result->children);
-  } else {
-    return nullptr;
-  }
-  return result;
+  else
+    return;
+  out.push_back(result);
 }
 
-TreePtr Evaluator::run_loops(const CallStatement& statement, solids::Operation operation, const ScopePtr& scope) {
-  auto result = tree(std::move(operation), statement.span);
-  if (!statement.arguments.empty()) run_loop(statement, 0, scope, result->children);
-  return result;
+// A loop without variables makes an empty group.
+void Evaluator::run_loops(const CallStatement& statement, const ScopePtr& scope, Trees& out,
+                          solids::Operation operation) {
+  const auto passes = [&](Trees& inside) {
+    if (!statement.arguments.empty()) run_loop(statement, 0, scope, inside);
+  };
+  group(statement.span, out, passes, std::move(operation));
 }
 
-// Runs a loop over its variables, starting with number `variable`.
-void Evaluator::run_loop(const CallStatement& statement, size_t variable, const ScopePtr& scope, Trees& out) {
-  if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
-  const Level level(*this, statement.span);
-  for_each_scope(statement.arguments[variable], statement.span, scope,
-                 [&](const ScopePtr& inner) { run_loop(statement, variable + 1, inner, out); });
+// Runs the statements after assert or echo, which make a group unless it is empty.
+void Evaluator::run_inside(const CallStatement& statement, const ScopePtr& scope, Trees& out) {
+  if (statement.children.statements.empty()) return;
+  group(statement.span, out, [&](Trees& inside) { run_block(statement.children, scope, inside); });
+  if (out.back()->children.empty()) out.pop_back();
 }
 
-TreePtr Evaluator::run_let(const CallStatement& statement, const ScopePtr& scope) {
-  const ScopePtr inner = make_scope(scope);
-  const SpecialsMark mark(*this);
-  bind_let(statement.arguments, inner, mark.size());
-  return group(statement, inner, false);
-}
-
-TreePtr Evaluator::group(const CallStatement& statement, const ScopePtr& scope, bool is_null_without) {
-  if (is_null_without && statement.children.statements.empty()) return nullptr;
-  auto result = tree(solids::Group{}, statement.span);
-  run_block(statement.children, scope, result->children);
-  if (is_null_without && result->children.empty()) return nullptr;
-  return result;
-}
-
-TreePtr Evaluator::run_call(const CallStatement& statement, const ScopePtr& scope) {
+void Evaluator::call_other(const CallStatement& statement, const ScopePtr& scope, Trees& out) {
   const Symbol name = statement.name.symbol;
-  for (const ScopePtr* at = &scope; *at; at = &(*at)->parent()) {
-    if ((*at)->plan())
-      if (const ast::ModuleDef* module = (*at)->plan()->module(name))
-        return run_module(*module, *at, nullptr, statement, scope);
-    if (!(*at)->unit()) continue;
-    // Clang 14 cannot read std::views::reverse. NOLINTNEXTLINE(modernize-loop-convert)
-    for (auto used = (*at)->unit()->uses.rbegin(); used != (*at)->unit()->uses.rend(); ++used)
-      if (const ast::ModuleDef* module = (*used)->plan.module(name))
-        return run_module(*module, unit_scope(**used), *used, statement, scope);
-  }
-  if (name == children_name_ || name == child_name_) return run_children(statement, scope);
-  if (name == intersection_for_name_) return run_loops(statement, solids::Intersection{}, scope);
+  const auto add = [&](TreePtr tree) {
+    if (tree) out.push_back(std::move(tree));
+  };
+  if (name == children_name_ || name == child_name_) return add(run_children(statement, scope));
+  if (name == intersection_for_name_) return run_loops(statement, scope, out, solids::Intersection{});
   if (name == assign_name_) {
     say(Message::Kind::deprecated,
         "The assign() module will be removed in future releases. Use a regular assignment instead.", statement.span);
-    return run_let(statement, scope);
+    return run_let(statement, scope, out);
   }
   const auto builtin = modules_.find(name);
-  if (builtin != modules_.end()) return run_builtin(*builtin->second, statement, scope);
-  if (makes_solid(statement.name, *scope)) return run_word(statement, scope);
+  if (builtin != modules_.end()) return add(run_builtin(*builtin->second, statement, scope));
+  if (makes_solid(statement.name, *scope)) return add(run_word(statement, scope));
   warn("Ignoring unknown module '" + statement.name.text() + '\'', statement.span);
-  return nullptr;
 }
 
-TreePtr Evaluator::run_module(const ast::ModuleDef& module, const ScopePtr& home, const Unit* used,
-                              const CallStatement& statement, const ScopePtr& scope) {
+void Evaluator::check_depth(const CallStatement& statement) {
   constexpr int levels_of_statement = 8;  // trees are as deep as statements, and other code walks them recursively
   if (depth_ > options_.limits.depth - spare_levels || nested_statements_ > options_.limits.depth / levels_of_statement)
     stop("Recursion detected calling module '" + statement.name.text() + '\'', statement.span);
-  meter_.count_call();
-  const Children children{&statement.children, scope};
-  const ScopePtr inner = make_scope(home, &module.body.plan);
-  const SpecialsMark mark(*this);
-  inner->set_children(&children);
-  if (used) enter(*used, mark.size());
-  bind(module.parameters, statement.arguments, scope, home, inner, statement.span, mark.size());
-  set_special(children_count_, static_cast<double>(statement.children.plan.actions.size()), mark.size());
-  set_special(parent_modules_, static_cast<double>(module_names_.size() + 1), mark.size());
+}
 
-  struct Entered {
-    std::vector<std::string>& names;
-    ~Entered() { names.pop_back(); }
-  };
-  module_names_.push_back(statement.name.text());
-  const Entered entered{module_names_};
-  auto result = tree(solids::Group{}, statement.span);
-  assign(module.body.plan, inner);
-  run_actions(module.body.plan, inner, result->children);
-  return result;
+void Evaluator::set_counts(const CallStatement& statement, const Scope&, size_t specials_from) {
+  set_special(children_count_, static_cast<double>(statement.children.plan.actions.size()), specials_from);
+  set_special(parent_modules_, static_cast<double>(module_calls_.size() + 1), specials_from);
 }
 
 // Returns nothing and adds a warning unless the value is the number of a child.
@@ -238,7 +159,7 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
       inner = make_scope(children->scope, &plan);
       assign(plan, inner);
     }
-    if (TreePtr child = run_statement(*plan.actions[*chosen], inner)) result->children.push_back(std::move(child));
+    run_statement(*plan.actions[*chosen], inner, result->children);
   };
   if (index.number())
     run_child(index);

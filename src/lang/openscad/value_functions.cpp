@@ -277,7 +277,7 @@ Value parent_module(const Call& call) {
   if (index < 0) return call.fail("Negative parent module index (" + shown + ") not allowed");
   if (index >= static_cast<double>(call.modules.size()))
     return call.fail("Parent module index (" + shown + ") greater than the number of modules on the stack");
-  return make_text(call.modules[call.modules.size() - 1 - static_cast<size_t>(index)], call.meter);
+  return make_text(call.modules[call.modules.size() - 1 - static_cast<size_t>(index)]->name.text(), call.meter);
 }
 
 }  // namespace

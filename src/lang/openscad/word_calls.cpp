@@ -1,7 +1,7 @@
 // Words of `use <ombre>`: their calls as statements and in expressions, and values that vary in space.
 #include <algorithm>
 
-#include "lang/engine/evaluation_loops.h"
+#include "lang/engine/evaluation_calls.h"
 #include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
 
@@ -12,18 +12,6 @@ namespace {
 std::string word_of(const ast::Name& name) {
   const std::string& text = name.text();
   return text.starts_with(word_prefix) ? text.substr(word_prefix.size()) : text;
-}
-
-// Returns the number or varying value in the script's variable of this name, which formulas may use.
-std::optional<Data> value_called(const std::string& name, const Scope& scope) {
-  const Value* value = scope.find_text(name);
-  if (value && value->number()) return Data(*value->number());
-  return value && value->object() ? std::optional(value->object()->data()) : std::nullopt;
-}
-
-// Returns the position of a literal string, even if the value was passed on through variables; else `otherwise`.
-SourceRange literal_place(const Text& text, const SourceRange& otherwise) {
-  return text.origin && text.origin->is_plain ? text.origin->inside().range() : otherwise;
 }
 
 }  // namespace
@@ -56,25 +44,11 @@ Invocation Evaluator::word_call(const ast::Name& name, const ast::Span& whole,
   call.name = word_of(name);
   call.where = name.span.range();
   call.whole = whole.range();
-  call.variable = [&scope](const std::string& variable) { return value_called(variable, *scope); };
-  const size_t specials_from = specials_.size();
-  for (const ast::Argument& argument : arguments) {
-    const Value value = eval(*argument.value, scope);
+  node_arguments(arguments, scope, call, [&](const ast::Argument& argument, const Value& value) {
     const std::string label = argument.name.symbol ? argument.name.text() + " = " : "";
     written += (written.empty() ? "" : ", ") + label + value_text(value, true, meter_);
-    if (argument.name.symbol && argument.name.is_special()) {
-      set_special(argument.name.symbol, value, specials_from);
-      call.has_own_facets |= argument.name.symbol == fn_;
-      continue;
-    }
-    Argument& given = call.arguments.emplace_back();
-    if (argument.name.symbol) {
-      given.name = argument.name.text();
-      given.name_where = argument.name.span.range();
-    }
-    given.value = data_of(value, argument.value->span.range(), argument.value->span);
-  }
-  call.facets = special_number(fn_);
+  });
+  call.facets = special_number(facets_name_);
   return call;
 }
 
@@ -84,9 +58,7 @@ solids::TreePtr Evaluator::run_word(const ast::CallStatement& statement, const S
   Invocation call = word_call(statement.name, statement.whole, statement.arguments, scope, word.arguments);
   auto result = tree(solids::Group{}, statement.span);
   run_block(statement.children, scope, result->children);
-  call.braces = !statement.children.statements.empty() ? Invocation::Braces::filled
-                : statement.children.has_braces        ? Invocation::Braces::empty
-                                                       : Invocation::Braces::none;
+  call.braces = braces_of(statement);
   at_ = statement.span;
   Diagnostics found;
   word.solid = options_.words->make(std::move(call), result->children, found);
@@ -126,30 +98,8 @@ void Evaluator::report_words(const Diagnostics& found, const ast::Span& where) {
     if (diagnostic.severity == Severity::error) stop(diagnostic.message, place_of(diagnostic));
 }
 
-// Converts a value to an argument of a word: plain data with source positions.
-Data Evaluator::data_of(const Value& value, const SourceRange& where, const ast::Span& argument) {
-  meter_.spend();
-  if (const double* number = value.number()) return {*number, where};
-  if (const Text* text = value.text()) return {text->text, literal_place(*text, where)};
-  if (const bool* boolean = value.boolean()) return {*boolean, where};
-  if (value.closure()) stop("a function cannot be an argument of a word; call it, and give its result", argument);
-  if (const Object* object = value.object()) {
-    Data data = object->data();
-    data.where = where;
-    return data;
-  }
-  Data nothing;
-  nothing.where = where;
-  if (value.is_undef()) return nothing;
-  DataList items;
-  const List* list = value.list();
-  if (value.range())
-    for_each(value, argument, "", [&](const Value& item) { items.emplace_back(*item.number(), where); });
-  for (size_t i = 0; list && i < list->items.size(); ++i) {
-    const ast::Expr* written = list->origin ? list->origin->elements[i].get() : nullptr;
-    items.push_back(data_of(list->items[i], written ? written->span.range() : where, argument));
-  }
-  return {std::move(items), where};
+void Evaluator::stop_at_function(const ast::Span& argument) {
+  stop("a function cannot be an argument of a word; call it, and give its result", argument);
 }
 
 }  // namespace ombre::lang::openscad
