@@ -92,6 +92,24 @@ def the_best_design_is_a_script(folder):
     expect("<circle" in folder.read("light/chart.svg"), "no chart")
 
 
+def studies_have_the_options_of_fea(folder):
+    """A search and `ombre fea` solve the same bricks in the same way, whichever rule is chosen."""
+    folder.write("pull.json", PULL)
+    stretches = []
+    for fill in ("exact", "centre"):
+        study = {**LIGHT, "cell": 4, "fill": fill, "solver": "direct", "sections": 7, "evaluations": 1}
+        folder.write("one.json", study)
+        folder.run("bars.vcad", "--study", "one.json", "-o", fill)
+        row = folder.table(f"{fill}/history.csv")[0]
+        values = [word for name in ("a", "b") for word in ("-D", f"{name}={row[name]}")]
+        lines = folder.run("bars.vcad", "--study", "pull.json", "--cell", "4", "--assign", "mix", "--fill", fill, "--sections",
+                           "7", "--solver", "direct", *values, "--solve", "--json", command="fea").stdout.splitlines()
+        solution = next(event for event in map(json.loads, lines) if event["event"] == "solution")
+        stretches.append(float(row["displacement z [mm]"]))
+        near(solution["greatest_displacement_mm"][2], stretches[-1], 1e-6, f"the displacement with {fill}")
+    expect(abs(stretches[0] - stretches[1]) > 0.01, f"the rules of filling give {stretches}")
+
+
 def beams_follow_beam_theory(folder):
     """The lightest beam under a limit of its deflection is as high as may be, and as wide as that needs."""
     length, force, modulus, limit, height = 100, 5, 1000, 2, 10
@@ -322,6 +340,10 @@ def wrong_studies_are_reported(folder):
     expect("bobyqa takes no constraints" in error({**LIGHT, "method": "bobyqa"}), "bobyqa")
     expect("cobyla takes one objective" in error({**FRONT, "method": "cobyla"}, "schaffer.vcad"), "cobyla")
     expect('did you mean "cell"?' in error({**LIGHT, "cel": 1}), "a member")
+    expect('"assign": there is no "mixed"; did you mean "mix"?' in error({**LIGHT, "assign": "mixed"}), "a word of an option")
+    expect('"sections"' in error({**LIGHT, "sections": 0}) and '"modulus" says nothing' in error({**LIGHT, "modulus": ""}),
+           "options that are wrong or empty")
+    expect("there is no solver" in error({**LIGHT, "solver": "calculix"}), "a solver that searches do not have")
     expect("no design keeps all limits" in error({**LIGHT, "evaluations": 20, "constraints": [
         {"measure": "displacement", "at_most": 0.1}]}, status=3), "infeasible")
     expect('prints no number named "cost"' in error(
@@ -468,14 +490,13 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             function(Folder(ombre, scratch))
 
-    checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, beams_follow_beam_theory,
-              fronts_are_found, whole_variables_are_whole, searches_go_on,
-              damaged_lines_are_measured_again, the_journal_is_the_table, searches_of_older_versions_are_named, designs_are_turned,
-              changed_files_are_noticed,
-        interrupted_topologies_leave_their_steps, ctrl_c_keeps_the_history,
-              wrong_studies_are_reported, designs_that_fail_are_left_out, topologies_are_as_stiff_as_published, projection_draws_densities_apart,
-              displacements_are_goals_of_topologies,
-              wrong_topologies_are_reported]
+    checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, studies_have_the_options_of_fea,
+              beams_follow_beam_theory, fronts_are_found, whole_variables_are_whole, searches_go_on,
+              damaged_lines_are_measured_again, the_journal_is_the_table, searches_of_older_versions_are_named,
+              designs_are_turned, changed_files_are_noticed, interrupted_topologies_leave_their_steps,
+              ctrl_c_keeps_the_history, wrong_studies_are_reported, designs_that_fail_are_left_out,
+              topologies_are_as_stiff_as_published, projection_draws_densities_apart,
+              displacements_are_goals_of_topologies, wrong_topologies_are_reported]
     return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
 
 

@@ -80,6 +80,12 @@ DataList member_names(const std::vector<std::string>& names) {
 
 std::string member_name(const std::string& option) { return option.starts_with("--") ? option.substr(2) : option; }
 
+void set_member(const Option& option, void* job, const Data& data) {
+  const std::string name = member_name(option.name());
+  if (!is_given(data, option, name)) throw WrongValue(quoted(name) + " says nothing; leave it out");
+  set(option, job, data, name);
+}
+
 DataMembers read_members(const std::vector<Option>& options, void* job, const DataMembers& members) {
   check_names(options, members);
   DataMembers given;

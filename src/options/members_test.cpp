@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text/json.h"
 #include "options/option.h"
 
 namespace ombre::options {
@@ -74,6 +75,24 @@ TEST(ReadMembers, SaysWhatIsWrong) {
   EXPECT_NE(failure({{"name", "tea"}, {"quiet-mode", true}}).find("\"quiet-mode\" needs \"on\""), std::string::npos);
   EXPECT_NE(failure({{"name", "tea"}, {"on", true}, {"quiet-mode", true}, {"note", "a"}}).find("exclude each other"),
             std::string::npos);
+}
+
+// The options of a job may be members of a JSON object with places.
+TEST(FieldsOf, ReadsOptionsAsMembers) {
+  const Record<Kettle> record("a kettle", fields_of(Kettle::options()));
+  const auto read_text = [&](const std::string& text, Kettle& kettle) {
+    Diagnostics diagnostics;
+    record.read(*parse_json(make_source("kettle.json", text), diagnostics), kettle, MemberReader(diagnostics));
+    return to_text(diagnostics);
+  };
+  Kettle kettle;
+  EXPECT_EQ(read_text(R"({"name": "tea", "cups": 3, "colour": "green", "on": true})", kettle), "");
+  EXPECT_EQ(kettle.cups, 3);
+  EXPECT_EQ(kettle.colour, "green");
+  EXPECT_TRUE(kettle.is_on);
+  EXPECT_NE(read_text("{\n  \"cups\": 12}", kettle).find("kettle.json:2:11"), std::string::npos);
+  EXPECT_NE(read_text(R"({"cup": 1})", kettle).find("did you mean \"cups\"?"), std::string::npos);
+  EXPECT_NE(read_text(R"({"colour": ""})", kettle).find("\"colour\" says nothing"), std::string::npos);
 }
 
 TEST(Describe, HasNamesWithoutDashes) {

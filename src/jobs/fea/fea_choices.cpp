@@ -48,7 +48,7 @@ void check_bricks(const FeaChoices& a) {
 }
 
 void check_tetrahedra(const FeaChoices& a) {
-  if (a.fill != FeaRequest::Fill::exact)
+  if (a.sections.fill != FeaRequest::Fill::exact)
     throw WrongValue(option("--fill") + " is of bricks; tetrahedra reach up to the surface");
   if (a.cell) throw WrongValue(option("--cell") + " is of bricks; write " + option("--size", "1.5"));
   if (a.own_solver() && a.own_solver() != fea::Solver::automatic)
@@ -61,10 +61,6 @@ void check_tetrahedra(const FeaChoices& a) {
   if (!a.size_by.empty() && !(a.least_mm > 0 && a.least_mm <= a.most_mm))
     throw WrongValue(option("--size-by") + " needs " + option("--min-cell") + ", and a " + option("--max-cell") +
                      " that is no less");
-}
-
-std::optional<std::string> if_named(const std::string& name) {
-  return name.empty() ? std::nullopt : std::optional(name);
 }
 
 }  // namespace
@@ -84,10 +80,6 @@ std::optional<fea::Solver> FeaChoices::own_solver() const {
 SizeRequest FeaChoices::size() const {
   if (size_by.empty()) return {size_mm, size_mm, ""};
   return {least_mm, most_mm, size_by};
-}
-
-FeaRequest FeaChoices::request() const {
-  return {assign, fill, if_named(modulus), if_named(conductivity), static_cast<size_t>(sections), work.threads};
 }
 
 SamplingOptions FeaChoices::sampling() const {

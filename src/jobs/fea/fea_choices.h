@@ -9,6 +9,7 @@
 #include "fea/files/inp_writer.h"
 #include "jobs/common/job_options.h"
 #include "jobs/fea/fea_job.h"
+#include "jobs/fea/section_options.h"
 #include "jobs/fea/tetra_job.h"
 
 namespace ombre::compile {
@@ -27,7 +28,6 @@ struct FeaChoices {
   std::string study;
   Elements elements = Elements::brick;
   std::optional<options::Pitches> cell;
-  FeaRequest::Fill fill = FeaRequest::Fill::exact;
   double size_mm = 0, least_mm = 0, most_mm = 0;  // 0: not chosen
   std::string size_by, subdomains;
   std::vector<std::string> outputs;
@@ -36,9 +36,7 @@ struct FeaChoices {
   int rounds = 0;  // 0: not chosen
   std::string follow;
   double change = 1e-3;
-  FeaRequest::Assign assign = FeaRequest::Assign::draw;
-  std::string modulus, conductivity;
-  int sections = 64;
+  SectionOptions sections;
   fea::BrickType brick = fea::BrickType::c3d8;
   double tolerance = 1e-8;
   uint64_t seed = 0;
@@ -57,11 +55,6 @@ struct FeaChoices {
                "quadratic (tet10) displacements",
                "KIND"),
         option("--cell", &F::cell, kind::voxel, "Size of bricks: one length, or x,y,z; mm", "X,Y,Z"),
-        choice(
-            "--fill", &F::fill, {"exact", "centre"},
-            "exact (default): the part of a brick inside is stiff and heavy; centre: a brick is whole if its centre is "
-            "inside",
-            "RULE"),
         option("--size", &F::size_mm, kind::number, "Approximate length of the edges of tetrahedra; mm", "MM")
             .between(1e-6, 1e6),
         option("--size-by", &F::size_by, kind::text,
@@ -88,17 +81,7 @@ struct FeaChoices {
         option("--change", &F::change, kind::number,
                "Greatest change of a fraction or an attribute at which rounds end (default 0.001)", "X")
             .between(0, 1),
-        choice("--assign", &F::assign, {"draw", "mix"},
-               "Material of an element of a mixture: draw (default: one material, by the odds of its fractions)\n"
-               "or mix (mean properties)",
-               "RULE"),
-        option("--modulus", &F::modulus, kind::text, "An attribute of the design that is Young's modulus in MPa",
-               "NAME"),
-        option("--conductivity", &F::conductivity, kind::text,
-               "An attribute of the design that is the conductivity in W/(m K) or S/m; in conduction", "NAME"),
-        option("--sections", &F::sections, kind::whole,
-               "Number of sections of elements with mix, --modulus or --conductivity (default 64)", "N")
-            .between(1, 60000),
+        group(&F::sections),
         choice("--element", &F::brick, {"C3D8", "C3D8I", "C3D8R"}, "Bricks of a deck: C3D8 (default), C3D8I or C3D8R",
                "TYPE"),
         option("--tolerance", &F::tolerance, kind::number,
@@ -114,7 +97,6 @@ struct FeaChoices {
   // CalculiX is none.
   std::optional<fea::Solver> own_solver() const;
   SizeRequest size() const;
-  FeaRequest request() const;
   // Returns the options that decide the voxels of bricks, and the seed.
   SamplingOptions sampling() const;
   // Throws options::WrongValue for options that exclude each other.

@@ -103,7 +103,7 @@ std::optional<compile::BrickPlan> plan_bricks(const FeaChoices& a, const compile
                                               Diagnostics& diagnostics) {
   const auto options = plan_options(a.sampling(), a.work, session, diagnostics);
   if (!options) return std::nullopt;
-  return compile::plan_model(loaded, *options, a.fill, diagnostics);
+  return compile::plan_model(loaded, *options, a.sections.fill, diagnostics);
 }
 
 // Makes the model of a study of this design; with a period the model is periodic.
@@ -124,7 +124,7 @@ class ModelMaker {
     const auto plan = plan_bricks(own, sampled, session_, diagnostics_);
     if (!plan) return std::nullopt;
     JobProgress progress(session_.events, Counted::voxels);
-    return compile::fea_model(sampled, *plan, study_, a_.request(), diagnostics_, &progress, &session_.stop);
+    return compile::fea_model(sampled, *plan, study_, a_.sections.request(a_.work.threads), diagnostics_, &progress, &session_.stop);
   }
 
   std::optional<compile::TetraModel> tetrahedra() {
@@ -132,7 +132,7 @@ class ModelMaker {
     request.size = a_.size();
     request.quadratic = a_.elements == FeaChoices::Elements::tet10;
     request.by_material = !a_.subdomains.empty();
-    request.sections = a_.request();
+    request.sections = a_.sections.request(a_.work.threads);
     request.seed = a_.seed;
     request.period = period_;
     request.memory_bytes = a_.work.memory_bytes;

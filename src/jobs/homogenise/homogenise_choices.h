@@ -5,7 +5,7 @@
 #include <string>
 
 #include "jobs/common/job_options.h"
-#include "jobs/fea/fea_job.h"
+#include "jobs/fea/section_options.h"
 
 namespace ombre::compile {
 
@@ -16,8 +16,7 @@ struct HomogeniseChoices {
   std::string study;
   double density = 0;  // 0: not chosen
   std::string by;
-  FeaRequest::Assign assign = FeaRequest::Assign::draw;
-  FeaRequest::Fill fill = FeaRequest::Fill::exact;
+  SectionOptions sections;
   uint64_t seed = 0;
   std::string output;
   double tolerance = 1e-6;
@@ -39,13 +38,7 @@ struct HomogeniseChoices {
                "Share of the box that is to be solid: a variable of the design is changed until it is", "X")
             .between(1e-6, 1),
         option("--by", &H::by, kind::text, "The variable for --density, and the range of its values", "NAME=LOW:HIGH"),
-        choice("--assign", &H::assign, {"draw", "mix"},
-               "Material of a brick of a mixture: draw (default: one material, by the odds of its fractions) or\n"
-               "mix (mean properties)",
-               "RULE"),
-        choice("--fill", &H::fill, {"exact", "centre"},
-               "exact (default): the part of a brick inside is stiff; centre: a brick is whole if its centre is inside",
-               "RULE"),
+        group(&H::sections),
         option("--seed", &H::seed, kind::seed, "Seed of draw (default 0)", "N"),
         option("-o,--output", &H::output, kind::file, "A chart of Young's modulus by direction, .svg", "FILE"),
         option("--tolerance", &H::tolerance, kind::number, "Greatest imbalance of forces, as a share (default 1e-6)",

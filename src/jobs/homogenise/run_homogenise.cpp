@@ -59,10 +59,7 @@ std::optional<fea::Model> make_model(const HomogeniseChoices& a, const fea::Stud
   if (!options) return std::nullopt;
   const auto plan = compile::plan_model(sampled, *options, compile::FeaRequest::Fill::exact, diagnostics);
   if (!plan) return std::nullopt;
-  compile::FeaRequest request;
-  request.assign = a.assign;
-  request.fill = a.fill;
-  request.threads = a.work.threads;
+  const compile::FeaRequest request = a.sections.request(a.work.threads);
   JobProgress progress(session.events);
   auto model = compile::fea_model(sampled, *plan, study, request, diagnostics, &progress, &session.stop);
   progress.finish();
@@ -330,7 +327,7 @@ std::optional<HomogenisePlan> plan_job(const HomogeniseChoices& a, Session& sess
   if (!model) return std::nullopt;
   HomogenisePlan plan{std::move(*model), std::nullopt, study->physics};
   // Another draw of a mixture would be another design.
-  const bool is_drawn = a.assign == compile::FeaRequest::Assign::draw && plan.model.sections.size() > 1;
+  const bool is_drawn = a.sections.assign == compile::FeaRequest::Assign::draw && plan.model.sections.size() > 1;
   if (!plan.is_mechanics() || is_drawn) return plan;
   chosen->cell_mm *= 2;
   Diagnostics ignored;  // a cell of few bricks has no coarser ones

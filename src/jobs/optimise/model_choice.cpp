@@ -6,6 +6,8 @@
 
 #include "base/text/json.h"
 #include "formats/containers/file.h"
+#include "jobs/fea/fea_choices.h"
+#include "options/members.h"
 
 namespace ombre::compile {
 
@@ -52,20 +54,34 @@ void read_brick_count(ModelChoice& choice, const Data& data, const MemberReader&
   for (size_t axis = 0; axis < 3; ++axis) (*choice.brick_count)[axis] = static_cast<int64_t>(counts[axis]);
 }
 
+// Reads a solver of Ombre's own.
+std::optional<fea::Solver> read_solver(const Data& data, const MemberReader& reader) {
+  std::vector<std::string> words;
+  std::vector<fea::Solver> solvers;
+  for (const SolverChoice& choice : solver_choices()) {
+    if (!choice.own) continue;
+    words.push_back(choice.name);
+    solvers.push_back(*choice.own);
+  }
+  const auto chosen = reader.choice(data, "solver", words);
+  return chosen ? std::optional(solvers[*chosen]) : std::nullopt;
+}
+
 }  // namespace
 
-Record<ModelChoice> model_record(bool chooses_fill) {
+Record<ModelChoice> model_record(Solves solves) {
   using M = ModelChoice;
-  using R = FeaRequest;
-  std::vector<Field<R>> request{field::choice("assign", &R::assign, {"draw", "mix"}),
-                                field::text("modulus", &R::modulus),
-                                field::whole("sections", &R::most_sections, 1, 60'000)};
-  if (chooses_fill) request.push_back(field::choice("fill", &R::fill, {"exact", "centre"}));
-  const char* const example = R"(write for example "fea": "pull.json", "cell": 1)";
-  return Record<M>("a study", {field::value("fea", &M::fea, read_fea).required(example),
-                               field::special("cell", read_cell), field::special("bricks", read_brick_count)})
-      .one_of({"cell", "bricks"}, example)
-      .with(&M::request, Record<R>("a study", request));
+  std::vector<Field<M>> members{
+      field::value("fea", &M::fea, read_fea).required(R"(write for example "fea": "pull.json", "cell": 1)"),
+      field::special("cell", read_cell), field::special("bricks", read_brick_count)};
+  std::vector<Field<SectionOptions>> sections = options::fields_of(SectionOptions::options());
+  if (solves == Solves::once)
+    members.push_back(field::value("solver", &M::solver, read_solver));
+  else
+    std::erase_if(sections, [](const auto& field) { return field.name == "fill"; });
+  return Record<M>("a study", members)
+      .one_of({"cell", "bricks"}, R"(write for example "fea": "pull.json", "cell": 1)")
+      .with(&M::sections, Record<SectionOptions>("a study", sections));
 }
 
 }  // namespace ombre::compile

@@ -9,7 +9,9 @@
 
 #include "base/math/pitch.h"
 #include "base/text/record.h"
+#include "fea/solve/solve_options.h"
 #include "jobs/fea/fea_job.h"
+#include "jobs/fea/section_options.h"
 
 namespace ombre::compile {
 
@@ -17,12 +19,16 @@ struct ModelChoice {
   std::array<std::optional<Pitch>, 3> cell;           // size of the bricks
   std::optional<std::array<int64_t, 3>> brick_count;  // or into how many the design's box is cut along each axis
   // Draws change by leaps where a design changes little, and mean properties do not.
-  FeaRequest request{.assign = FeaRequest::Assign::mix, .most_sections = 1000};
+  SectionOptions sections{.assign = FeaRequest::Assign::mix, .sections = 1000};
+  fea::Solver solver = fea::Solver::multigrid;
   fea::Study fea;
 };
 
-// The members "fea", "cell" or "bricks", "assign", "modulus" and "sections" of a study, and perhaps "fill". Reading
-// them throws Error for a file that cannot be read.
-Record<ModelChoice> model_record(bool chooses_fill);
+enum class Solves { once, often };  // a topology solves the same bricks again and again, in a way of its own
+
+// The members "fea", "cell" or "bricks", and those that `ombre fea` has as options: "assign", "modulus",
+// "conductivity", "sections"; where designs are solved once, "fill" and "solver" as well. Reading them throws Error for
+// a file that cannot be read.
+Record<ModelChoice> model_record(Solves solves);
 
 }  // namespace ombre::compile

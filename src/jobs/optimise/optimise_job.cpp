@@ -124,8 +124,7 @@ class Evaluation {
     const ModelChoice& choice = *study_.model;
     const auto plan = plan_bricks(loaded_, choice, plan_, diagnostics_);
     if (!plan) return false;
-    FeaRequest request = choice.request;
-    request.threads = plan_.threads;
+    const FeaRequest request = choice.sections.request(plan_.threads);
     auto model = fea_model(loaded_, *plan, choice.fea, request, diagnostics_, nullptr, stop_);
     if (!model) return false;
     solved_.model = std::move(*model);
@@ -136,6 +135,7 @@ class Evaluation {
     measured_.solve_bytes = fea::solve_bytes(solved_.model.bricks);
     fea::SolveOptions how;
     how.threads = plan_.threads;
+    how.solver = choice.solver;
     try {
       solved_.solution = fea::solve(solved_.model, solved_.conditions, how, nullptr, stop_);
     } catch (const Error& error) {  // it did not converge
@@ -246,7 +246,7 @@ std::optional<BrickPlan> plan_bricks(const LoadedPtr& loaded, const ModelChoice&
       options.pitch[at] = Pitch::from_mm(box->size()[axis] / static_cast<double>((*choice.brick_count)[at]));
     }
   }
-  return plan_model(loaded, options, choice.request.fill, diagnostics);
+  return plan_model(loaded, options, choice.sections.fill, diagnostics);
 }
 
 std::vector<double> values_at(const OptimiseStudy& study, const optimise::Point& point) {

@@ -152,7 +152,7 @@ void check_study(OptimiseStudy& study, const Data& data, const MemberReader& rea
                        R"(write for example "objectives": [{"minimise": "mass"}])");
   check_search(study, data, reader);
   if (reader.error_count() == before && std::ranges::any_of(study.measures(), &Measure::needs_bricks))
-    model_record(true).read_members(data, study.model.emplace(), reader);
+    model_record(Solves::once).read_members(data, study.model.emplace(), reader);
   if (reader.error_count() == before && study.needs_solution()) check_loads(study, reader.diagnostics());
 }
 
@@ -183,7 +183,7 @@ std::optional<OptimiseStudy> read_optimise_study(const Data& data, Diagnostics& 
                                                  field::objects("objectives", &S::objectives, objective_record()),
                                                  field::objects("constraints", &S::limits, limit_record())})
                                .with(&S::search, search_record())
-                               .knows(model_record(true).names())
+                               .knows(model_record(Solves::once).names())
                                .checked(check_study);
   OptimiseStudy study;
   if (!record.read(data, study, MemberReader(diagnostics, Code::study_value))) return std::nullopt;

@@ -47,8 +47,7 @@ std::optional<TopologyCase> make_topology_case(const OptimiseChoices& a, const c
   if (!options) return std::nullopt;
   const auto plan = compile::plan_bricks(loaded, study.model, *options, diagnostics);
   if (!plan) return std::nullopt;
-  compile::FeaRequest request = study.model.request;
-  request.threads = a.work.threads;
+  const compile::FeaRequest request = study.model.sections.request(a.work.threads);
   auto model = compile::fea_model(loaded, *plan, study.model.fea, request, diagnostics, nullptr, &session.stop);
   if (!model) return std::nullopt;
   auto conditions = fea::conditions_of(study.model.fea, *model, diagnostics);

@@ -56,10 +56,10 @@ void check_conditions(const fea::Study& fea, const Data& at, Diagnostics& diagno
 std::optional<TopologyStudy> read_topology_study(const Data& data, Diagnostics& diagnostics) {
   const Record<TopologyStudy> record =
       Record<TopologyStudy>("a study of topology", {field::special("topology", read_topology).required()})
-          .with(&TopologyStudy::model, model_record(false));
+          .with(&TopologyStudy::model, model_record(Solves::often));
   TopologyStudy study;
   if (!record.read(data, study, MemberReader(diagnostics, Code::study_value))) return std::nullopt;
-  study.model.request.fill = FeaRequest::Fill::centre;  // densities are those of whole bricks
+  study.model.sections.fill = FeaRequest::Fill::centre;  // densities are those of whole bricks
   check_conditions(study.model.fea, *data.find("fea"), diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   return study;
