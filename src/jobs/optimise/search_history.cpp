@@ -60,10 +60,9 @@ const History::Row* History::find(const std::vector<double>& values) const {
 }
 
 const History::Row& History::add(std::vector<double> values, Measured measured) {
-  int64_t number = 1;
-  for (auto row = rows_.begin(); row != rows_.end() && row->first == number; ++row) ++number;
-  numbers_.emplace(values, number);
-  return rows_.emplace(number, Row{number, std::move(values), std::move(measured)}).first->second;
+  while (rows_.contains(free_)) ++free_;
+  numbers_.emplace(values, free_);
+  return rows_.emplace(free_, Row{free_, std::move(values), std::move(measured)}).first->second;
 }
 
 std::vector<const History::Row*> History::rows() const {

@@ -42,6 +42,7 @@ class History {
  private:
   const OptimiseStudy& study_;
   std::map<int64_t, Row> rows_;
+  int64_t free_ = 1;  // all lesser numbers are taken
   std::map<std::vector<double>, int64_t> numbers_;
 };
 
