@@ -12,7 +12,7 @@ namespace ombre::compile {
 struct SectionOptions {
   FeaRequest::Fill fill = FeaRequest::Fill::exact;
   FeaRequest::Assign assign = FeaRequest::Assign::draw;
-  std::string modulus, conductivity;
+  std::string modulus = {}, conductivity = {};  // attributes; "" for the properties of the materials
   int sections = 64;
 
   static const options::Spec<SectionOptions>& options();
