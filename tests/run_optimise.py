@@ -97,12 +97,13 @@ def studies_have_the_options_of_fea(folder):
     folder.write("pull.json", PULL)
     stretches = []
     for fill in ("exact", "centre"):
-        study = {**LIGHT, "cell": 4, "fill": fill, "solver": "direct", "sections": 7, "evaluations": 1}
+        study = {**LIGHT, "constraints": [{"measure": "displacement", "axis": "z", "at_most": 9}], "cell": 3, "fill": fill,
+                 "solver": "direct", "sections": 7, "evaluations": 1}
         folder.write("one.json", study)
         folder.run("bars.vcad", "--study", "one.json", "-o", fill)
         row = folder.table(f"{fill}/history.csv")[0]
         values = [word for name in ("a", "b") for word in ("-D", f"{name}={row[name]}")]
-        lines = folder.run("bars.vcad", "--study", "pull.json", "--cell", "4", "--assign", "mix", "--fill", fill, "--sections",
+        lines = folder.run("bars.vcad", "--study", "pull.json", "--cell", "3", "--assign", "mix", "--fill", fill, "--sections",
                            "7", "--solver", "direct", *values, "--solve", "--json", command="fea").stdout.splitlines()
         solution = next(event for event in map(json.loads, lines) if event["event"] == "solution")
         stretches.append(float(row["displacement z [mm]"]))
@@ -340,7 +341,7 @@ def wrong_studies_are_reported(folder):
     expect("bobyqa takes no constraints" in error({**LIGHT, "method": "bobyqa"}), "bobyqa")
     expect("cobyla takes one objective" in error({**FRONT, "method": "cobyla"}, "schaffer.vcad"), "cobyla")
     expect('did you mean "cell"?' in error({**LIGHT, "cel": 1}), "a member")
-    expect('"assign": there is no "mixed"; did you mean "mix"?' in error({**LIGHT, "assign": "mixed"}), "a word of an option")
+    expect('"assign": there is no "mixed"; there are draw, mix' in error({**LIGHT, "assign": "mixed"}), "a word of an option")
     expect('"sections"' in error({**LIGHT, "sections": 0}) and '"modulus" says nothing' in error({**LIGHT, "modulus": ""}),
            "options that are wrong or empty")
     expect("there is no solver" in error({**LIGHT, "solver": "calculix"}), "a solver that searches do not have")
