@@ -43,7 +43,7 @@ design::NodePtr block_of(const OpenDesign& open, const design::NodePtr& value) {
   const design::Design& design = open.loaded->design;
   const Vec3 size = open.bounds.size(), middle = open.bounds.center();
   const Data output(HostObjectPtr(std::make_shared<design::NodeObject>(value)));
-  const bool is_mixture = value->first_output() == value->type().mixture_output();
+  const bool is_mixture = value->is_mixture();
   std::vector<std::pair<const char*, Data>> arguments{{"size", list_of(size)}};
   if (is_mixture) arguments.emplace_back("material", output);
   const auto block = make("translate", design, {{"by", list_of(middle)}}, {make("rectprism", design, arguments, {})});
@@ -58,7 +58,7 @@ compile::Loaded shown(const OpenDesign& open, const design::Node& node, compile:
     return alone(*open.loaded, not_held);
   }
   picture.slice = compile::SliceView{2, open.bounds.center().z};
-  if (node.first_output() != node.type().mixture_output()) picture.by = shown_value;
+  if (!node.is_mixture()) picture.by = shown_value;
   return alone(*open.loaded, block_of(open, not_held));
 }
 

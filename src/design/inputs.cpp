@@ -37,22 +37,35 @@ std::string Inputs::attribute_called(size_t i, std::string_view lower_case) cons
 }
 
 Field Inputs::distance_to(const SolidName& solid, const Point& p) const {
-  return lowering_ ? lowering_->distance(*solid.node, p) : anything(p);
+  if (!lowering_) return anything(p);
+  if (solid.node->type().is_solid()) return lowering_->distance(*solid.node, p);
+  return lowering_->answer(*solid.node, solid.output, p).numbers[0];
 }
 
 Field Inputs::inside_of(const SolidName& solid, const Point& p) const {
-  return lowering_ ? lowering_->inside(*solid.node, p) : anything(p, {0, 1});
+  if (!lowering_) return anything(p, {0, 1});
+  if (solid.node->type().is_solid()) return lowering_->inside(*solid.node, p);
+  return at_most(distance_to(solid, p), 0, Border::included);
 }
 
 Composition Inputs::composition_of(const SolidName& solid, const Point& p) const {
-  return lowering_->composition(*solid.node, p, Demand::everywhere);
+  if (solid.node->type().is_solid()) return lowering_->composition(*solid.node, p, Demand::everywhere);
+  const OutputAnswer answer = lowering_->answer(*solid.node, solid.output, p);
+  return answer.composition ? *answer.composition : lowering_->default_composition(p);
 }
 
 Field Inputs::attribute_of(const SolidName& solid, std::string_view attribute_name, const Point& p) const {
   return lowering_ ? lowering_->attribute(*solid.node, attribute_name, p, Demand::inside) : anything(p);
 }
 
-Field Inputs::along(size_t i, const Point& p) const { return lowering_->along(input(i), p); }
+Numbers4 Inputs::output_of(const SolidName& solid, std::string_view output_name, const Point& p) const {
+  if (!lowering_) return {anything(p), anything(p), anything(p), anything(p)};
+  return lowering_->output(*solid.node, output_name, p);
+}
+
+Numbers4 Inputs::output(size_t i, std::string_view output_name, const Point& p) const {
+  return lowering_->output(input(i), output_name, p);
+}
 
 namespace {
 
@@ -70,7 +83,7 @@ class InputList : public PartList {
   Field membership(const Inputs& in, size_t i, const Point& p, Border border) const override {
     return in.membership(i, p, border);
   }
-  Field along(const Inputs& in, size_t i, const Point& p) const override { return in.along(i, p); }
+  Field along(const Inputs& in, size_t i, const Point& p) const override { return in.output(i, along_output, p)[0]; }
   Composition composition(const Inputs& in, size_t i, const Point& p, Demand demand) const override {
     return in.composition(i, p, demand);
   }
@@ -103,7 +116,8 @@ std::vector<Field> Inputs::memberships(const Point& p, Border border) const {
 MaterialId Inputs::material(const MaterialName& material_name) const { return lowering_->material(material_name); }
 
 Composition Inputs::composition_of(const MaterialName& name, const Point& p) const {
-  return name.mixture ? lowering_->mixture(*name.mixture, p) : Composition::pure(material(name), p.constant(1));
+  if (!name.mixture.node) return Composition::pure(material(name), p.constant(1));
+  return *lowering_->answer(*name.mixture.node, name.mixture.output, p).composition;
 }
 
 std::optional<JobScale> Inputs::scale() const { return lowering_->scale(node_); }

@@ -244,48 +244,46 @@ Field Lowering::membership(const Node& node, const Point& p, Border border) {
 }
 
 Field Lowering::number(const NodeOutput& output, const Point& p) {
-  return numbers(*output.node, output.output, p)[std::max(output.axis, 0)];
+  return answer(*output.node, output.output, p).numbers[static_cast<size_t>(std::max(output.part, 0))];
 }
 
-VectorField Lowering::numbers(const Node& node, size_t output, const Point& p) {
+OutputAnswer Lowering::answer(const Node& node, size_t output, const Point& p) {
   if (auto* body = body_for(node)) {
+    OutputAnswer own = body->lowering.answer(node, output, body->frame());
     const std::string& name = node.type().outputs[output].name;
-    VectorField own = body->lowering.numbers(node, output, body->frame());
-    for (Field* field : {&own.x, &own.y, &own.z})
-      if (*field) *field = body->call(name, *field, p);
+    for (Field& field : own.numbers)
+      if (field) field = body->call(name, field, p);
+    if (own.composition) own.composition = body->call(context_, std::move(*own.composition), p);
     return own;
   }
-  Key key = key_of(node, p, Query::numbers);
+  Key key = key_of(node, p, Query::output);
   key.output = static_cast<uint32_t>(output);
-  if (const auto known = numbers_.find(key); known != numbers_.end()) return known->second;
+  if (const auto known = answers_.find(key); known != answers_.end()) return known->second;
   const Inputs in(node, this);
-  const VectorField made = node.numbers(output, {in, p});
-  numbers_.emplace(key, made);
-  return made;
+  return answers_.emplace(key, node.answer(output, {in, p})).first->second;
 }
 
-Composition Lowering::mixture(const Node& node, const Point& p) {
-  if (auto* body = body_for(node)) return body->call(context_, body->lowering.mixture(node, body->frame()), p);
-  const Key key = key_of(node, p, Query::mixture);
-  if (const auto known = compositions_.find(key); known != compositions_.end()) return known->second;
-  const Inputs in(node, this);
-  Composition made = node.mixture({in, p});
-  compositions_.emplace(key, made);
-  return made;
-}
-
-Field Lowering::along(const Node& node, const Point& p) {
-  if (auto* body = body_for(node)) return body->call("t", body->lowering.along(node, body->frame()), p);
-  if (const auto own = node.along(Inputs(node, this), p)) return *own;
-  if (const auto inner = node.inner(p)) return along(*node.inputs()[0], *inner);
-  // Uses the first input that consists of struts and holds the point.
-  Field result;
+Numbers4 Lowering::output(const Node& node, std::string_view name, const Point& p) {
+  if (const auto own = node.type().output(name); own && node.gives(*own)) return answer(node, *own, p).numbers;
+  if (auto* body = body_for(node)) {
+    Numbers4 numbers = body->lowering.output(node, name, body->frame());
+    for (Field& field : numbers)
+      if (field) field = body->call(std::string(name), field, p);
+    return numbers;
+  }
+  if (const auto passed = node.passed(Inputs(node, this), name, p)) return *passed;
+  if (const auto inner = node.inner(p)) return output(*node.inputs()[0], name, *inner);
+  std::optional<Numbers4> result;
   for (size_t i = node.inputs().size(); i-- > 0;) {
     const Node& input = *node.inputs()[i];
-    if (!input.has_along()) continue;
-    result = result ? select(inside(input, p), along(input, p), result) : along(input, p);
+    if (!input.output_type(name)) continue;
+    result = result ? select(inside(input, p), output(input, name, p), *result) : output(input, name, p);
   }
-  return result ? result : p.constant(0);
+  return result.value_or(Numbers4{p.constant(0)});
+}
+
+Composition Lowering::default_composition(const Point& p) const {
+  return Composition::pure(context_.materials().first().id, p.constant(1));
 }
 
 Composition Lowering::composition(const Node& node, const Point& p, Demand demand) {
@@ -302,7 +300,7 @@ Composition Lowering::make_composition(const Node& node, const Point& p, Demand 
   if (auto own = node.composition(Inputs(node, this), p, demand)) return std::move(*own);
   if (const auto inner = node.inner(p)) return composition(*node.inputs()[0], *inner, demand);
   if (!node.inputs().empty()) return composition(*node.inputs()[0], p, demand);
-  return Composition::pure(context_.materials().first().id, p.constant(1));
+  return default_composition(p);
 }
 
 Field Lowering::attribute(const Node& node, std::string_view name, const Point& p, Demand demand) {
@@ -323,13 +321,13 @@ Field Lowering::make_attribute(const Node& node, std::string_view name, const Po
 
 std::vector<MaterialId> materials_of(const MaterialName& name, const MaterialTable& table) {
   if (name.material) return {name.material->id};
-  const NodePtr not_held(NodePtr(), name.mixture);
+  const NodePtr not_held(NodePtr(), name.mixture.node);
   LoweringContext context(table, {not_held});
   program::Builder builder;
   Lowering lowering(context, builder);
   std::vector<MaterialId> ids;
-  for (const auto& [id, fraction] : lowering.mixture(*name.mixture, Point::origin_frame(builder)).fractions)
-    ids.push_back(id);
+  const OutputAnswer mixture = lowering.answer(*name.mixture.node, name.mixture.output, Point::origin_frame(builder));
+  for (const auto& [id, fraction] : mixture.composition->fractions) ids.push_back(id);
   return ids;
 }
 

@@ -120,8 +120,13 @@ class Lowering : public OutputFields {
   Composition composition(const Node& node, const Point& p, Demand demand);
   Field attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
   Field number(const NodeOutput& output, const Point& p) override;
-  Composition mixture(const Node& node, const Point& p);
-  Field along(const Node& node, const Point& p);
+  // Returns the value of one of the node's own outputs.
+  OutputAnswer answer(const Node& node, size_t output, const Point& p);
+  // Returns the numbers of the output with this name. A solid without it has the output of the first input that has it
+  // and holds the point; without any the result is 0.
+  Numbers4 output(const Node& node, std::string_view name, const Point& p);
+  // Returns the composition of a solid without a material: the first one of the table.
+  Composition default_composition(const Point& p) const;
 
   // Returns the parts of a node from a table, or nothing if there are too few. Each node has only one list and one
   // falloff.
@@ -154,8 +159,7 @@ class Lowering : public OutputFields {
     interior,
     composition_inside,
     composition_everywhere,
-    numbers,
-    mixture,
+    output,
   };
   struct Key {
     const Node* node;
@@ -171,7 +175,6 @@ class Lowering : public OutputFields {
   static Key key_of(const Node& node, const Point& p, Query query);
   template <class Make>
   Field once(const Node& node, const Point& p, Query query, const Make& make);
-  VectorField numbers(const Node& node, size_t output, const Point& p);
   Composition make_composition(const Node& node, const Point& p, Demand demand);
   Field make_attribute(const Node& node, std::string_view name, const Point& p, Demand demand);
   LoweringContext::Body* body_for(const Node& node);
@@ -182,8 +185,8 @@ class Lowering : public OutputFields {
   bool stands_alone_ = false;
   std::vector<LocalCheck> local_checks_;
   std::unordered_map<Key, Field, KeyHash> fields_;
-  std::unordered_map<Key, VectorField, KeyHash> numbers_;
-  std::unordered_map<Key, Composition, KeyHash> compositions_;  // compositions and mixtures
+  std::unordered_map<Key, OutputAnswer, KeyHash> answers_;
+  std::unordered_map<Key, Composition, KeyHash> compositions_;
 
   friend class LoweringContext;
 };

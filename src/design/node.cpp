@@ -16,7 +16,7 @@ void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& value
   for (const NodePtr& other : dependencies()) depth = std::max(depth, other->depth() + 1);
   depth_ = static_cast<uint16_t>(depth) & 0xFFF;
   uses_cell_ = !traits().gives_cell &&
-               (has_cell_numbers() ||
+               (type().uses_cell(*this) ||
                 std::ranges::any_of(dependencies(), [](const NodePtr& other) { return other->uses_cell(); }));
   const Metric metric = find_metric(Inputs(*this, nullptr));
   lipschitz_ = metric.lipschitz;
@@ -29,9 +29,16 @@ Traits Node::traits_of_shape() const {
   return node->traits();
 }
 
-bool Node::has_along() const {
-  if (inputs().empty()) return gives_along();
-  return std::ranges::any_of(inputs(), [](const NodePtr& input) { return input->has_along(); });
+bool Node::is_mixture() const {
+  return !type().is_solid() && type().outputs[first_output()].type.form == OutputForm::mixture;
+}
+
+const OutputType* Node::output_type(std::string_view output_name) const {
+  const auto own = type().output(output_name);
+  if (own && gives(*own)) return &type().outputs[*own].type;
+  for (const NodePtr& input : inputs())
+    if (const OutputType* found = input->output_type(output_name)) return found;
+  return nullptr;
 }
 
 size_t Node::first_output() const {

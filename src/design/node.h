@@ -12,6 +12,7 @@
 #include "design/job_scale.h"
 #include "design/lowered.h"
 #include "design/outputs.h"
+#include "design/ports/output.h"
 #include "design/values.h"
 
 namespace ombre::design {
@@ -73,7 +74,8 @@ class Inputs {
   Composition composition(size_t i, const Point& p, Demand demand) const;
   Field attribute(size_t i, std::string_view attribute_name, const Point& p, Demand demand) const;
   bool has_attribute(size_t i, std::string_view attribute_name) const;
-  Field along(size_t i, const Point& p) const;
+  // Returns the numbers of the output with this name that the input has, of its own or from its inputs, or else 0.
+  Numbers4 output(size_t i, std::string_view output_name, const Point& p) const;
   AttributeDeclaration declaration(std::string_view attribute_name) const;
 
   // Returns the inputs as a table of many parts, or nothing if there are too few.
@@ -95,6 +97,8 @@ class Inputs {
   // Returns the composition of the solid at the point, inside or outside. Must not be called if only ranges are
   // evaluated.
   Composition composition_of(const SolidName& solid, const Point& p) const;
+  // Returns the numbers of an output that a solid, or a node below it, has.
+  Numbers4 output_of(const SolidName& solid, std::string_view output_name, const Point& p) const;
   // Returns a number of one of the solid's attributes.
   Field attribute_of(const SolidName& solid, std::string_view attribute_name, const Point& p) const;
   // Returns the name of the input's attribute, or of its number, whose lower-case name this is; "" if there is none.
@@ -156,18 +160,24 @@ class Node {
   virtual bool keeps_shape() const = 0;
   // Returns the point at which the input is evaluated, if the node only maps points.
   virtual std::optional<Point> inner(const Point& p) const = 0;
-  // Returns the position along struts, from 0 at their start to 1 at their end, or nothing if the inputs are to be
-  // evaluated.
-  virtual std::optional<Field> along(const Inputs& in, const Point& p) const = 0;
+  // Returns the numbers of an output of its inputs, which have it, or nothing if the first input that holds the point
+  // decides.
+  virtual std::optional<Numbers4> passed(const Inputs& in, std::string_view output, const Point& p) const = 0;
   virtual Traits traits() const = 0;
   // Returns the traits of its shape: its own, or those of its input if it keeps that shape.
   Traits traits_of_shape() const;
 
-  // Outputs of value nodes are numbered in the order of their type's list.
-  virtual bool gives(size_t output) const = 0;                           // false if its parameters rule this output out
-  virtual VectorField numbers(size_t output, const Ask& ask) const = 0;  // a single number is in x
-  virtual Composition mixture(const Ask& ask) const = 0;
+  // Outputs are numbered in the order of their type's list.
+  virtual bool gives(size_t output) const = 0;  // false if its parameters rule this output out
+  // Returns the value of an output that varies in space.
+  virtual OutputAnswer answer(size_t output, const Ask& ask) const = 0;
+  virtual Data constant(size_t output) const = 0;  // of an output that is a constant
+  // Returns a box around the inside of an output that is a solid or region, within `where`.
+  virtual Box output_bounds(size_t output, const Box& where) const = 0;
   size_t first_output() const;  // the first one that gives() allows
+  bool is_mixture() const;      // true for a node of values whose first output is a mixture
+  // Returns the type of the output with this name that this node or a node below has, or null.
+  const OutputType* output_type(std::string_view output_name) const;
 
   std::span<const NodePtr> inputs() const { return {inputs_.get(), input_count_}; }
   // Returns the nodes whose outputs its parameters hold, each once.
@@ -184,12 +194,9 @@ class Node {
   int depth() const { return depth_; }  // 1 for a leaf
   // True if its numbers, or those of its inputs, depend on the cell of a repeating node above.
   bool uses_cell() const { return uses_cell_; }
-  bool has_along() const;  // true if it or one of its inputs consists of struts
 
  private:
   virtual Metric find_metric(const Inputs& in) const = 0;
-  virtual bool gives_along() const = 0;
-  virtual bool has_cell_numbers() const = 0;
 
   SourceRange where_;
   std::unique_ptr<NodePtr[]> inputs_;  // inputs, followed by values

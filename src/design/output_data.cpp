@@ -39,11 +39,8 @@ const FormulaObject* formula_object(const Data& data) {
   return dynamic_cast<const FormulaObject*>(data.host_object().get());
 }
 
-// A node with the output and coordinate that a text selects.
-struct Named {
-  NodePtr node;
-  size_t output = 0;
-  int axis = -1;
+// A node with the output and part that a text selects.
+struct Named : NodeOutput {
   const OutputInfo& info() const { return node->type().outputs[output]; }
 };
 
@@ -71,42 +68,44 @@ bool find_output(const Data& at, const std::string& text, const Reader& reader, 
   named.output = number;
   if (dot == std::string::npos) return true;
   const std::string part = text.substr(dot + 1);
-  const size_t axis = part.size() == 1 ? std::string_view("xyz").find(part[0]) : std::string_view::npos;
-  if (axis == std::string_view::npos || found->type != ValueType::vector)
-    return fail(at, reader, '"' + text + "\" is no output", "vectors have the parts .x, .y and .z");
-  named.axis = static_cast<int>(axis);
+  const size_t position = part.size() == 1 ? found->type.parts.find(part[0]) : std::string_view::npos;
+  if (position == std::string_view::npos)
+    return fail(at, reader, '"' + text + "\" is no output", "vectors have the parts .x, .y and .z, colours .r to .a");
+  named.part = static_cast<int>(position);
   return true;
 }
 
 std::optional<Named> read_output(const Data& data, const Reader& reader) {
   if (const NodeObject* object = node_object(data)) {
-    if (!object->node()->type().is_solid()) return Named{object->node(), object->node()->first_output()};
+    if (!object->node()->type().is_solid()) return Named{{object->node(), object->node()->first_output()}};
     fail(data, reader, "expected a value, found a solid");
     return std::nullopt;
   }
   const Data *from = data.find("from"), *output = data.find("output");
   const NodeObject* object = from ? node_object(*from) : nullptr;
-  if (!object || object->node()->type().is_solid() || !output || !output->string()) {
+  if (!object || !output || !output->string()) {
     fail(data, reader, "expected an output of a node that gives values",
          "write for example {\"from\": \"n3\", \"output\": \"value\"}");
     return std::nullopt;
   }
-  Named named{object->node()};
+  Named named{{object->node()}};
   return find_output(*output, *output->string(), reader, named) ? std::optional(named) : std::nullopt;
 }
 
 std::optional<expr::Expression> number_of(const Data& data, const Reader& reader) {
   const auto named = read_output(data, reader);
   if (!named) return std::nullopt;
-  const ValueType type = named->info().type;
-  if (type == ValueType::number || named->axis >= 0) return expression_of({named->node, named->output, named->axis});
-  if (type == ValueType::vector)
-    fail(data, reader,
-         "expected a number, found the vector \"" + named->info().name + "\" of " + named->node->type().name,
-         "write one of its parts: ." + named->info().name + ".x");
-  else
-    fail(data, reader, "expected a number, found the mixture of materials of " + named->node->type().name,
+  const OutputType& type = named->info().type;
+  if (type.is_number() || named->part >= 0) return expression_of(*named);
+  const std::string of = " of " + named->node->type().name;
+  if (type.has_parts())
+    fail(data, reader, "expected a number, found the " + type.name + " \"" + named->info().name + '"' + of,
+         "write one of its parts: ." + named->info().name + '.' + type.parts[0]);
+  else if (type.form == OutputForm::mixture)
+    fail(data, reader, "expected a number, found the mixture of materials" + of,
          "a mixture goes where a solid has its material");
+  else
+    fail(data, reader, "expected a number, found the " + type.name + " \"" + named->info().name + '"' + of);
   return std::nullopt;
 }
 
@@ -140,16 +139,41 @@ std::optional<expr::Expression> formula_with(const Data& data, const Domain& dom
 
 bool is_value(const Data& data) { return node_object(data) || formula_object(data) || data.members(); }
 
-bool is_mixture(const Data& data) {
+namespace {
+
+// Returns the output that data stands for, if it stands for one and for no part of it.
+std::optional<GivenOutput> given_output(const Data& data) {
   const Data* from = data.find("from");
   const NodeObject* object = node_object(from ? *from : data);
-  if (!object || object->node()->type().is_solid()) return false;
+  if (!object) return std::nullopt;
   const Node& node = *object->node();
-  const size_t mixture = node.type().mixture_output();
   const Data* output = data.find("output");
-  if (!output) return node.first_output() == mixture;
-  return output->string() && mixture < node.type().outputs.size() &&
-         node.type().outputs[mixture].name == *output->string();
+  if (!output) return node.type().is_solid() ? std::nullopt : std::optional(GivenOutput{&node, node.first_output()});
+  const auto number = output->string() ? node.type().output(*output->string()) : std::nullopt;
+  return number && node.gives(*number) ? std::optional(GivenOutput{&node, *number}) : std::nullopt;
+}
+
+bool has_form(const std::optional<GivenOutput>& given, OutputForm form) {
+  return given && given->node->type().outputs[given->output].type.form == form;
+}
+
+}  // namespace
+
+bool is_mixture(const Data& data) { return has_form(given_output(data), OutputForm::mixture); }
+
+Data with_constants(const Data& data, const Reader& reader) {
+  if (const DataList* list = data.list()) {
+    const bool has_values = std::ranges::any_of(*list, [](const Data& one) { return is_value(one) || one.list(); });
+    if (!has_values) return data;
+    DataList result;
+    for (const Data& element : *list) result.push_back(with_constants(element, reader));
+    return {std::move(result), data.where};
+  }
+  const auto given = is_value(data) ? given_output(data) : std::nullopt;
+  if (!has_form(given, OutputForm::constant)) return data;
+  Data constant = given->node->constant(given->output);
+  constant.where = data.where;
+  return constant;
 }
 
 std::optional<expr::Expression> read_formula(const Data& data, const Domain& domain, const Reader& reader) {
@@ -161,41 +185,47 @@ std::vector<expr::Expression> vector_of(const Data& data, const Reader& reader) 
   if (!node_object(data) && !data.find("from")) return {};
   Diagnostics ignored;
   const auto named = read_output(data, {reader.materials, ignored, nullptr, reader.where, reader.node, reader.name});
-  if (!named || named->axis >= 0 || named->info().type != ValueType::vector) return {};
+  if (!named || named->part >= 0) return {};
   std::vector<expr::Expression> numbers;
-  for (int axis = 0; axis < 3; ++axis) numbers.push_back(expression_of({named->node, named->output, axis}));
+  for (size_t part = 0; part < named->info().type.parts.size(); ++part)
+    numbers.push_back(expression_of({named->node, named->output, static_cast<int>(part)}));
   return numbers;
 }
 
-Data write_solid(const Node& node) {
-  const NodePtr not_held(NodePtr(), &node);
-  return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(not_held)))}});
-}
-
-NodePtr read_solid(const Data& data, const Reader& reader) {
-  const Data* named = data.find("from");
-  const NodeObject* object = node_object(named ? *named : data);
-  if (object && object->node()->type().is_solid() && !object->node()->is_nothing()) return object->node();
+std::optional<GivenOutput> read_solid(const Data& data, const Reader& reader) {
+  const Data* from = data.find("from");
+  const NodeObject* object = node_object(from ? *from : data);
+  if (const auto given = given_output(data); object && has_form(given, OutputForm::solid)) {
+    reader.keep(object->node());
+    return given;
+  }
+  if (object && !data.find("output") && object->node()->type().is_solid() && !object->node()->is_nothing()) {
+    reader.keep(object->node());
+    return GivenOutput{object->node().get()};
+  }
   const std::string found = object && object->node()->is_nothing() ? "nothing" : describe(data);
   fail(data, reader,
        std::string(reader.name) + " of " + std::string(reader.node) + ": expected a solid, found " + found,
        spelled::either("write a call of one, for example sphere(5)", "write the id of its node, {\"from\": \"n2\"}",
                        "write a call of one, for example ombre.sphere(5)"));
-  return nullptr;
+  return std::nullopt;
 }
 
-NodePtr read_mixture(const Data& data, const Reader& reader) {
+std::optional<GivenOutput> read_mixture(const Data& data, const Reader& reader) {
   if (!formula_object(data)) {
     const auto named = read_output(data, reader);
-    if (!named) return nullptr;
-    if (named->info().type == ValueType::mixture) return named->node;
+    if (!named) return std::nullopt;
+    if (named->info().type.form == OutputForm::mixture) {
+      reader.keep(named->node);
+      return GivenOutput{named->node.get(), named->output};
+    }
   }
   fail(data, reader,
        std::string(reader.name) + " of " + std::string(reader.node) +
            ": expected a material or a mixture of materials, found a number that varies in space",
        "write for example " + spelled::either("mix(white, black, t)", R"({"from": "n3", "output": "mixture"})",
                                               R"(ombre.mix("white", "black", t))"));
-  return nullptr;
+  return std::nullopt;
 }
 
 namespace {
@@ -217,9 +247,14 @@ Data write_formula(const expr::Expression& expression) {
   return Data(DataMembers{{"formula", Data(expression.text())}, {"with", Data(std::move(with))}});
 }
 
-Data write_mixture(const Node& node) {
-  const NodePtr not_held(NodePtr(), &node);
-  return reference(not_held, node.type().outputs[node.type().mixture_output()].name);
+Data write_output(const GivenOutput& output, const NodePtr& owner) {
+  return reference(NodePtr(owner, output.node), output.node->type().outputs[output.output].name);
+}
+
+Data write_solid(const GivenOutput& solid) {
+  if (!solid.node->type().is_solid()) return write_output(solid);
+  const NodePtr not_held(NodePtr(), solid.node);
+  return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(not_held)))}});
 }
 
 namespace {

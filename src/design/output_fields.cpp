@@ -17,6 +17,8 @@ class Anything : public program::FieldSource {
   double sample(int, Vec3) const override { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
+size_t first_or(int part) { return static_cast<size_t>(std::max(part, 0)); }
+
 }  // namespace
 
 Field anything(const Point& p, const Interval& range) {
@@ -24,20 +26,41 @@ Field anything(const Point& p, const Interval& range) {
   return range.is_bounded() ? min(max(field, range.lo), p.constant(range.hi)) : field;
 }
 
+Numbers4 select(Field flag, const Numbers4& yes, const Numbers4& no) {
+  Numbers4 result = yes;
+  for (size_t n = 0; n < result.size(); ++n)
+    if (yes[n]) result[n] = program::select(flag, yes[n], no[n]);
+  return result;
+}
+
+std::string_view name(OutputForm form) {
+  constexpr std::array<std::string_view, 4> names{"numbers", "mixture", "solid", "constant"};
+  return names[static_cast<size_t>(form)];
+}
+
+std::vector<Field> fields_of(const OutputAnswer& answer) {
+  std::vector<Field> fields;
+  for (const Field number : answer.numbers)
+    if (number) fields.push_back(number);
+  if (answer.composition)
+    for (const auto& [id, fraction] : answer.composition->fractions) fields.push_back(fraction);
+  return fields;
+}
+
 std::string NodeOutput::name() const {
-  const std::string& own = node->type().outputs[output].name;
-  return axis < 0 ? own : own + '.' + "xyz"[axis];
+  const OutputInfo& own = node->type().outputs[output];
+  return part < 0 ? own.name : own.name + '.' + own.type.parts[static_cast<size_t>(part)];
 }
 
 Field OutputsAlone::number(const NodeOutput& output, const Point& p) {
-  const auto& [node, number, axis] = output;
+  const auto& [node, number, part] = output;
   const OutputInfo& info = node->type().outputs[number];
   if (by_ranges_ && info.range.is_bounded()) return anything(p, info.range);
   const Key key{node.get(), number, p.x.id, p.y.id, p.z.id};
-  if (const auto known = known_.find(key); known != known_.end()) return known->second[std::max(axis, 0)];
-  const VectorField made = node->numbers(number, {Inputs(*node, nullptr), p});
+  if (const auto known = known_.find(key); known != known_.end()) return known->second[first_or(part)];
+  const Numbers4 made = node->answer(number, {Inputs(*node, nullptr), p}).numbers;
   known_.emplace(key, made);
-  return made[std::max(axis, 0)];
+  return made[first_or(part)];
 }
 
 Field OutputInput::field(const Point& p) const {
@@ -50,7 +73,7 @@ std::string OutputInput::name() const { return output_.node->type().name + '.' +
 bool OutputInput::is_same(const Input& other) const {
   const auto* output = dynamic_cast<const OutputInput*>(&other);
   return output && output->output_.node == output_.node && output->output_.output == output_.output &&
-         output->output_.axis == output_.axis;
+         output->output_.part == output_.part;
 }
 
 expr::Expression expression_of(NodeOutput output) {

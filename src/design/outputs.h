@@ -1,6 +1,7 @@
 // Outputs of value nodes, and the data that gives them to parameters.
 #pragma once
 
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -21,13 +22,50 @@ struct VectorField {
   Field operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
-// A number that a node gives, or one coordinate of a vector.
+// The numbers of an output at a point: one, three of a vector or frame, four of a colour; the others are not set.
+using Numbers4 = std::array<Field, 4>;
+
+// Returns `yes` where the flag is 1, else `no`.
+Numbers4 select(Field flag, const Numbers4& yes, const Numbers4& no);
+
+// The name of the output of struts that runs from 0 at their start to 1 at their end; formulas over struts call it t.
+inline constexpr std::string_view along_output = "along";
+
+// How an output is given.
+enum class OutputForm : uint8_t {
+  numbers,   // one to four numbers that vary in space
+  mixture,   // a composition that varies in space
+  solid,     // a solid or region, which `solid_of` makes a node
+  constant,  // plain data of a type of parameters, known when the node is made
+};
+
+std::string_view name(OutputForm form);
+
+// The type of an output (design/ports/output.h).
+struct OutputType {
+  std::string name;        // in help and in the reference: "number", "vector", "list of points"
+  std::string_view parts;  // a letter for each of several numbers: "xyz", "rgba"
+  OutputForm form = OutputForm::numbers;
+  std::string python;  // its type in Python's stubs
+
+  bool is_number() const { return form == OutputForm::numbers && parts.empty(); }
+  bool has_parts() const { return !parts.empty(); }
+};
+
+// A number that a node gives, or one of several.
 struct NodeOutput {
   NodePtr node;
   size_t output = 0;  // position in the type's list of outputs
-  int axis = -1;      // coordinate of a vector
+  int part = -1;      // position in the type's parts, or -1 if it has none
 
   std::string name() const;  // the output's name: "value" or "index.x"
+};
+
+// An output of a node, which the node with the parameter owns.
+struct GivenOutput {
+  const Node* node = nullptr;
+  size_t output = 0;
+  bool operator==(const GivenOutput&) const = default;
 };
 
 // Computes fields of outputs at points of its builder.
@@ -54,7 +92,7 @@ class OutputsAlone : public OutputFields {
 
   program::Builder& builder_;
   bool by_ranges_;
-  std::map<Key, VectorField> known_;
+  std::map<Key, Numbers4> known_;
 };
 
 // Returns a field that may have any value in a range, for evaluation of ranges only.
@@ -77,7 +115,7 @@ expr::Expression expression_of(NodeOutput output);
 // Returns the nodes whose outputs a formula uses, in order of occurrence.
 std::vector<NodePtr> nodes_of(const expr::Expression& expression);
 
-// Data that stands for the first output that the node gives.
+// Data that stands for a solid, or for the first output that a node of values gives.
 class NodeObject final : public HostObject {
  public:
   explicit NodeObject(NodePtr node) : node_(std::move(node)) {}
@@ -106,16 +144,20 @@ bool is_mixture(const Data& data);  // true for a mixture of materials
 std::optional<expr::Expression> read_formula(const Data& data, const Domain& domain, const Reader& reader);
 // Returns the numbers of an output that has several, such as a node's index. Returns an empty list for other data.
 std::vector<expr::Expression> vector_of(const Data& data, const Reader& reader);
-// Reads an output that is a mixture. Returns null and adds a diagnostic if it is none.
-NodePtr read_mixture(const Data& data, const Reader& reader);
+// Reads an output that is a mixture, and keeps its node. Returns nothing and adds a diagnostic if it is none.
+std::optional<GivenOutput> read_mixture(const Data& data, const Reader& reader);
+// Replaces outputs that are constants by their values.
+Data with_constants(const Data& data, const Reader& reader);
 
 // Returns {"from": node, "output": "value"} or {"formula": "2*v", "with": {"v": {"from": node, "output": "value"}}}, in
 // which nodes are NodeObjects.
 Data write_formula(const expr::Expression& expression);
-Data write_mixture(const Node& node);  // its NodeObject does not own the node
-// Reads a solid as a parameter: a NodeObject or {"from": node}. Returns null and adds a diagnostic if it is no solid.
-NodePtr read_solid(const Data& data, const Reader& reader);
-Data write_solid(const Node& node);  // its NodeObject does not own the node
+// The NodeObject in the data holds `owner`, or does not own the node if that is null.
+Data write_output(const GivenOutput& output, const NodePtr& owner = nullptr);
+// Reads a solid as a parameter: a NodeObject, {"from": node}, or an output that is a solid or region. Returns nothing
+// and adds a diagnostic if it is no solid.
+std::optional<GivenOutput> read_solid(const Data& data, const Reader& reader);
+Data write_solid(const GivenOutput& solid);  // its NodeObject does not own the node
 // Returns the data with all its NodeObjects replaced by ones that own their nodes, which are among `nodes`.
 Data with_held_nodes(const Data& data, std::span<const NodePtr> nodes);
 // Replaces each NodeObject by the text that `name` returns.

@@ -10,9 +10,9 @@ namespace ombre::design {
 
 bool Node::is_nothing() const { return type().is_nothing; }
 
-size_t NodeType::mixture_output() const {
-  const auto found = std::ranges::find(outputs, ValueType::mixture, &OutputInfo::type);
-  return static_cast<size_t>(found - outputs.begin());
+std::optional<size_t> NodeType::output(std::string_view output_name) const {
+  const auto found = std::ranges::find(outputs, output_name, &OutputInfo::name);
+  return found == outputs.end() ? std::nullopt : std::optional(static_cast<size_t>(found - outputs.begin()));
 }
 
 int NodeType::parameter(std::string_view parameter_name) const {
@@ -31,7 +31,6 @@ std::vector<std::string> NodeType::parameter_names() const {
 void Registry::add_type(std::unique_ptr<NodeType> type) {
   const bool is_new = by_name_.emplace(fold_name(type->name), type.get()).second;
   ASSERT(is_new && "two nodes have one name");
-  ASSERT(std::ranges::count(type->outputs, ValueType::mixture, &OutputInfo::type) <= 1);
   if (type->is_nothing) nothing_ = type.get();
   for (const auto& other : types_) other->nothing = nothing_;
   type->nothing = nothing_;
@@ -167,7 +166,7 @@ NodePtr made_node(const NodeType& type, const std::vector<NamedValue>& values, s
     std::vector<NodePtr> nodes;
     const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name,
                      parameter->name,  reader.names,       &nodes,        &inputs};
-    good = type.set(*node, index, data, one) && good;
+    good = type.set(*node, index, with_constants(data, one), one) && good;
     for (NodePtr& value : nodes) used.emplace_back(index, std::move(value));
   }
   const bool has_unwanted = type.inputs.most == 0 && !inputs.empty();

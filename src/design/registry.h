@@ -13,9 +13,10 @@ namespace ombre::design {
 
 struct ParameterInfo {
   std::string name, doc;
-  std::string_view kind;  // "number or field", ...
+  PortText text;
   Domain domain;
-  Data default_value;  // null if the parameter is required
+  Data default_value;              // null if the parameter is required
+  bool takes_other_names = false;  // gets the arguments whose names match no other parameter
 };
 
 // The effect of empty inputs on a node.
@@ -28,7 +29,7 @@ enum class OfNothing : uint8_t {
 
 struct OutputInfo {
   std::string name, doc;
-  ValueType type = ValueType::number;
+  OutputType type;
   Interval range = Interval::everything();  // range of a number
 };
 
@@ -53,20 +54,23 @@ class NodeType {
   std::string name, category, sentence, example;  // `example` is a .vcad script
   InputInfo inputs;
   std::vector<ParameterInfo> parameters;
-  std::vector<OutputInfo> outputs;    // outputs of value nodes; at most one is a mixture
+  std::vector<OutputInfo> outputs;
+  bool gives_solid = true;
   bool is_nothing = false;            // true if its nodes are solids without points
   const NodeType* nothing = nullptr;  // the registry's type of empty solids, or null
 
-  // Nodes that are no solids give values.
-  bool is_solid() const { return outputs.empty(); }
-  // Returns the number of the output that is a mixture, or the number of outputs if there is none.
-  size_t mixture_output() const;
+  // Nodes that are no solids give values. Solids may have outputs, too.
+  bool is_solid() const { return gives_solid; }
+  // Returns the position of the output with this name.
+  std::optional<size_t> output(std::string_view output_name) const;
 
   virtual std::shared_ptr<Node> create() const = 0;
   virtual bool set(Node& node, size_t parameter, const Data& data, const Reader& reader) const = 0;
   virtual Data get(const Node& node, size_t parameter, bool for_hash) const = 0;
   // True if its parameters make it empty, like a text without letters.
   virtual bool makes_nothing(const Node& node) const = 0;
+  // True if a formula in its parameters uses ci, cj or ck.
+  virtual bool uses_cell(const Node& node) const = 0;
   // Fills in values that defaults leave open and checks combinations of parameters.
   virtual bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& inputs) const = 0;
 

@@ -10,11 +10,13 @@
 //
 // It may have these methods if the defaults do not fit:
 // - Metric metric([Inputs]) const; by default leaves with constant numbers are exact.
-// - membership, composition, attribute, declares, complete, along, traits, makes_nothing.
+// - membership, composition, attribute, declares, passed, complete, traits, makes_nothing.
 //
-// A node that gives values has outputs in its spec instead of a shape. Each output is a method of the struct, whose
-// return type determines the output's type:
-// - Field number(Ask) const, VectorField vector(Ask) const, or Composition mixture(Ask) const.
+// A node may have outputs in its spec; one without a shape gives values alone. An output is a method of the struct,
+// whose return type determines the output's type (design/ports/output.h):
+// - R method(Ask) const, for a number (Field), vector, colour, frame (Point), label, mixture (Composition), solid or
+//   region. The last two also have Box bounds(where) const.
+// - M method() const, or a member, for a constant of any type of parameters: a text, points, a file, ...
 // - bool gives(output) const, which is true by default, says whether the parameters allow an output.
 #pragma once
 
@@ -35,81 +37,67 @@ template <class T>
 struct Parameter {
   template <class M>
   Parameter(std::string_view name_, M T::*member, std::string_view doc_, Domain domain_ = {})
-      : name(name_), doc(doc_), kind(kind_name<M>()), domain(std::move(domain_)) {
+      : name(name_), doc(doc_), domain(std::move(domain_)) {
     static_assert(std::is_object_v<M>, "a parameter is a member, not a method");
-    if constexpr (std::is_same_v<M, MaterialName>) {
-      if (!HasComposition<T>) domain.may_mix = true;
-      if (domain.may_mix) kind = "material or mixture";
-    }
+    static_assert(IsPort<M>, "a type of parameters has a Port (design/ports/port.h)");
+    if constexpr (requires { Port<M>::adapt(domain, true); }) Port<M>::adapt(domain, HasComposition<T>);
+    if constexpr (requires { Port<M>::takes_other_names; }) takes_other_names = true;
+    text = Port<M>::text(domain);
     set = [member, limits = domain](T& value, const Data& data, const Reader& reader) {
-      return read(data, limits, value.*member, reader);
+      return Port<M>::read(data, limits, value.*member, reader);
     };
-    get = [member](const T& value, bool for_hash) { return write(value.*member, for_hash); };
-    if constexpr (std::is_same_v<M, Number>)
-      is_constant = [member](const T& value) { return (value.*member).constant() != nullptr; };
-    if (domain.one_is_enough) kind = "number or 3 numbers, or fields";
-    if constexpr (std::is_same_v<M, Numbers3>)
-      is_constant = [member](const T& value) {
-        const Numbers3& n = value.*member;
-        return n.x.constant() && n.y.constant() && n.z.constant();
-      };
-    if constexpr (std::is_same_v<M, NumberOrMaterial>)
-      uses_cell = [member](const T& value) { return (value.*member).number.uses_cell(); };
-    if constexpr (std::is_same_v<M, Number>)
-      uses_cell = [member](const T& value) { return (value.*member).uses_cell(); };
-    if constexpr (std::is_same_v<M, Numbers3>)
-      uses_cell = [member](const T& value) {
-        const Numbers3& n = value.*member;
-        return n.x.uses_cell() || n.y.uses_cell() || n.z.uses_cell();
-      };
-    if constexpr (std::is_same_v<M, AttributeValue>)
-      uses_cell = [member](const T& value) { return std::ranges::any_of((value.*member).used(), &Number::uses_cell); };
-    if constexpr (std::is_same_v<M, SharedList<Number>>)
-      uses_cell = [member](const T& value) { return std::ranges::any_of(value.*member, &Number::uses_cell); };
-    if constexpr (std::is_same_v<M, MaterialName>)
-      fill = [member](T& value, const Reader& reader) {
-        if (!(value.*member).is_given()) (value.*member).material = &reader.materials.first();
-      };
+    get = [member](const T& value, bool for_hash) { return Port<M>::write(value.*member, for_hash); };
+    if constexpr (requires(const M& m) { Port<M>::is_constant(m); })
+      is_constant = [member](const T& value) { return Port<M>::is_constant(value.*member); };
+    if constexpr (requires(const M& m) { Port<M>::uses_cell(m); })
+      uses_cell = [member](const T& value) { return Port<M>::uses_cell(value.*member); };
+    if constexpr (requires(M & m, const Reader& reader) { Port<M>::fill(m, reader); })
+      fill = [member](T& value, const Reader& reader) { Port<M>::fill(value.*member, reader); };
   }
 
-  std::string_view name, doc, kind;
+  std::string_view name, doc;
+  PortText text;
   Domain domain;
+  bool takes_other_names = false;
   std::function<bool(T&, const Data&, const Reader&)> set;
   std::function<Data(const T&, bool)> get;
-  std::function<bool(const T&)> is_constant;    // true if the number is not a field; for numbers that may be fields
-  std::function<bool(const T&)> uses_cell;      // true if the field uses ci, cj or ck; for numbers that may be fields
-  std::function<void(T&, const Reader&)> fill;  // replaces a missing value by its default
+  // Empty for types that neither vary in space nor have a default that depends on the design.
+  std::function<bool(const T&)> is_constant, uses_cell;
+  std::function<void(T&, const Reader&)> fill;
 };
 
-// A method that computes an output. Its return type is the output's type. `range_` contains all values of a number.
+// A method that computes an output, or a constant.
 template <class T>
 struct OutputSpec {
-  OutputSpec(std::string_view name, Field (T::*method)(const Ask&) const, std::string_view doc,
+  // `range` contains all values of a number.
+  template <class R>
+  OutputSpec(std::string_view name, R (T::*method)(const Ask&) const, std::string_view doc,
              const Interval& range = Interval::everything())
-      : info{std::string(name), std::string(doc), ValueType::number, range},
-        numbers([method](const T& t, const Ask& ask) {
-          return VectorField{(t.*method)(ask), {}, {}};
-        }) {}
-  OutputSpec(std::string_view name, VectorField (T::*method)(const Ask&) const, std::string_view doc)
-      : info{std::string(name), std::string(doc), ValueType::vector},
-        numbers([method](const T& t, const Ask& ask) { return (t.*method)(ask); }) {}
-  OutputSpec(std::string_view name, Composition (T::*method)(const Ask&) const, std::string_view doc)
-      : info{std::string(name), std::string(doc), ValueType::mixture},
-        mixture([method](const T& t, const Ask& ask) { return (t.*method)(ask); }) {}
-  template <class M>
-  OutputSpec(std::string_view, M T::*, std::string_view, const Interval& = Interval::everything()) {
-    static_assert(
-        !std::is_same_v<M, M>,
-        "an output is a method that takes a const Ask&, is const, and returns a Field, VectorField or Composition");
+      : info{std::string(name), std::string(doc), OutputPort<R>::type(), range},
+        answer([method](const T& t, const Ask& ask) { return OutputPort<R>::answer((t.*method)(ask)); }) {
+    ASSERT(info.type.form != OutputForm::solid && "an output that is a solid has bounds");
   }
+  // `where_` returns a box around the inside of the solid or region.
+  template <class R>
+  OutputSpec(std::string_view name, R (T::*method)(const Ask&) const, Box (T::*where_)(const Box&) const,
+             std::string_view doc)
+      : info{std::string(name), std::string(doc), OutputPort<R>::type()},
+        answer([method](const T& t, const Ask& ask) { return OutputPort<R>::answer((t.*method)(ask)); }),
+        bounds([where_](const T& t, const Box& where) { return (t.*where_)(where); }) {}
+  template <IsPort M>
+  OutputSpec(std::string_view name, M (T::*method)() const, std::string_view doc)
+      : info{std::string(name), std::string(doc), OutputPort<M>::type()},
+        constant([method](const T& t) { return Port<M>::write((t.*method)(), false); }) {}
+  template <IsPort M>
+  OutputSpec(std::string_view name, M T::*member, std::string_view doc)
+      : info{std::string(name), std::string(doc), OutputPort<M>::type()},
+        constant([member](const T& t) { return Port<M>::write(t.*member, false); }) {}
 
   OutputInfo info;
-  std::function<VectorField(const T&, const Ask&)> numbers;
-  std::function<Composition(const T&, const Ask&)> mixture;
+  std::function<OutputAnswer(const T&, const Ask&)> answer;
+  std::function<Data(const T&)> constant;
+  std::function<Box(const T&, const Box&)> bounds;
 };
-
-template <class T>
-using outputs = std::vector<OutputSpec<T>>;
 
 template <class T>
 struct Spec {
@@ -117,7 +105,7 @@ struct Spec {
   std::vector<Parameter<T>> parameters;
   InputInfo inputs = no_inputs;
   std::string_view example;
-  outputs<T> values = {};  // empty for a solid
+  std::vector<OutputSpec<T>> outputs = {};
 };
 
 // Returns the box that `within` computes for `where`. If that depends on fields, the box is refined by calling `within`
@@ -218,9 +206,9 @@ class NodeOf final : public Node {
       return std::nullopt;
   }
 
-  std::optional<Field> along(const Inputs& in, const Point& p) const override {
-    if constexpr (requires { data.along(in, p); })
-      return data.along(in, p);
+  std::optional<Numbers4> passed(const Inputs& in, std::string_view output, const Point& p) const override {
+    if constexpr (requires { data.passed(in, output, p); })
+      return data.passed(in, output, p);
     else
       return std::nullopt;
   }
@@ -239,12 +227,14 @@ class NodeOf final : public Node {
       return output < type_.outputs.size();
   }
 
-  VectorField numbers(size_t output, const Ask& ask) const override {
-    return type_.output_spec(output).numbers(data, ask);
+  OutputAnswer answer(size_t output, const Ask& ask) const override {
+    return type_.output_spec(output).answer(data, ask);
   }
 
-  Composition mixture(const Ask& ask) const override {
-    return type_.output_spec(type_.mixture_output()).mixture(data, ask);
+  Data constant(size_t output) const override { return type_.output_spec(output).constant(data); }
+
+  Box output_bounds(size_t output, const Box& where) const override {
+    return intersect(type_.output_spec(output).bounds(data, where), where);
   }
 
  private:
@@ -260,11 +250,6 @@ class NodeOf final : public Node {
     else
       return in.count() > 0 ? in.metric(0) : Metric::exact();
   }
-
-  bool gives_along() const override {
-    return requires(const T& t, const Inputs& in, const Point& p) { t.along(in, p); };
-  }
-  bool has_cell_numbers() const override { return type_.has_cell_numbers(data); }
 
   const NodeTypeOf<T>& type_;
 };
@@ -291,10 +276,10 @@ consteval bool has_right_methods() {
           std::optional<Field>(t.attribute(in, "", p, Demand::inside));
         },
         "attribute is Field attribute(const Inputs&, std::string_view, const Point&, Demand) const");
-  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::along)>; })
+  if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::passed)>; })
     static_assert(
-        requires(const T& t, const Inputs& in, const Point& p) { std::optional<Field>(t.along(in, p)); },
-        "along is Field along(const Inputs&, const Point&) const");
+        requires(const T& t, const Inputs& in, const Point& p) { Numbers4(t.passed(in, "", p)); },
+        "passed is Numbers4 passed(const Inputs&, std::string_view output, const Point&) const");
   if constexpr (requires { requires std::is_member_function_pointer_v<decltype(&T::inner)>; })
     static_assert(
         requires(const T& t, const Point& p) { Point(t.inner(p)); }, "inner is Point inner(const Point&) const");
@@ -328,13 +313,15 @@ class NodeTypeOf final : public NodeType {
     sentence = spec_.sentence;
     example = spec_.example;
     inputs = spec_.inputs;
-    for (const OutputSpec<T>& output : spec_.values) outputs.push_back(output.info);
+    for (const OutputSpec<T>& output : spec_.outputs) outputs.push_back(output.info);
+    gives_solid = outputs.empty() || inputs.most > 0 || !NodeOf<T>::passes_on;
     is_nothing = requires { T::is_nothing_itself; };
     ASSERT((inputs.most > 0 || !is_solid() || !NodeOf<T>::passes_on) && "a solid without inputs has a distance");
     const T defaults{};
     for (const Parameter<T>& parameter : spec_.parameters)
-      parameters.push_back({std::string(parameter.name), std::string(parameter.doc), parameter.kind, parameter.domain,
-                            parameter.domain.required ? Data() : parameter.get(defaults, false)});
+      parameters.push_back({std::string(parameter.name), std::string(parameter.doc), parameter.text, parameter.domain,
+                            parameter.domain.required ? Data() : parameter.get(defaults, false),
+                            parameter.takes_other_names});
   }
 
   std::shared_ptr<Node> create() const override { return std::make_shared<NodeOf<T>>(*this); }
@@ -374,12 +361,12 @@ class NodeTypeOf final : public NodeType {
     return copy;
   }
 
-  const OutputSpec<T>& output_spec(size_t output) const { return spec_.values[output]; }
+  const OutputSpec<T>& output_spec(size_t output) const { return spec_.outputs[output]; }
 
-  bool has_cell_numbers(const T& data) const {
-    for (const Parameter<T>& parameter : spec_.parameters)
-      if (parameter.uses_cell && parameter.uses_cell(data)) return true;
-    return false;
+  bool uses_cell(const Node& node) const override {
+    const T& data = static_cast<const NodeOf<T>&>(node).data;
+    return std::ranges::any_of(spec_.parameters,
+                               [&](const Parameter<T>& one) { return one.uses_cell && one.uses_cell(data); });
   }
 
   bool has_constant_numbers(const T& data) const {

@@ -8,7 +8,8 @@ DataMembers describe_node(const design::NodeType& type) {
   for (const design::ParameterInfo& parameter : type.parameters)
     parameters.emplace_back(DataMembers{{"name", parameter.name},
                                         {"doc", parameter.doc},
-                                        {"kind", std::string(parameter.kind)},
+                                        {"kind", parameter.text.kind},
+                                        {"python", parameter.text.python},
                                         {"unit", std::string(parameter.domain.unit)},
                                         {"required", parameter.domain.required},
                                         {"default", parameter.default_value},
@@ -17,7 +18,7 @@ DataMembers describe_node(const design::NodeType& type) {
   DataList outputs;
   for (const design::OutputInfo& output : type.outputs)
     outputs.emplace_back(
-        DataMembers{{"name", output.name}, {"doc", output.doc}, {"type", std::string(name(output.type))}});
+        DataMembers{{"name", output.name}, {"doc", output.doc}, {"type", output.type.name}, {"python", output.type.python}});
   const bool has_many = type.inputs.most == design::many_solids.most;
   return {{"name", type.name},
           {"category", type.category},

@@ -42,6 +42,7 @@ const design::Registry& registry() {
     add_value_curves(r);
     add_value_colours(r);
     add_attribute_of(r);
+    add_outputs_of_solids(r);
     add_convolutions(r);
     add_whole_solids(r);
     return r;

@@ -67,12 +67,7 @@ program::Program lower_outputs(const NodePtr& node, const MaterialTable& materia
   for (size_t n = 0; n < node->type().outputs.size(); ++n) {
     const OutputInfo& info = node->type().outputs[n];
     if (!node->gives(n)) continue;
-    if (info.type == ValueType::number) outputs.emplace_back(info.name, lowering.number({node, n}, p));
-    if (info.type == ValueType::vector)
-      for (int axis = 0; axis < 3; ++axis) outputs.emplace_back(info.name, lowering.number({node, n, axis}, p));
-    if (info.type == ValueType::mixture)
-      for (const auto& [id, fraction] : lowering.mixture(*node, p).fractions)
-        outputs.emplace_back("fraction", fraction);
+    for (const Field field : fields_of(lowering.answer(*node, n, p))) outputs.emplace_back(info.name, field);
   }
   context.finish_bodies();
   return program::inline_bodies(builder.finish(outputs));
@@ -92,10 +87,9 @@ program::Program lower_derivatives(const NodePtr& node, const MaterialTable& mat
     for (const Field& derivative : *by_rule) outputs.emplace_back("derivative", derivative);
   };
   for (size_t n = 0; n < node->type().outputs.size(); ++n) {
-    const ValueType type = node->type().outputs[n].type;
     if (!node->gives(n)) continue;
-    if (type == ValueType::number) add(lowering.number({node, n}, p));
-    for (int axis = 0; type == ValueType::vector && axis < 3; ++axis) add(lowering.number({node, n, axis}, p));
+    for (const Field number : lowering.answer(*node, n, p).numbers)
+      if (number) add(number);
   }
   context.finish_bodies();
   return outputs.empty() ? program::Program() : program::inline_bodies(builder.finish(outputs));
@@ -305,9 +299,9 @@ TEST_P(EveryValue, PrintsAndReadsBack) {
     for (size_t n = 0; n < type().outputs.size(); ++n) {
       const OutputInfo& output = type().outputs[n];
       if (!node->gives(n)) continue;
-      const NodeType& user = *registry().find(output.type == ValueType::mixture ? "sphere" : "attribute");
+      const NodeType& user = *registry().find(output.type.form == OutputForm::mixture ? "sphere" : "attribute");
       const Data value(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))},
-                                   {"output", Data(output.name + (output.type == ValueType::vector ? ".y" : ""))}});
+                                   {"output", Data(output.name + (output.type.has_parts() ? ".y" : ""))}});
       std::vector<NamedValue> values{{&user.parameters[1], value}};
       std::vector<NodePtr> inputs;
       if (&user == &attribute) {
@@ -383,10 +377,10 @@ TEST_P(EveryValue, DeclaredRangesHoldPoints) {
       size_t place = 0;
       for (size_t n = 0; n < type().outputs.size(); ++n) {
         const OutputInfo& output = type().outputs[n];
-        if (!node->gives(n) || output.type == ValueType::mixture) continue;
-        const bool is_number = output.type == ValueType::number;
+        if (!node->gives(n) || output.type.form == OutputForm::mixture) continue;
+        const bool is_number = output.type.is_number();
         EXPECT_TRUE(!is_number || output.range.contains(values[place])) << output.name;
-        place += output.type == ValueType::vector ? 3 : 1;
+        place += std::max<size_t>(1, output.type.parts.size());
       }
     }
   }
@@ -397,11 +391,11 @@ TEST_P(EveryValue, FractionsOfMixturesSumToOne) {
     RandomDesign random(seed);
     const NodePtr node = random.node(type(), 1);
     ASSERT_TRUE(node) << random.last_message;
-    if (type().outputs[node->first_output()].type != ValueType::mixture) continue;
+    if (!node->is_mixture()) continue;
     const program::Program program = lower_outputs(node, random.materials);
     size_t others = 0;  // numbers of the outputs after the mixture
     for (size_t n = node->first_output() + 1; n < type().outputs.size(); ++n)
-      if (node->gives(n)) others += type().outputs[n].type == ValueType::vector ? 3 : 1;
+      if (node->gives(n)) others += std::max<size_t>(1, type().outputs[n].type.parts.size());
     for (int i = 0; i < 100; ++i) {
       double sum = 0;
       const auto values = at(program, {random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)});

@@ -53,14 +53,16 @@ class RandomDesign {
     }
   }
 
-  // Returns a value node with an output of the type.
-  NodePtr value_node(ValueType output, int depth) {
+  // Returns a value node whose first output has the form, and is a single number if it has numbers.
+  NodePtr value_node(OutputForm form, int depth) {
     const auto& types = registry().types();
     for (;;) {
       const NodeType& type = *types[index(types.size())];
       if (type.is_solid()) continue;
       const NodePtr made = node(type, depth);
-      if (made && type.outputs[made->first_output()].type == output) return made;
+      if (!made) continue;
+      const OutputType& output = type.outputs[made->first_output()].type;
+      if (output.form == form && !output.has_parts()) return made;
     }
   }
 
@@ -74,6 +76,12 @@ class RandomDesign {
   static Data object(const NodePtr& node) { return Data(HostObjectPtr(std::make_shared<NodeObject>(node))); }
 
   // Returns a node with the attribute that all texts refer to.
+  NodePtr lattice_node() {
+    const NodeType& type = *registry().find("lattice");
+    Diagnostics none;
+    return make_node(type, {{&type.parameters[0], Data("bcc")}}, {}, {materials, none, nullptr, {}, "", ""});
+  }
+
   NodePtr dense_node() {
     const NodeType& type = *registry().find("attribute");
     const auto named = [&](const char* name, Data data) {
@@ -86,7 +94,7 @@ class RandomDesign {
 
   // Returns a number from 0.01 to 1 that depends on a node's output, since sizes must not be 0.
   Data share() {
-    const NodePtr node = value_node(ValueType::number, 0);
+    const NodePtr node = value_node(OutputForm::numbers, 0);
     const Data value(
         DataMembers{{"from", object(node)}, {"output", Data(node->type().outputs[node->first_output()].name)}});
     return Data(DataMembers{{"formula", Data("clamp(0.01, abs(v)/20, 1)")}, {"with", Data(DataMembers{{"v", value}})}});
@@ -138,12 +146,13 @@ class RandomDesign {
 
   Data value(const NodeType& type, const ParameterInfo& parameter) {
     const Domain& domain = parameter.domain;
-    const std::string_view kind = parameter.kind;
+    const std::string_view kind = parameter.text.kind;
     if (kind == "list of pairs of words")
       return Data(DataList{Data(DataList{Data("density"), Data(domain.choices[index(domain.choices.size())])})});
     if (kind == "number, field, vector, colour or mixture") return attribute_value(domain);
+    if (kind == "solid" && type.name == "output_of") return object(lattice_node());
     if (kind == "solid") return object(type.name == "attribute_of" ? dense_node() : any_node(0));
-    if (kind == design::variables_kind) return Data(DataMembers{{"width", Data(number(1, 9))}, {"name", Data("lid")}});
+    if (parameter.takes_other_names) return Data(DataMembers{{"width", Data(number(1, 9))}, {"name", Data("lid")}});
     if (kind == "rows of numbers, or a CSV file") return Data("table.csv");
     if (!domain.choices.empty()) return Data(domain.choices[index(domain.choices.size())]);
     if (kind == "number") return one_number(domain, false);
@@ -166,7 +175,7 @@ class RandomDesign {
     if (kind == "3 numbers") return vector(domain, false);
     if (kind == "material or mixture" && depth_ > 0 && index(2)) {
       depth_ = 0;
-      return object(value_node(ValueType::mixture, 0));
+      return object(value_node(OutputForm::mixture, 0));
     }
     if (kind == "material or mixture" || kind == "material") return Data("blue");
     if (kind == "number, field, material or mixture") {
@@ -175,6 +184,7 @@ class RandomDesign {
     }
     if (kind == "file") return Data("ball.stl");
     if (type.name == "composition_of") return Data(index(2) ? "red" : "");
+    if (type.name == "output_of") return Data("along");
     // A standard name would have a fixed type.
     if (kind == "text") return Data(type.name == "attribute" ? "own_density" : "density");
     if (kind == "true or false") return Data(index(2) == 0);
@@ -188,7 +198,7 @@ class RandomDesign {
     if (kind == "list of edges") return edges();
     if (kind == "font") return Data("DejaVu Sans");
     if (kind == "list of points") return type.name == "revolve" ? star(true, 7, 6, 1) : points(type, 4 + index(4));
-    if (kind == "lists of points") return Data(DataList{star(true, 0, 0, 0.3)});
+    if (kind == "list of lists of points") return Data(DataList{star(true, 0, 0, 0.3)});
     if (kind == "lists of lists of numbers")
       return Data(DataList{Data(DataList{Data(DataList{Data(1.0), Data(number(0, 2)), Data(1.0)})})});
     if (kind == "list of texts") return Data(DataList{});
@@ -196,6 +206,8 @@ class RandomDesign {
       return Data(DataList{Data(DataList{Data(-1.0), Data("red")}), Data(DataList{Data(number(0, 9)), Data("blue")})});
     if (kind == "list of names with materials")
       return Data(DataList{Data(DataList{Data("PLA"), Data("red")}), Data(DataList{Data("TPU"), Data("blue")})});
+    // Types that only one node has are at their default.
+    if (!kind.starts_with("list of ")) return parameter.default_value;
     DataList list;
     for (size_t i = 0; i < lists_; ++i)
       list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear")

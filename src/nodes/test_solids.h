@@ -49,7 +49,7 @@ class Solid {
     program::Outputs outputs{{"inside", lowering.inside(*node_, p)},
                              {"distance", lowering.distance(*node_, p)},
                              {"red", builder.constant(0)},
-                             {"t", lowering.along(*node_, p)}};
+                             {"t", lowering.output(*node_, design::along_output, p)[0]}};
     for (const auto& [id, fraction] : lowering.composition(*node_, p, design::Demand::inside).fractions)
       if (id == 1) outputs[2].second = fraction;
     context.finish_bodies();

@@ -72,11 +72,7 @@ class ValueTest : public testing::Test {
     EXPECT_NE(found, all.end()) << output;
     const auto number = static_cast<size_t>(found - all.begin());
     std::vector<std::pair<std::string, Field>> outputs;
-    if (found->type == ValueType::mixture)
-      for (const auto& [id, fraction] : lowering.mixture(*node, point).fractions) outputs.emplace_back("f", fraction);
-    else
-      for (int axis = 0; axis < (found->type == ValueType::vector ? 3 : 1); ++axis)
-        outputs.emplace_back("v", lowering.number({node, number, axis}, point));
+    for (const Field field : fields_of(lowering.answer(*node, number, point))) outputs.emplace_back("v", field);
     context.finish_bodies();
     const program::Program program = program::inline_bodies(builder.finish(outputs));
     std::vector<double> values, result;

@@ -42,9 +42,7 @@ class ValueNodes : public testing::Test {
     Lowering lowering(context, builder);
     const Point p = Point::origin_frame(builder);
     std::vector<std::pair<std::string, Field>> outputs;
-    const bool is_vector = node->type().outputs[output].type == ValueType::vector;
-    for (int axis = 0; axis < (is_vector ? 3 : 1); ++axis)
-      outputs.emplace_back("v", lowering.number({node, output, is_vector ? axis : -1}, p));
+    for (const Field field : fields_of(lowering.answer(*node, output, p))) outputs.emplace_back("v", field);
     return builder.finish(outputs);
   }
 
@@ -53,7 +51,7 @@ class ValueNodes : public testing::Test {
     LoweringContext context(materials_, {mix});
     program::Builder builder;
     Lowering lowering(context, builder);
-    const Composition mixture = lowering.mixture(*mix, Point::origin_frame(builder));
+    const Composition mixture = *lowering.answer(*mix, mix->first_output(), Point::origin_frame(builder)).composition;
     std::vector<std::pair<std::string, Field>> outputs;
     for (const auto& [id, fraction] : mixture.fractions) outputs.emplace_back(materials_.all()[id].name, fraction);
     context.finish_bodies();

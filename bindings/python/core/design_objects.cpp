@@ -142,7 +142,7 @@ py::object parameter(const Data& data, const FactoryPtr& factory) {
     return py::module_::import("ombre._solid").attr("wrap")(NodeHandle{object->node(), factory});
   }
   const py::module_ values = py::module_::import("ombre._values");
-  if (design::is_mixture(data)) return values.attr("from_node")(output_of(data, factory)[0]);
+  if (design::is_mixture(data)) return values.attr("from_node")(*output_of(data, factory));
   py::dict outputs;
   const Data* formula = data.find("formula");
   if (!formula) outputs["v"] = output_of(data, factory);
@@ -159,13 +159,25 @@ py::dict parameters(const NodeHandle& handle) {
   return result;
 }
 
-// Returns (name, type) of each output of a value node.
+// Returns (name, form, letters of the parts) of each output that the node gives.
 py::list outputs(const NodeHandle& handle) {
   py::list result;
-  const auto& all = handle.node->type().outputs;
-  for (size_t i = 0; i < all.size(); ++i)
-    if (handle.node->gives(i)) result.append(py::make_tuple(all[i].name, std::string(name(all[i].type))));
+  for (size_t i = 0; i < handle.node->type().outputs.size(); ++i) {
+    const design::OutputInfo& info = handle.node->type().outputs[i];
+    if (handle.node->gives(i))
+      result.append(py::make_tuple(info.name, std::string(name(info.type.form)), std::string(info.type.parts)));
+  }
   return result;
+}
+
+// Returns the value of an output that is a constant.
+py::object constant(const NodeHandle& handle, const std::string& output) {
+  return to_python(handle.node->constant(handle.node->type().output(output).value()));
+}
+
+// True if the solid, or a solid inside it, has the output.
+bool has_output(const NodeHandle& handle, const std::string& output) {
+  return handle.node->type().is_solid() && handle.node->output_type(output);
 }
 
 std::vector<NodeHandle> inputs(const NodeHandle& handle) {
@@ -344,6 +356,8 @@ void add_designs(py::module_& module, const CachePtr& cache) {
       .def_property_readonly("parameters", &parameters)
       .def_property_readonly("inputs", &inputs)
       .def_property_readonly("outputs", &outputs)
+      .def("constant", &constant)
+      .def("has_output", &has_output)
       .def("names_materials_of",
            [](const NodeHandle& h, const FactoryPtr& factory) {
              return &h.factory->materials().all() == &factory->materials().all();

@@ -91,6 +91,10 @@ Data to_data(const py::handle& value, const SourceRange& where, const std::strin
   if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) return {number_of(value), where};
   if (py::isinstance<py::str>(value)) return {text_of(value), where};
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) return {list_of(value, where, what), where};
+  if (has(value, "_ombre_output_")) {
+    const auto [node, output] = value.attr("_ombre_output_").cast<std::pair<py::object, std::string>>();
+    return {DataMembers{{"from", {node_object(node), where}}, {"output", {output, where}}}, where};
+  }
   if (has(value, "_ombre_node_")) return {node_object(value.attr("_ombre_node_")), where};
   if (has(value, "_ombre_values_") && py::len(value.attr("_ombre_values_")) > 0) return formula_of(value, where);
   if (has(value, "_ombre_text_")) return {value.attr("_ombre_text_").cast<std::string>(), where};

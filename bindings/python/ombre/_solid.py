@@ -243,6 +243,9 @@ class Solid:
         from ._design import Design
         if name.startswith("_"):
             raise AttributeError(name)
+        if self._node.has_output(name):
+            made = _classes["output_of"](self, name)
+            return getattr(made, made._node.outputs[0][0])
         if not hasattr(Design, name):
             raise AttributeError(_no_attribute(self, name))
         return getattr(self.design(), name)

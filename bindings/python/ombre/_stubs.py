@@ -117,31 +117,12 @@ _questions = '''    bounds: tuple[tuple[float, float, float], tuple[float, float
     def show(self, path: Optional[Path] = ..., **options: Option) -> Any: ...
     def view(self, frames: int = ..., **options: Option) -> str: ...
 '''
-_kinds = {"number": "float", "whole number": "int", "3 whole numbers": "Sequence[int]", "number or field": "Number",
-          "3 numbers or fields": "Numbers", "number or 3 numbers, or fields": "Union[Number, Numbers]",
-          "true or false": "bool",
-          "text": "str", "3 numbers": "Optional[Numbers]", "matrix": "ArrayLike", "material": "Material",
-          "material or mixture": "Material", "number, field, material or mixture": "Union[Number, Material]",
-          "file": "Path", "list of numbers or fields": "Union[Number, Numbers]",
-          "list of materials": "Union[Material, Sequence[Material]]",
-          "list of numbers with materials": "Sequence[tuple[float, Material]]",
-          "lists of lists of numbers": "ArrayLike", "list of texts": "Sequence[str]",
-          "solid": "Solid", "rows of numbers, or a CSV file": "Union[Path, Sequence[Sequence[float]]]",
-          "number, field, vector, colour or mixture": "Union[Number, Numbers, Material]",
-          "list of pairs of words": "Sequence[tuple[str, str]]",
-          "font": "Path", "list of points": "ArrayLike", "lists of points": "Sequence[ArrayLike]",
-          "list of names with materials": "Union[Mapping[str, Material], Sequence[tuple[str, Material]]]"}
-
-
-_output_types = {"number": "Expression", "vector": "Vector", "mixture": "Value"}
-
-
 def _safe(name):
     return not keyword.iskeyword(name)
 
 
 def _keywords(info):
-    words = [f"{p['name']}: {_kinds.get(p['kind'], 'Any')} = ..." for p in info["parameters"] if _safe(p["name"])]
+    words = [f"{p['name']}: {p['python']} = ..." for p in info["parameters"] if _safe(p["name"])]
     if info["category"] == "transforms":
         words.append("**components: Number")  # x, y, z; pitch, yaw, roll
     return "".join(", " + word for word in words)
@@ -233,7 +214,7 @@ def stub():
     for info in infos:
         base = "Solid" if info["gives"] == "solid" else "Value"
         out.append(f"\nclass {info['name']}({base}):\n" + _docstring(_solid._doc(info), 4) +
-                   "".join(f"    {o['name']}: {_output_types[o['type']]}\n" for o in info["outputs"]) +
+                   "".join(f"    {o['name']}: {o['python']}\n" for o in info["outputs"]) +
                    f"    def __init__(self, *arguments: Argument{_keywords(info)}) -> None: ...\n")
     out += ["\n"] + [f"{name}: Expression\n" for name in (*ombre._coordinates, "d", "t")]
     out += [f"def {name}(*values: Number) -> Expression: ...\n" for name in ombre._functions

@@ -12,6 +12,7 @@ from ._expressions import Expression
 from ._solid import make
 
 Vector = collections.namedtuple("Vector", "x y z")
+_number = ("numbers", "")
 _counts = collections.defaultdict(lambda: itertools.count(1))
 
 
@@ -30,10 +31,10 @@ class Value(Expression):
 
     def _set(self, node):
         self._node = node
-        self._outputs = dict(node.outputs)
-        first, kind = node.outputs[0]
+        self._outputs = {name: (form, parts) for name, form, parts in node.outputs}
+        first, kind = next(iter(self._outputs.items()))
         name = f"{node.type}{next(_counts[node.type])}"
-        super().__init__(name, "atom", {name: (node, first)} if kind == "number" else None)
+        super().__init__(name, "atom", {name: (node, first)} if kind == _number else None)
 
     @property
     def _ombre_node_(self):
@@ -47,12 +48,16 @@ class Value(Expression):
     def __getattr__(self, name):
         if name.startswith("_") or name not in self._outputs:
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}")
-        kind = self._outputs[name]
-        if kind == "mixture":
-            return self
-        if kind == "number":
-            return output(self._node, name)
-        return Vector(*(output(self._node, f"{name}.{axis}") for axis in "xyz"))
+        form, parts = self._outputs[name]
+        if form == "constant":
+            return self._node.constant(name)
+        if form == "solid":
+            from ._solid import _classes
+            return _classes["solid_of"](_Output(self._node, name))
+        if form == "mixture":
+            return from_node(self._node, name)
+        numbers = [output(self._node, f"{name}.{part}") for part in parts]
+        return Vector(*numbers) if parts == "xyz" else tuple(numbers) or output(self._node, name)
 
     def __dir__(self):
         return sorted({*super().__dir__(), *self._outputs})
@@ -80,10 +85,24 @@ def from_parameter(formula, values):
     return Expression(text, "?", {names[name]: value for name, value in values.items()})
 
 
-def from_node(node):
-    """The value that a node is."""
-    value = object.__new__(Value)
+class _Output:
+    """An output that is no number, as an argument."""
+
+    def __init__(self, node, name):
+        self._ombre_output_ = node, name
+
+
+class _Mixture(Value, _Output):
+    """A mixture that is not the first output of its node."""
+
+
+def from_node(node, name=""):
+    """The value of a node's first output, or of its output `name`, a mixture."""
+    is_first = name in ("", node.outputs[0][0])
+    value = object.__new__(Value if is_first else _Mixture)
     value._set(node)
+    if not is_first:
+        value._ombre_output_ = node, name
     return value
 
 

@@ -47,7 +47,7 @@ std::string children_text(const design::InputInfo& inputs) {
 
 std::string parameter_text(const ParameterInfo& parameter) {
   std::string text = "  " + parameter.name + ": " + parameter.doc + '\n';
-  std::string detail(parameter.kind);
+  std::string detail = parameter.text.kind;
   if (const std::string domain = domain_text(parameter.domain); !domain.empty()) detail += "; " + domain;
   if (parameter.domain.required) detail += "; required";
   if (!parameter.default_value.is_null()) detail += "; default " + print_json_line(parameter.default_value);
@@ -60,9 +60,9 @@ std::string describe(const NodeType& type) {
           (type.is_solid() ? "; gives a solid\n" : "; gives values\n");
   if (!type.parameters.empty()) text += "parameters\n";
   for (const ParameterInfo& parameter : type.parameters) text += parameter_text(parameter);
-  if (!type.is_solid()) text += "outputs\n";
+  if (!type.outputs.empty()) text += "outputs\n";
   for (const OutputInfo& output : type.outputs)
-    text += "  " + output.name + ": " + output.doc + "\n      " + std::string(name(output.type)) + '\n';
+    text += "  " + output.name + ": " + output.doc + "\n      " + output.type.name + '\n';
   if (!type.example.empty()) text += "example\n  " + type.example + '\n';
   return text;
 }
@@ -113,16 +113,16 @@ std::string reference() {
     if (!type->parameters.empty()) text += "\n| parameter | is | default | |\n| --- | --- | --- | --- |\n";
     for (const ParameterInfo& parameter : type->parameters) {
       const std::string domain = domain_text(parameter.domain);
-      text += "| `" + parameter.name + "` | " + std::string(parameter.kind) + (domain.empty() ? "" : ", " + domain) +
+      text += "| `" + parameter.name + "` | " + parameter.text.kind + (domain.empty() ? "" : ", " + domain) +
               " | " +
               (parameter.domain.required           ? "required"
                : parameter.default_value.is_null() ? "none"
                                                    : "`" + print_json_line(parameter.default_value) + "`") +
               " | " + parameter.doc + " |\n";
     }
-    if (!type->is_solid()) text += "\n| output | is | |\n| --- | --- | --- |\n";
+    if (!type->outputs.empty()) text += "\n| output | is | |\n| --- | --- | --- |\n";
     for (const OutputInfo& output : type->outputs)
-      text += "| `" + output.name + "` | " + std::string(name(output.type)) + " | " + output.doc + " |\n";
+      text += "| `" + output.name + "` | " + output.type.name + " | " + output.doc + " |\n";
   }
   return text;
 }

@@ -18,7 +18,7 @@ namespace {
 // Returns the number of the parameter that collects arguments with unknown names, or -1 if there is none.
 int variables_of(const NodeType& type) {
   for (size_t n = 0; n < type.parameters.size(); ++n)
-    if (type.parameters[n].kind == design::variables_kind) return static_cast<int>(n);
+    if (type.parameters[n].takes_other_names) return static_cast<int>(n);
   return -1;
 }
 

@@ -9,7 +9,7 @@ namespace ombre::lang {
 namespace {
 
 using design::NodePtr;
-using design::ValueType;
+using design::OutputForm;
 using expr::Binary;
 using expr::Expression;
 
@@ -17,10 +17,12 @@ using expr::Expression;
 constexpr size_t longest_formula = 64;
 constexpr uint64_t object_bytes = 1024;  // counted for each object, so that their number is limited
 
+Value output_value(const NodePtr& node, size_t output, const ValueMaker& maker, Meter& meter);
+
 class ValueObject final : public Object {
  public:
-  ValueObject(NodePtr node, std::optional<Expression> number, const ValueMaker& maker, Meter& meter)
-      : node_(std::move(node)), number_(std::move(number)), maker_(maker), meter_(meter) {
+  ValueObject(NodePtr node, size_t output, std::optional<Expression> number, const ValueMaker& maker, Meter& meter)
+      : node_(std::move(node)), output_(output), number_(std::move(number)), maker_(maker), meter_(meter) {
     meter_.claim_text(object_bytes);
   }
   ~ValueObject() override { meter_.release_text(object_bytes); }
@@ -28,7 +30,7 @@ class ValueObject final : public Object {
   ValueObject& operator=(const ValueObject&) = delete;
 
   const std::optional<Expression>& number() const { return number_; }
-  bool is_mixture() const { return node_ && node_->first_output() == node_->type().mixture_output(); }
+  bool is_mixture() const { return node_ && node_->type().outputs[output_].type.form == OutputForm::mixture; }
 
   std::string describe() const override;
   std::string text() const override;
@@ -41,7 +43,8 @@ class ValueObject final : public Object {
   std::optional<Value> mixed(std::span<const Value> operands, Meter& meter) const;
 
   NodePtr node_;                      // null for a formula of several nodes
-  std::optional<Expression> number_;  // nothing if the node's first output is not a number
+  size_t output_ = 0;                 // the output of the node that this stands for
+  std::optional<Expression> number_;  // nothing if that output is not a number
   const ValueMaker& maker_;
   Meter& meter_;
 };
@@ -59,6 +62,7 @@ std::string ValueObject::describe() const {
 std::string ValueObject::text() const { return number_ ? number_->text_with_names() : node_->type().name; }
 
 Data ValueObject::data() const {
+  if (node_ && output_ != node_->first_output()) return design::write_output({node_.get(), output_}, node_);
   if (node_) return Data(HostObjectPtr(std::make_shared<design::NodeObject>(node_)));
   return Data(HostObjectPtr(std::make_shared<design::FormulaObject>(*number_)));
 }
@@ -75,11 +79,7 @@ std::optional<Value> ValueObject::part(const std::string& name, std::string& nam
       names += (names.empty() ? "it has ." : ", .") + info.name;
       continue;
     }
-    if (info.type == ValueType::mixture) return value_of(node_, maker_, meter);
-    if (info.type == ValueType::number) return of(design::expression_of({node_, n}), meter);
-    ListBuilder vector(meter);
-    for (int axis = 0; axis < 3; ++axis) vector.push(of(design::expression_of({node_, n, axis}), meter));
-    return vector.finish();
+    return output_value(node_, n, maker_, meter);
   }
   return std::nullopt;
 }
@@ -94,7 +94,7 @@ Value ValueObject::of(Expression expression, Meter& meter) const {
     if (!node) throw LimitReached{"values depend on one another too deeply", "compute them in fewer steps"};
     expression = design::expression_of({node, 0});
   }
-  return ObjectPtr(std::make_shared<ValueObject>(nullptr, std::move(expression), maker_, meter));
+  return ObjectPtr(std::make_shared<ValueObject>(nullptr, 0, std::move(expression), maker_, meter));
 }
 
 // Converts numbers, truth values and objects that are numbers.
@@ -203,7 +203,10 @@ std::optional<Value> ValueObject::mixed(std::span<const Value> operands, Meter& 
 // A solid on which values are measured, or which is part of another solid.
 class SolidObject final : public Object {
  public:
-  SolidObject(NodePtr node, Meter& meter) : node_(std::move(node)), meter_(meter) { meter_.claim_text(object_bytes); }
+  SolidObject(NodePtr node, const ValueMaker& maker, Meter& meter)
+      : node_(std::move(node)), maker_(maker), meter_(meter) {
+    meter_.claim_text(object_bytes);
+  }
   ~SolidObject() override { meter_.release_text(object_bytes); }
   SolidObject(const SolidObject&) = delete;
   SolidObject& operator=(const SolidObject&) = delete;
@@ -211,26 +214,66 @@ class SolidObject final : public Object {
   std::string describe() const override { return "a " + node_->type().name; }
   std::string text() const override { return node_->type().name; }
   Data data() const override { return Data(HostObjectPtr(std::make_shared<design::NodeObject>(node_))); }
-  std::optional<Value> part(const std::string&, std::string& names, Meter&) const override {
-    names = "a solid has no parts; values such as distance_to(s) are measured on it";
-    return std::nullopt;
+  // Its parts are its outputs, and those of the solids inside it.
+  std::optional<Value> part(const std::string& name, std::string& names, Meter& meter) const override {
+    const design::OutputType* type = node_->output_type(name);
+    if (!type || type->form != OutputForm::numbers) {
+      names = "this solid has no output of that name; values such as distance_to(s) are measured on it";
+      return std::nullopt;
+    }
+    const design::NodeType& output_of = *maker_.registry.find("output_of");
+    Diagnostics diagnostics;
+    const NodePtr node =
+        design::make_node(output_of, {{&output_of.parameters[0], data()}, {&output_of.parameters[1], Data(name)}}, {},
+                          {maker_.materials, diagnostics, nullptr, {}, output_of.name, ""});
+    return node ? std::optional(output_value(node, node->first_output(), maker_, meter)) : std::nullopt;
   }
   std::optional<Value> apply(std::string_view, std::span<const Value>, Meter&) const override { return std::nullopt; }
 
  private:
   NodePtr node_;
+  const ValueMaker& maker_;
   Meter& meter_;
 };
 
+// Returns the value of one output: a number, a list of the parts of several, plain data, a mixture, or a solid.
+Value output_value(const NodePtr& node, size_t output, const ValueMaker& maker, Meter& meter) {
+  const design::OutputType& type = node->type().outputs[output].type;
+  if (type.form == OutputForm::constant) return from_data(node->constant(output), meter);
+  if (type.form == OutputForm::solid) {
+    const design::NodeType& solid_of = *maker.registry.find("solid_of");
+    Diagnostics diagnostics;
+    const Data given = design::write_output({node.get(), output}, node);
+    return solid_value(design::make_node(solid_of, {{&solid_of.parameters[0], given}}, {},
+                                         {maker.materials, diagnostics, nullptr, node->where(), solid_of.name, ""}),
+                       maker, meter);
+  }
+  if (type.has_parts()) {
+    ListBuilder list(meter);
+    for (size_t n = 0; n < type.parts.size(); ++n)
+      list.push(ObjectPtr(std::make_shared<ValueObject>(
+          nullptr, 0, design::expression_of({node, output, static_cast<int>(n)}), maker, meter)));
+    return list.finish();
+  }
+  std::optional<Expression> number;
+  if (type.is_number()) number = design::expression_of({node, output});
+  // A number that is not the node's first output stands for itself, without the node's other outputs.
+  const bool is_node = !number || output == node->first_output();
+  return ObjectPtr(std::make_shared<ValueObject>(is_node ? node : nullptr, output, std::move(number), maker, meter));
+}
+
 }  // namespace
 
-Value solid_value(const NodePtr& node, Meter& meter) { return ObjectPtr(std::make_shared<SolidObject>(node, meter)); }
+Value solid_value(const NodePtr& node, const ValueMaker& maker, Meter& meter) {
+  return ObjectPtr(std::make_shared<SolidObject>(node, maker, meter));
+}
 
+// The value of several numbers is the node, whose parts are its outputs.
 Value value_of(const NodePtr& node, const ValueMaker& maker, Meter& meter) {
   const size_t first = node->first_output();
   std::optional<Expression> number;
-  if (node->type().outputs[first].type == ValueType::number) number = design::expression_of({node, first});
-  return ObjectPtr(std::make_shared<ValueObject>(node, std::move(number), maker, meter));
+  if (node->type().outputs[first].type.is_number()) number = design::expression_of({node, first});
+  return ObjectPtr(std::make_shared<ValueObject>(node, first, std::move(number), maker, meter));
 }
 
 }  // namespace ombre::lang

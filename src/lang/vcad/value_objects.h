@@ -18,6 +18,6 @@ struct ValueMaker {
 // Returns the value of a call of a value node: its first output, with the other outputs as parts.
 Value value_of(const design::NodePtr& node, const ValueMaker& maker, Meter& meter);
 // Returns the value of a call of a solid in an expression.
-Value solid_value(const design::NodePtr& node, Meter& meter);
+Value solid_value(const design::NodePtr& node, const ValueMaker& maker, Meter& meter);
 
 }  // namespace ombre::lang

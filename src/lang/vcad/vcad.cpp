@@ -129,7 +129,7 @@ std::optional<Value> VcadVocabulary::value(Invocation call, Diagnostics& diagnos
   if (type.is_solid()) solids = take_solids(call.arguments);
   const auto values = bound_arguments(type, std::move(call.arguments), reader);
   NodePtr node = values ? known_.first(make_called(type, *values, std::move(solids), registry_, reader)) : nullptr;
-  if (node) return type.is_solid() ? solid_value(node, meter) : value_of(node, maker_, meter);
+  if (node) return type.is_solid() ? solid_value(node, maker_, meter) : value_of(node, maker_, meter);
   for (const SourceRange& from : call.called_from) diagnostics.note(from, "called from here");
   return std::nullopt;
 }

@@ -14,7 +14,7 @@ namespace ombre::nodes {
 inline expr::Variables child_variables(const design::Inputs& in, const program::Point& p) {
   return [&in, &p](std::string_view name) -> std::optional<program::Field> {
     if (name == "d") return in.distance(0, p);
-    if (name == "t") return in.along(0, p);
+    if (name == "t") return in.output(0, design::along_output, p)[0];
     const std::string attribute = in.attribute_called(0, name);
     return attribute.empty() ? std::nullopt : std::optional(in.attribute(0, attribute, p, design::Demand::inside));
   };
@@ -37,7 +37,7 @@ inline bool check_child_variables(const design::Reader& reader, const design::No
                                [&](const design::Number& n) { return n.expression() && n.expression()->uses(name); });
   };
   if (use("d")) warn_of_implicit_distance(reader, input);
-  if (!use("t") || input.has_along()) return true;
+  if (!use("t") || input.output_type(design::along_output)) return true;
   reader.diagnostics.error(reader.where, "\"t\", the place along a strut, is used over what has no struts",
                            "use it directly over strut or lattice");
   return false;

@@ -60,11 +60,11 @@ struct Array {
                               p.constant(default_of(declaration, name)));
   }
 
-  Field along(const Inputs& in, const Point& p) const {
+  Numbers4 passed(const Inputs& in, std::string_view output, const Point& p) const {
     const std::vector<Point> queried = self().in_order(p);
     const std::vector<Field> flags = first_true(insides(in, queried));
-    Field value = in.along(0, queried[0]);
-    for (size_t i = 1; i < queried.size(); ++i) value = select(flags[i], in.along(0, queried[i]), value);
+    Numbers4 value = in.output(0, output, queried[0]);
+    for (size_t i = 1; i < queried.size(); ++i) value = select(flags[i], in.output(0, output, queried[i]), value);
     return value;
   }
 

@@ -36,7 +36,9 @@ struct Lattice {
               "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
              {"material", &Lattice::material, "Its material"}},
             no_inputs,
-            "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");"};
+            "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");",
+            {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
+              Interval(0, 1)}}};
   }
 
   bool makes_nothing() const { return cell == "none" && edges && edges->empty(); }
@@ -98,8 +100,9 @@ struct Lattice {
 
   // Returns the position along the strut whose surface is nearest, or, with very many struts, along the first that
   // holds the point.
-  Field along(const Inputs& in, const Point& p) const {
-    if (const auto parts = table(in, PartQuery::along, p)) return parts->along;
+  Field along(const Ask& ask) const {
+    const Point& p = ask.p;
+    if (const auto parts = table(ask.in, PartQuery::along, p)) return parts->along;
     const Point q = folded(p);
     Field t, least;
     for (const Strut* strut : struts_here()) {

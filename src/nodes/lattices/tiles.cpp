@@ -30,7 +30,8 @@ struct Tile {
          {"first", &Tile::first, "Least indices of copies, as whole numbers; the child itself is copy (0, 0, 0)", {}},
          {"last", &Tile::last, "Greatest indices of copies", {}}},
         one_solid,
-        "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }"};
+        "intersection() { sphere(10); tile() { lattice(\"bcc\", (5, 5, 5), 0.4, material=\"gray\"); } }",
+        {{"cell", &Tile::cell, "Indices of the copy whose cell holds the point; 0 along an axis without copies"}}};
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
@@ -141,12 +142,17 @@ struct Tile {
     return value;
   }
 
-  Field along(const Inputs& in, const Point& p) const {
+  Numbers4 passed(const Inputs& in, std::string_view output, const Point& p) const {
     const std::vector<Point> points = copies(p, false, Order::own_first);
     const std::vector<Field> weights = chosen(in, points, Demand::inside);
-    Field value = in.along(0, points[0]);
-    for (size_t n = 1; n < points.size(); ++n) value = select(weights[n], in.along(0, points[n]), value);
+    Numbers4 value = in.output(0, output, points[0]);
+    for (size_t n = 1; n < points.size(); ++n) value = select(weights[n], in.output(0, output, points[n]), value);
     return value;
+  }
+
+  VectorField cell(const Ask& ask) const {
+    const std::vector<Point> points = copies(ask.p, false, Order::own_first);
+    return {points[0].cell[0], points[0].cell[1], points[0].cell[2]};
   }
 
  private:

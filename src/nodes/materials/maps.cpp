@@ -92,7 +92,9 @@ struct ConformalMap {
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     return in.attribute(1, name, place(in, p), demand);
   }
-  Field along(const Inputs& in, const Point& p) const { return in.along(1, place(in, p)); }
+  Numbers4 passed(const Inputs& in, std::string_view output, const Point& p) const {
+    return in.output(1, output, place(in, p));
+  }
 
   // Returns where the pattern can reach. Points lie at most the pattern's height above the base, and no farther than
   // that from their positions on the surface.
@@ -167,7 +169,9 @@ struct SurfaceMap {
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     return in.attribute(2, name, place(in, p), demand);
   }
-  Field along(const Inputs& in, const Point& p) const { return in.along(2, place(in, p)); }
+  Numbers4 passed(const Inputs& in, std::string_view output, const Point& p) const {
+    return in.output(2, output, place(in, p));
+  }
 
   Box reach(const Inputs& in, const Box& where, double margin) const { return in.reach(1, where, height + margin); }
 

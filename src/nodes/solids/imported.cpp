@@ -27,7 +27,7 @@ MaterialName material_of(const std::string& name, const MaterialName& otherwise,
 // Returns false and adds a diagnostic if a mixture, which applies to the whole solid, is combined with the file's
 // materials.
 bool check_mixture(const MaterialName& material, const Choice& materials, const Reader& reader) {
-  if (!material.mixture || materials == "one") return true;
+  if (!material.mixture.node || materials == "one") return true;
   reader.diagnostics.error(
       reader.where,
       std::string(reader.node) +
@@ -39,7 +39,7 @@ bool check_mixture(const MaterialName& material, const Choice& materials, const 
 
 // Returns the material for the request of a file. For a mixture it does not matter.
 MaterialName material_for_request(const MaterialName& material, const Reader& reader) {
-  return material.mixture ? MaterialName{&reader.materials.first()} : material;
+  return material.mixture.node ? MaterialName{&reader.materials.first()} : material;
 }
 
 Field read(const SolidPart& part, const char* channel, const Point& p) {
@@ -80,7 +80,7 @@ std::vector<Field> part_weights(const Parts& parts, const Point& p, Demand deman
 Composition composition_of(const Parts& parts, const Inputs& in, const Point& p, Demand demand) {
   if (parts.size() == 1) return in.composition_of(parts[0].material, p);
   const std::vector<Field> shares = first_true(part_weights(parts, p, demand));
-  if (std::ranges::any_of(parts, [](const SolidPart& part) { return part.material.mixture; })) {
+  if (std::ranges::any_of(parts, [](const SolidPart& part) { return part.material.mixture.node; })) {
     std::vector<Composition> own;
     for (const SolidPart& part : parts) own.push_back(in.composition_of(part.material, p));
     return weighted(own, shares);
@@ -219,7 +219,7 @@ struct Scad : SolidOfParts {
       reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be run here");
       return false;
     }
-    if (material.mixture && materials == "auto") materials = "one";
+    if (material.mixture.node && materials == "auto") materials = "one";
     if (!check_mixture(material, materials, reader)) return false;
     ScadRequest request{path, script, variables, part, materials, material_for_request(material, reader), material_map};
     loaded = reader.loader->source(request, reader);

@@ -175,7 +175,8 @@ struct Strut {
          {"material", &Strut::material, "Its material"},
          {"caps", &Strut::caps, "Ends: flat, or round (half balls beyond the end points)", one_of({"flat", "round"})}},
         no_inputs,
-        "strut((0, 0, 0), (10, 5, 3), 1, \"red\");"};
+        "strut((0, 0, 0), (10, 5, 3), 1, \"red\");",
+        {{"along", &Strut::along, "Position along its axis, from 0 at its start to 1 at its end", Interval(0, 1)}}};
   }
 
   bool complete(const Reader& reader) const {
@@ -201,7 +202,7 @@ struct Strut {
     return corner(across - radius_at(p), abs(along) - half);
   }
 
-  Field along(const Inputs&, const Point& p) const { return share(p); }
+  Field along(const Ask& ask) const { return share(ask.p); }
 
   // Returns the strut, or nothing if it is not a conical frustum.
   std::optional<StrutShape> shape() const {

@@ -1,8 +1,8 @@
-// Parameters that are weights around a voxel, or lists of texts.
+#include "design/ports/kernel.h"
+
 #include <cmath>
 
 #include "base/text/text.h"
-#include "design/values.h"
 
 namespace ombre::design {
 namespace {
@@ -71,25 +71,11 @@ class KernelReader {
 
 }  // namespace
 
-bool read(const Data& data, const Domain&, Kernel& value, const Reader& reader) {
+bool Port<Kernel>::read(const Data& data, const Domain&, Kernel& value, const Reader& reader) {
   return KernelReader(reader, value).read(data);
 }
 
-bool read(const Data& data, const Domain&, std::vector<std::string>& value, const Reader& reader) {
-  value.clear();
-  if (data.string()) {
-    value.push_back(*data.string());
-    return true;
-  }
-  if (!data.list()) return reader.fail(data, "a list of texts");
-  for (const Data& element : *data.list()) {
-    if (!element.string()) return reader.fail(element, "a text");
-    value.push_back(*element.string());
-  }
-  return true;
-}
-
-Data write(const Kernel& value, bool) {
+Data Port<Kernel>::write(const Kernel& value, bool) {
   DataList planes;
   size_t n = 0;
   for (int i = 0; i < value.size[0]; ++i) {
@@ -102,12 +88,6 @@ Data write(const Kernel& value, bool) {
     planes.emplace_back(std::move(rows));
   }
   return Data(std::move(planes));
-}
-
-Data write(const std::vector<std::string>& value, bool) {
-  DataList list;
-  for (const std::string& text : value) list.emplace_back(text);
-  return Data(std::move(list));
 }
 
 }  // namespace ombre::design

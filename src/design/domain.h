@@ -1,0 +1,96 @@
+// The values that a parameter may have, for checks, help and forms.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/math/box.h"
+
+namespace ombre::design {
+
+// All of a design lies within this distance (mm) of the origin on each axis.
+inline constexpr double design_limit_mm = 1e6;
+inline Box design_space() { return Box::centered({design_limit_mm, design_limit_mm, design_limit_mm}); }
+
+struct Domain {
+  std::string_view unit;  // "mm", "deg", or empty
+  double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
+  bool above_least = false;            // must be greater than `least`, not equal
+  bool required = false;               // has no default
+  std::vector<std::string> choices;    // words of a Choice
+  std::vector<std::string> variables;  // known in expressions besides the coordinates
+  bool may_mix = false;                // a material may be a mixture
+  bool one_is_enough = false;     // of three numbers, a single one may be given, which stands for itself and two zeros
+  bool child_attributes = false;  // expressions may use attributes of the inputs by name
+};
+
+// Returns " (mm)" for the unit mm, or "" if there is none.
+inline std::string unit_text(const Domain& domain) {
+  return domain.unit.empty() ? "" : " (" + std::string(domain.unit) + ")";
+}
+
+// Returns the coordinates and the domain's additional variables.
+std::vector<std::string> known_variables(const Domain& domain);
+
+inline Domain any(std::string_view unit = "") {
+  Domain domain;
+  domain.unit = unit;
+  return domain;
+}
+inline Domain positive(std::string_view unit) {
+  Domain domain = any(unit);
+  domain.least = 0;
+  domain.above_least = true;
+  return domain;
+}
+inline Domain not_negative(std::string_view unit) {
+  Domain domain = any(unit);
+  domain.least = 0;
+  return domain;
+}
+inline Domain from_to(double least, double greatest, std::string_view unit = "") {
+  Domain domain = any(unit);
+  domain.least = least;
+  domain.greatest = greatest;
+  return domain;
+}
+inline Domain one_of(std::vector<std::string> choices) {
+  Domain domain;
+  domain.choices = std::move(choices);
+  return domain;
+}
+inline Domain required(Domain domain = {}) {
+  domain.required = true;
+  return domain;
+}
+// Domain of three numbers, in whose place a single one may be given.
+inline Domain one_or_three(Domain domain = {}) {
+  domain.one_is_enough = true;
+  return domain;
+}
+// Domain of materials that may be mixtures.
+inline Domain mixable(Domain domain = {}) {
+  domain.may_mix = true;
+  return domain;
+}
+inline Domain with_variables(std::vector<std::string> variables, Domain domain = {}) {
+  domain.variables = std::move(variables);
+  return domain;
+}
+// Domain of expressions that are evaluated over the node's input: d is its distance, t the position along its struts.
+inline Domain over_child(Domain domain = {}) {
+  domain = with_variables({"d", "t"}, std::move(domain));
+  domain.child_attributes = true;
+  return domain;
+}
+
+namespace unit {
+inline const Domain mm = any("mm"), degrees = any("deg"), none = any();
+inline const Domain points = from_to(-design_limit_mm, design_limit_mm, "mm");
+inline const Domain positive_mm = positive("mm"), not_negative_mm = not_negative("mm");
+}  // namespace unit
+
+}  // namespace ombre::design
