@@ -55,7 +55,7 @@ class NodeLister {
     for (size_t n = 0; n < parameters.size(); ++n) {
       DataList edges;
       add_edges(node.type().get(node, n, false), "", edges);
-      add(parameters[n].name, parameters[n].kind, std::move(edges));
+      add(parameters[n].name, parameters[n].text.kind, std::move(edges));
     }
     return ports;
   }
@@ -157,7 +157,7 @@ std::set<std::string> design_files(const design::Design& design) {
   for (const design::Node* node : design::topological(roots)) {
     const auto& parameters = node->type().parameters;
     for (size_t n = 0; n < parameters.size(); ++n) {
-      if (parameters[n].kind != "file") continue;
+      if (parameters[n].text.kind != "file") continue;
       const Data path = node->type().get(*node, n, false);
       if (path.string() && !path.string()->empty()) files.insert(*path.string());
     }

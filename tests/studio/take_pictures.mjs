@@ -1,4 +1,5 @@
-// Takes the pictures of docs/user/studio.md: a knob (studio.png, studio_slices.png), a scan and results of a simulation.
+// Takes the pictures of docs/user/studio.md: a knob (studio.png, studio_slices.png, studio_jobs.png), a scan and
+// results of a simulation.
 //
 //     node tests/studio/take_pictures.mjs build/release/apps/ombre/ombre /usr/bin/chromium docs/user
 import { spawn } from "node:child_process";
@@ -61,6 +62,20 @@ try {
   await page.click(".slices canvas", { position: { x: 0.25 * box.width, y: 0.6 * box.height } });
   await page.waitForSelector(".probe .calls", { timeout: 8000 });
   await take("studio_slices.png");
+
+  await page.click("#tab-surface");
+  await page.click("#tab-jobs");
+  const start = async (kind, options) => {
+    await page.selectOption("select.kind", kind);
+    for (const [name, value] of Object.entries(options)) await page.fill(`.panel .option-${name} input`, value);
+    await page.keyboard.press("Tab");
+    await page.click(".panel button[type=submit]");
+    await page.waitForSelector(`[data-folder="${options.output}"][data-state=done]`);
+  };
+  await start("mesh", { output: "knob.3mf" });
+  await start("voxels", { output: "knob.nrrd", voxel: "0.5" });
+  await page.selectOption("select.kind", "fea");
+  await take("studio_jobs.png");
 
   await page.selectOption("select.file", "head.nrrd");
   await page.waitForSelector(".plane canvas[data-state=ready] >> nth=2");
