@@ -62,7 +62,7 @@ class SurfaceMesh:
     def _take(self, vertices: Iterable[Any], triangles: Any) -> None:
         points = [tuple(v) if not hasattr(v, "x") else (v.x, v.y, v.z) for v in vertices]
         self._vertices = numpy.array(points, dtype=float).reshape(-1, 3)
-        self._triangles = numpy.array(triangles, dtype=numpy.int64).reshape(-1, 3)
+        self._triangles: numpy.ndarray = numpy.array(triangles, dtype=numpy.int64).reshape(-1, 3)
         if self._triangles.size and not 0 <= self._triangles.min() <= self._triangles.max() < len(self._vertices):
             raise RuntimeError("SurfaceMesh: a triangle names a vertex that is not there")
 
