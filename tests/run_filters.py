@@ -197,7 +197,7 @@ def smoothing_may_keep_the_volume(scene):
     for label in (1, 2):
         solid = np.pad(scene.labels == label, [(int(np.ceil(0.7 / s)),) * 2 for s in SPACING])
         share = ndimage.gaussian_filter(solid.astype(float), [0.7 / s for s in SPACING], mode="constant")
-        corner = [-np.ceil(0.7 / s) * s for s in SPACING]
+        corner = [-float(np.ceil(0.7 / s)) * s for s in SPACING]
         end = [c + n * s for c, n, s in zip(corner, solid.shape, SPACING)]
         text = ("root((%r, %r, %r), (%r, %r, %r), (%r, %r, %r)) " % (*corner, *end, *SPACING) +
                 f'smooth(0.7, keep_volume=true) volume_solid("labels.nrrd", "red", label={label});')

@@ -211,7 +211,8 @@ def check_vase(ombre):
         if made.returncode != 0:
             return made.stderr
         sliced = program.run(["prusa-slicer", "--export-gcode", "vase.3mf", "-o", "vase.gcode", "--nozzle-diameter", "0.4,0.4",
-                              "--skirts", "0", "--fill-density", "100%", "--fill-pattern", "rectilinear"], cwd=folder, timeout=100)
+                              "--center", "100,100", "--skirts", "0", "--fill-density", "100%", "--fill-pattern", "rectilinear"],
+                             cwd=folder, timeout=100)
         if sliced.returncode != 0:
             return sliced.stderr
         code = (folder / "vase.gcode").read_text(encoding="utf-8")

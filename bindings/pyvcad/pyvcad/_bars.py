@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import enum
 import math
-from typing import Any
+from typing import Any, cast
 
 import numpy
 
@@ -28,7 +28,7 @@ def _frame(start: numpy.ndarray, along: numpy.ndarray, toward: numpy.ndarray | N
         toward = numpy.eye(3)[int(numpy.argmin(numpy.abs(z)))]
     x = toward - numpy.dot(toward, z) * z
     x /= numpy.linalg.norm(x)
-    return numpy.column_stack([x, numpy.cross(z, x), z, start]).tolist()
+    return cast("list[list[float]]", numpy.column_stack([x, numpy.cross(z, x), z, start]).tolist())
 
 
 class Cone(_Leaf):

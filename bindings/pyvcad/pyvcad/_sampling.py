@@ -1,7 +1,7 @@
 """Samples a tree at points and on grids, attribute by attribute."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy
 
@@ -15,19 +15,24 @@ from ._tree import Node, as_node
 from ._vectors import Vec3, Vec4
 
 
+def _listed(array: numpy.ndarray) -> list[Any]:
+    """The array as a list, of lists if it has several axes."""
+    return cast("list[Any]", array.tolist())
+
+
 def _values(found: numpy.ndarray) -> list[Any]:
     """An attribute's values, one a point, as numbers or as vectors."""
     kind = {3: Vec3, 4: Vec4}.get(found.shape[1]) if found.ndim == 2 else None
     if kind is not None:
-        return [kind(*numbers) for numbers in found.tolist()]
-    return (found[:, 0] if found.ndim == 2 else found).tolist()
+        return [kind(*numbers) for numbers in _listed(found)]
+    return _listed(found[:, 0] if found.ndim == 2 else found)
 
 
 def _distributions(design: ombre.Design, fractions: dict[str, numpy.ndarray]) -> list[dict[int, float]]:
     """{material's id: volume fraction} of each point."""
     names = design.materials.names
     ids = [names.index(name) for name in fractions]
-    rows = numpy.stack(list(fractions.values()), axis=-1).tolist()
+    rows = _listed(numpy.stack(list(fractions.values()), axis=-1))
     return [{material: share for material, share in zip(ids, row) if share > 0} for row in rows]
 
 
@@ -41,7 +46,7 @@ def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSam
     names = list(columns)
     rows = zip(*columns.values()) if columns else [()] * len(points)
     return [(distance, AttributeSamples(dict(zip(names, row))) if distance <= 0 else None)
-            for distance, row in zip(found.distance.tolist(), rows)]
+            for distance, row in zip(_listed(found.distance), rows)]
 
 
 class TreeSampler:

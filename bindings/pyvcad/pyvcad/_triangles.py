@@ -88,7 +88,7 @@ class SurfaceMesh:
         count = int.from_bytes(data[80:84], "little")
         if len(data) == 84 + 50 * count:
             rows = numpy.frombuffer(data, dtype=[("numbers", "<f4", (4, 3)), ("unused", "<u2")], offset=84)
-            points = rows["numbers"][:, 1:].reshape(-1, 3).astype(float)
+            points: numpy.ndarray = rows["numbers"][:, 1:].reshape(-1, 3).astype(float)
         else:
             lines = [line.split() for line in data.decode("ascii", "replace").splitlines()]
             points = numpy.array([[float(n) for n in line[1:4]] for line in lines if line[:1] == ["vertex"]])
