@@ -4,6 +4,8 @@
 #include <new>
 #include <unordered_set>
 
+#include "design/registry.h"
+
 namespace ombre::design {
 
 void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& values, SourceRange where) {
@@ -31,6 +33,17 @@ Traits Node::traits_of_shape() const {
 
 bool Node::is_mixture() const {
   return !type().is_solid() && type().outputs[first_output()].type.form == OutputForm::mixture;
+}
+
+std::vector<std::string> Node::output_names() const {
+  std::vector<std::string> names;
+  const NodePtr not_held(NodePtr(), this);
+  for (const Node* node : topological({not_held}))
+    for (size_t n = 0; n < node->type().outputs.size(); ++n)
+      if (node->type().is_solid() && node->gives(n)) names.push_back(node->type().outputs[n].name);
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
 }
 
 const OutputType* Node::output_type(std::string_view output_name) const {

@@ -178,6 +178,8 @@ class Node {
   bool is_mixture() const;      // true for a node of values whose first output is a mixture
   // Returns the type of the output with this name that this node or a node below has, or null.
   const OutputType* output_type(std::string_view output_name) const;
+  // Returns the names of the outputs that this node and the nodes below have, each once.
+  std::vector<std::string> output_names() const;
 
   std::span<const NodePtr> inputs() const { return {inputs_.get(), input_count_}; }
   // Returns the nodes whose outputs its parameters hold, each once.

@@ -161,16 +161,19 @@ bool has_form(const std::optional<GivenOutput>& given, OutputForm form) {
 
 bool is_mixture(const Data& data) { return has_form(given_output(data), OutputForm::mixture); }
 
-Data with_constants(const Data& data, const Reader& reader) {
+std::optional<Data> with_constants(const Data& data) {
   if (const DataList* list = data.list()) {
-    const bool has_values = std::ranges::any_of(*list, [](const Data& one) { return is_value(one) || one.list(); });
-    if (!has_values) return data;
-    DataList result;
-    for (const Data& element : *list) result.push_back(with_constants(element, reader));
-    return {std::move(result), data.where};
+    std::optional<DataList> result;
+    for (size_t n = 0; n < list->size(); ++n) {
+      auto constant = with_constants((*list)[n]);
+      if (!constant) continue;
+      if (!result) result = *list;
+      (*result)[n] = std::move(*constant);
+    }
+    return result ? std::optional(Data(std::move(*result), data.where)) : std::nullopt;
   }
   const auto given = is_value(data) ? given_output(data) : std::nullopt;
-  if (!has_form(given, OutputForm::constant)) return data;
+  if (!has_form(given, OutputForm::constant)) return std::nullopt;
   Data constant = given->node->constant(given->output);
   constant.where = data.where;
   return constant;

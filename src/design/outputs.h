@@ -146,8 +146,8 @@ std::optional<expr::Expression> read_formula(const Data& data, const Domain& dom
 std::vector<expr::Expression> vector_of(const Data& data, const Reader& reader);
 // Reads an output that is a mixture, and keeps its node. Returns nothing and adds a diagnostic if it is none.
 std::optional<GivenOutput> read_mixture(const Data& data, const Reader& reader);
-// Replaces outputs that are constants by their values.
-Data with_constants(const Data& data, const Reader& reader);
+// Replaces outputs that are constants by their values. Returns nothing if there are none.
+std::optional<Data> with_constants(const Data& data);
 
 // Returns {"from": node, "output": "value"} or {"formula": "2*v", "with": {"v": {"from": node, "output": "value"}}}, in
 // which nodes are NodeObjects.

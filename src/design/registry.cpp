@@ -166,7 +166,8 @@ NodePtr made_node(const NodeType& type, const std::vector<NamedValue>& values, s
     std::vector<NodePtr> nodes;
     const Reader one{reader.materials, reader.diagnostics, reader.loader, reader.where, type.name,
                      parameter->name,  reader.names,       &nodes,        &inputs};
-    good = type.set(*node, index, with_constants(data, one), one) && good;
+    const auto constants = with_constants(data);
+    good = type.set(*node, index, constants ? *constants : data, one) && good;
     for (NodePtr& value : nodes) used.emplace_back(index, std::move(value));
   }
   const bool has_unwanted = type.inputs.most == 0 && !inputs.empty();

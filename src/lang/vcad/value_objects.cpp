@@ -218,7 +218,8 @@ class SolidObject final : public Object {
   std::optional<Value> part(const std::string& name, std::string& names, Meter& meter) const override {
     const design::OutputType* type = node_->output_type(name);
     if (!type || type->form != OutputForm::numbers) {
-      names = "this solid has no output of that name; values such as distance_to(s) are measured on it";
+      const std::vector<std::string> outputs = node_->output_names();
+      names = outputs.empty() ? "values such as distance_to(s) are measured on it" : "it has ." + join(outputs, ", .");
       return std::nullopt;
     }
     const design::NodeType& output_of = *maker_.registry.find("output_of");

@@ -8,12 +8,6 @@ namespace {
 
 using namespace design;
 
-void add_outputs_below(const Node& node, std::vector<std::string>& names) {
-  for (size_t n = 0; n < node.type().outputs.size(); ++n)
-    if (node.gives(n)) names.push_back(node.type().outputs[n].name);
-  for (const NodePtr& input : node.inputs()) add_outputs_below(*input, names);
-}
-
 struct OutputOf {
   SolidName solid;
   std::string name;
@@ -37,8 +31,7 @@ struct OutputOf {
       count = std::max<size_t>(1, type->parts.size());
       return true;
     }
-    std::vector<std::string> known;
-    add_outputs_below(*solid.node, known);
+    const std::vector<std::string> known = solid.node->output_names();
     std::string hint = did_you_mean(name, known);
     if (hint.empty()) hint = known.empty() ? "it has no outputs" : "it has " + join(known, ", ");
     reader.diagnostics.error(Code::unknown_output, reader.where, "the solid has no output \"" + name + '"', hint,
@@ -60,7 +53,7 @@ struct SolidOf {
 
   static Spec<SolidOf> spec() {
     return {"solid_of",
-            "values",
+            "parts",
             "An output that is a solid or a region, as a solid; or the solid that is given, as it is.",
             {{"solid", &SolidOf::solid, "The output, or a solid", required()}},
             no_inputs,
