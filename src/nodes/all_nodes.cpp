@@ -34,6 +34,7 @@ const design::Registry& registry() {
     add_material_gradients(r);
     add_attributes(r);
     add_parts(r);
+    add_solid_of(r);
     add_supports(r);
     add_noise(r);
     add_value_nodes(r);
@@ -42,7 +43,7 @@ const design::Registry& registry() {
     add_value_curves(r);
     add_value_colours(r);
     add_attribute_of(r);
-    add_outputs_of_solids(r);
+    add_output_of(r);
     add_convolutions(r);
     add_whole_solids(r);
     return r;

@@ -76,6 +76,7 @@ struct SolidOf {
 
 }  // namespace
 
-void add_outputs_of_solids(Registry& registry) { registry.add<OutputOf, SolidOf>(); }
+void add_output_of(Registry& registry) { registry.add<OutputOf>(); }
+void add_solid_of(Registry& registry) { registry.add<SolidOf>(); }
 
 }  // namespace ombre::nodes

@@ -14,6 +14,7 @@ void add_value_cells(design::Registry& registry);
 void add_value_curves(design::Registry& registry);
 void add_value_colours(design::Registry& registry);
 void add_attribute_of(design::Registry& registry);
-void add_outputs_of_solids(design::Registry& registry);
+void add_output_of(design::Registry& registry);
+void add_solid_of(design::Registry& registry);
 
 }  // namespace ombre::nodes
