@@ -1,6 +1,4 @@
 // Writes slicers' own files for settings that 3MF does not support: the extruder and the infill of a region.
-#include <array>
-
 #include "formats/containers/xml_text.h"
 #include "formats/mesh/slicer_settings.h"
 #include "formats/packages/package_writers.h"
@@ -8,19 +6,6 @@
 
 namespace ombre::formats {
 namespace {
-
-// Settings that have other names in Bambu Studio and OrcaSlicer.
-constexpr std::array<std::array<std::string_view, 2>, 5> bambu_keys{{{"fill_density", "sparse_infill_density"},
-                                                                     {"fill_pattern", "sparse_infill_pattern"},
-                                                                     {"perimeters", "wall_loops"},
-                                                                     {"top_solid_layers", "top_shell_layers"},
-                                                                     {"bottom_solid_layers", "bottom_shell_layers"}}};
-
-std::string bambu_key(const std::string& key) {
-  for (const auto& [prusa, bambu] : bambu_keys)
-    if (prusa == key) return std::string(bambu);
-  return key;
-}
 
 std::string metadata(std::string_view type, std::string_view key, std::string_view value) {
   const std::string of = type.empty() ? "" : xml_attribute("type", type);

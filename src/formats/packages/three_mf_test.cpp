@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "formats/mesh/slicer_settings.h"
+
 #include "formats/mesh/test_documents.h"
 #include "formats/packages/package_readers.h"
 #include "formats/packages/package_writers.h"
@@ -125,6 +127,17 @@ TEST(ThreeMf, VolumesOfPrusaSlicerAreGroups) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_3mf("a.3mf", with(first + last("NegativeVolume")), diagnostics));
   EXPECT_NE(to_text(diagnostics).find("the negative volume \"more\" is left out"), std::string::npos);
+}
+
+TEST(ThreeMf, SettingsHaveTheNamesOfTheirSlicer) {
+  EXPECT_EQ(bambu_key("infill_speed"), "sparse_infill_speed");
+  EXPECT_EQ(bambu_key("fuzzy_skin_point_dist"), "fuzzy_skin_point_distance");
+  EXPECT_EQ(bambu_key("layer_height"), "layer_height");
+  EXPECT_EQ(bambu_key("brim_width"), "brim_width");
+  ASSERT_TRUE(slicer_key_of("infill_density"));
+  EXPECT_EQ(slicer_key_of("infill_density")->prusa, "fill_density");
+  EXPECT_FALSE(slicer_key_of("modulus"));
+  EXPECT_FALSE(slicer_key_of(""));
 }
 
 TEST(ThreeMf, PartsOfBambuStudioHaveNames) {

@@ -8,6 +8,7 @@
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "export/mesh_file.h"
+#include "formats/mesh/slicer_settings.h"
 #include "formats/packages/package_writers.h"
 #include "jobs/common/events.h"
 #include "jobs/common/job_design.h"
@@ -42,28 +43,14 @@ constexpr const char* mesh_footer =
     "  ombre mesh part.vcad --colour-by color_rgba -o part.glb                  vertices in the attribute's colours\n"
     "  ombre mesh seat.vcad --bands 4 --flavour prusa --setting fill_density=10%..60%\n";
 
-// Returns the slicer setting that an attribute's bands set on their bodies; empty if slicers have no such setting.
-std::string slicer_key(const std::string& attribute) {
-  if (attribute == "infill_density") return "fill_density";
-  if (attribute == "fuzzy_skin_point_distance") return "fuzzy_skin_point_dist";
-  constexpr std::string_view same[] = {
-      "temperature",   "fuzzy_skin_thickness",  "extrusion_width",    "layer_height",
-      "perimeters",    "bridge_speed",          "gap_fill_speed",     "infill_speed",
-      "ironing_speed", "ironing_flowrate",      "perimeter_speed",    "external_perimeter_speed",
-      "flow_rate",     "small_perimeter_speed", "solid_infill_speed", "top_solid_infill_speed"};
-  const bool is_same = std::ranges::find(same, attribute) != std::end(same);
-  return is_same || attribute.ends_with("_extrusion_width") ? attribute : "";
-}
-
 // Adds the settings of the middles of a body's bands, unless others were given.
 void add_attributes(const compile::Region& region, std::vector<std::pair<std::string, std::string>>& values) {
   for (const auto& [attribute, middle] : region.attributes) {
-    const std::string key = slicer_key(attribute);
-    const auto is_given = [&](const auto& value) { return value.first == key; };
-    if (key.empty() || std::ranges::any_of(values, is_given)) continue;
-    const bool is_whole = key == "temperature" || key == "perimeters" || key == "fill_density";
-    values.emplace_back(key, format_rounded(is_whole ? std::round(middle) : middle, 4) +
-                                 (key == "fill_density" || key == "ironing_flowrate" ? "%" : ""));
+    const formats::SlicerKey* key = formats::slicer_key_of(attribute);
+    const auto is_given = [&](const auto& value) { return value.first == key->prusa; };
+    if (!key || std::ranges::any_of(values, is_given)) continue;
+    values.emplace_back(key->prusa,
+                        format_rounded(key->is_whole ? std::round(middle) : middle, 4) + std::string(key->unit));
   }
 }
 
