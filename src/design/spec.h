@@ -70,7 +70,7 @@ struct Parameter {
 template <class T>
 struct OutputSpec {
   // `range` contains all values of a number.
-  template <class R>
+  template <VariesInSpace R>
   OutputSpec(std::string_view name, R (T::*method)(const Ask&) const, std::string_view doc,
              const Interval& range = Interval::everything())
       : info{std::string(name), std::string(doc), OutputPort<R>::type(), range},
@@ -78,7 +78,7 @@ struct OutputSpec {
     ASSERT(info.type.form != OutputForm::solid && "an output that is a solid has bounds");
   }
   // `where_` returns a box around the inside of the solid or region.
-  template <class R>
+  template <VariesInSpace R>
   OutputSpec(std::string_view name, R (T::*method)(const Ask&) const, Box (T::*where_)(const Box&) const,
              std::string_view doc)
       : info{std::string(name), std::string(doc), OutputPort<R>::type()},
@@ -92,6 +92,12 @@ struct OutputSpec {
   OutputSpec(std::string_view name, M T::*member, std::string_view doc)
       : info{std::string(name), std::string(doc), OutputPort<M>::type()},
         constant([member](const T& t) { return Port<M>::write(t.*member, false); }) {}
+  template <class M>
+  OutputSpec(std::string_view, M T::*, std::string_view, const Interval& = Interval::everything()) {
+    static_assert(!std::is_same_v<M, M>,
+                  "an output is a method that takes a const Ask&, is const, and returns a Field, VectorField or another "
+                  "type that has an OutputPort");
+  }
 
   OutputInfo info;
   std::function<OutputAnswer(const T&, const Ask&)> answer;

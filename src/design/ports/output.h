@@ -97,6 +97,10 @@ struct OutputPort<Region> {
   static OutputAnswer answer(const Region& region) { return {{0.5 - region.inside}}; }
 };
 
+// True for the types of outputs that vary in space.
+template <class R>
+concept VariesInSpace = requires(const R& made) { OutputPort<R>::answer(made); };
+
 // A value that is known when the node is made.
 template <IsPort M>
 struct OutputPort<M> {
