@@ -5,6 +5,7 @@
 """
 import functools
 import json
+import math
 import re
 import shlex
 import subprocess
@@ -165,6 +166,30 @@ def gray_images_show_brightness(job):
         {"name": "red", "r": 100, "g": 100, "b": 100}, {"name": "blue", "r": 100, "g": 100, "b": 100}]}))
     reported = job.slice("alike", *SMALL, "--format", "gray", "--layers", "50", "--materials", alike).stderr
     expect("both gray 100" in reported, f"no word about two materials of one gray: {reported}")
+
+
+def images_of_values_have_channels(job):
+    """Of a ball whose dose is 50 below z = 0 and 150 above it: half of its voxels are 102, half of them 255."""
+    design = job.write("dosed.vcad", 'attribute("dose", "z < 0 ? 50 : 150", unit="J") sphere(4);')
+    by = ["--by", "dose", "--range", "0,125", "--voxel", "0.25", "--json"]
+    for bits, shades in (("8", {0, 102, 255}), ("16", None), ("1", {0, 255})):  # png reads no images of 16 bits
+        result = job.slice(f"dose{bits}", *by, "--bits", bits, design=design)
+        done = [json.loads(line) for line in result.stdout.splitlines()][-1]
+        about = json.loads((job.folder / f"dose{bits}" / "job.json").read_text(encoding="utf-8"))
+        expect("materials" not in done and "materials" not in about, f"materials of {bits} bits")
+        kind = {"8": "dose8", "16": "dose16", "1": "mask"}[bits]
+        expect(about["channels"] == [{"name": "dose", "type": kind, "unit": "J", "range": [0, 125]}], str(about))
+        volume = 4 / 3 * math.pi * 64
+        counted = done["channels"][0]
+        expect(about["totals"]["channels"] == [counted], str(about["totals"]))
+        expect(abs(counted["volume_mm3"] / (volume if bits != "1" else volume / 2) - 1) < 0.01, str(counted))
+        expect(counted.get("mean") == (None if bits == "1" else 87.5), str(counted))  # of 50 and 125, which is white
+        job.slice(f"dose{bits}", *by, "--bits", bits, "--resume", design=design)
+        if shades:
+            seen = {pixel[0] for image in job.images(f"dose{bits}") for row in image.rows for pixel in row}
+            expect(seen == shades, f"{bits} bits: {sorted(seen)[:9]}")
+    result = job.slice("wrong", *by, "--format", "indexed", design=design, status=1)
+    expect("hold materials, but the layers hold doses of 8 bits" in result.stdout, result.stdout)
 
 
 def masks_resume_and_are_replaced(job):
@@ -399,7 +424,7 @@ CHECKS = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make
           a_piece_has_the_names_and_bytes_of_the_whole, seeds_change_the_mixture_only,
           printed_designs_are_the_same_job, roundabout_rotations_keep_the_voxels, images_lie_as_the_design_does,
           images_tell_their_resolution, palettes_of_any_size, materials_have_masks_of_their_own,
-          gray_images_show_brightness, masks_resume_and_are_replaced, layers_of_masks_have_several_files,
+          gray_images_show_brightness, images_of_values_have_channels, masks_resume_and_are_replaced, layers_of_masks_have_several_files,
           layers_are_those_of_the_job, boxes_cut_layers, boxes_cut_jobs, layers_have_names_and_are_not_overwritten,
           wrong_layers_are_explained, links_lead_to_what_lies_beside_them, bundles_slice_as_their_designs_do, reference_is_up_to_date,
           examples_of_nodes_slice, suggestions_of_examples_work, designs_of_openscad_are_explained]

@@ -67,9 +67,9 @@ TEST_F(StudioTest, JobsTakeTheOptionsOfTheCommandLine) {
   // A level also makes the chosen voxels longer.
   EXPECT_EQ(*plan(R"("voxel": [0.5, 0.25, 0.2], "level": 1)").find("count"),
             Data(DataList{number(2), number(4), number(10)}));
-  const Data shades = *job_of(R"("by": "heat", "range": [-1, 1], "bits": "16")").find("shades");
-  EXPECT_EQ(number_in(shades, "bits"), 16);
-  EXPECT_EQ(number_in(shades, "black"), -1);
+  const Data channel = job_of(R"("by": "heat", "range": [-1, 1], "bits": "16")").find("channels")->list()->front();
+  EXPECT_EQ(text(channel, "type"), "dose16");
+  EXPECT_EQ(*channel.find("range"), Data(DataList{-1.0, 1.0}));
   // Null, empty texts and false count as not given.
   EXPECT_EQ(text(plan(R"("printer": "", "place": null, "tray": false)"), "job"),
             text(plan(R"("lane": "plan")"), "job"));

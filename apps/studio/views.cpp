@@ -84,11 +84,11 @@ DataList colour_list(const formats::Rgba& colour) {
   return list;
 }
 
-// Changes a request so that tiles show materials in their colours, or the job's shades, with x to the right and y up,
+// Changes a request so that tiles show materials in their colours, or the job's values, with x to the right and y up,
 // whatever the printer's files do.
 compile::SliceRequest shown(const compile::SliceRequest& request) {
   compile::SliceRequest tile = request;
-  if (!tile.shades) tile.format = ImageFormat::rgba;
+  if (tile.has_materials()) tile.format = ImageFormat::rgba;
   tile.flip_x = tile.flip_y = false;
   tile.background = {0, 0, 0, 0};
   tile.files = {};
@@ -114,11 +114,13 @@ DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, con
   }
   const voxel::TileBox box{voxel, {voxel[0] + 1, voxel[1] + 1, voxel[2] + 1}};
   const DataList index{number(voxel[0]), number(voxel[1]), number(voxel[2])};
-  if (job.shades) return {{"index", index}};
+  if (!job.has_materials()) return {{"index", index}};
   const auto made = cut->plan.regions(box, &stop);
+  MaterialId id = 0;
+  made.front().materials().row(0).unpack(&id);
   std::string name = "void";
   for (const compile::SliceMaterial& material : job.materials)
-    if (made.front().material_counts[material.id] > 0) name = material.name;
+    if (material.id == id) name = material.name;
   return {{"index", index}, {"material", name}};
 }
 

@@ -18,19 +18,19 @@ TEST_F(Slice, WritesEveryLayerWithTheBallInIt) {
   EXPECT_EQ(report.layers_kept, 0);
   uint64_t inside = 0;
   for (int64_t k = 0; k < 40; ++k) {
-    const voxel::LayerResult layer = ball_layer(request, k, false);
-    inside += layer.material_counts[1] + layer.material_counts[5];
+    const std::array<uint64_t, 256> counts = count_materials(ball_layer(request, k, false).materials());
+    inside += counts[1] + counts[5];
     const std::string name = request.files.name(k);
     const formats::PngImage image = formats::decode_png(formats::read_file(folder() + "/" + name), name);
-    EXPECT_EQ(image.bit_depth, layer.material_counts[5] > 0 ? 2 : 1);  // blue is entry 2
+    EXPECT_EQ(image.bit_depth, counts[5] > 0 ? 2 : 1);  // blue is entry 2
     EXPECT_EQ(image.dots_per_metre_x, 10000U);
     EXPECT_EQ(image.dots_per_metre_y, 5000U);
     uint64_t blue = 0;
     for (const uint8_t pixel : image.pixels) blue += pixel == 2 ? 1 : 0;
-    EXPECT_EQ(blue, layer.material_counts[5]) << name;
+    EXPECT_EQ(blue, counts[5]) << name;
   }
   EXPECT_EQ(report.voxels_inside, inside);
-  EXPECT_EQ(report.material_voxels[0] + report.material_voxels[1], inside);
+  EXPECT_EQ(report.counts.voxels[0] + report.counts.voxels[1], inside);
   const Data job = job_json(folder());
   EXPECT_EQ(*job.find("status")->string(), "complete");
   ASSERT_TRUE(job.find("totals"));

@@ -50,9 +50,9 @@ struct Voxels {
 inline std::vector<MaterialId> unpack(const std::vector<voxel::LayerResult>& layers) {
   std::vector<MaterialId> ids;
   for (const auto& layer : layers) {
-    for (uint32_t j = 0; j < layer.runs.height(); ++j) {
-      ids.resize(ids.size() + layer.runs.width());
-      layer.runs.row(j).unpack(ids.data() + ids.size() - layer.runs.width());
+    for (uint32_t j = 0; j < layer.materials().height(); ++j) {
+      ids.resize(ids.size() + layer.materials().width());
+      layer.materials().row(j).unpack(ids.data() + ids.size() - layer.materials().width());
     }
   }
   return ids;

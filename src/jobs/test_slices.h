@@ -62,17 +62,16 @@ inline voxel::LayerResult ball_layer(const SliceRequest& request, int64_t k, boo
   voxel::LayerResult result;
   result.checks.resize(request.check_texts.size());
   const auto& lattice = request.lattice;
-  result.runs = RunLayer(static_cast<uint32_t>(lattice.count[0]));
+  RunLayer& runs = std::get<RunLayer>(result.channels.emplace_back(RunLayer(static_cast<uint32_t>(lattice.count[0]))));
   for (int64_t j = 0; j < lattice.count[1]; ++j) {
     for (int64_t i = 0; i < lattice.count[0]; ++i) {
       const Vec3 p = lattice.center(i, j, k);
       const MaterialId id = length(p) > 1.7 ? 0 : p.x < 0.3 * p.z ? 1 : 5;
-      result.runs.add_uniform(id, 1);
-      ++result.material_counts[id];
+      runs.add_uniform(id, 1);
       if (!with_checks || length(p) > 0.3) continue;
       if (result.checks[0].count++ == 0) result.checks[0].first = {i, j, k};
     }
-    result.runs.end_row();
+    runs.end_row();
   }
   return result;
 }
@@ -91,13 +90,13 @@ inline RegionProducer ball_rows(const SliceRequest& request) {
     std::vector<voxel::LayerResult> layers;
     for (int64_t k = box.lo[2]; k < box.hi[2]; ++k) {
       voxel::LayerResult layer = ball_layer(request, k, true);
-      RunLayer rows(layer.runs.width());
-      std::vector<MaterialId> row(layer.runs.width());
+      RunLayer rows(layer.materials().width());
+      std::vector<MaterialId> row(rows.width());
       for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
-        layer.runs.row(static_cast<uint32_t>(j)).unpack(row.data());
+        layer.materials().row(static_cast<uint32_t>(j)).unpack(row.data());
         rows.append_row(row.data());
       }
-      layer.runs = std::move(rows);
+      layer.materials() = std::move(rows);
       layers.push_back(std::move(layer));
     }
     return layers;

@@ -12,8 +12,8 @@ void take_layers(const std::vector<voxel::LayerResult>& layers, StageValues& val
   std::vector<MaterialId> row(static_cast<size_t>(box.size(0)));
   auto to = values.channel(channel).begin();
   for (const voxel::LayerResult& layer : layers)
-    for (uint32_t j = 0; j < layer.runs.height(); ++j) {
-      layer.runs.row(j).unpack(row.data());
+    for (uint32_t j = 0; j < layer.materials().height(); ++j) {
+      layer.materials().row(j).unpack(row.data());
       to = std::transform(row.begin(), row.end(), to, [](MaterialId id) { return id != 0 ? 1.0f : 0.0f; });
     }
 }

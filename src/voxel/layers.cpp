@@ -76,13 +76,13 @@ struct LayerEvaluator::Parts {
 std::vector<LayerResult> cut(std::vector<LayerResult> layers, const TileBox& box) {
   for (LayerResult& layer : layers) {
     RunLayer part(static_cast<uint32_t>(box.size(0)), static_cast<uint32_t>(box.size(1)));
-    std::vector<MaterialId> row(layer.runs.width());
+    RunLayer& whole = layer.materials();
+    std::vector<MaterialId> row(whole.width());
     for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
-      layer.runs.row(static_cast<uint32_t>(j)).unpack(row.data());
+      whole.row(static_cast<uint32_t>(j)).unpack(row.data());
       part.append_row(row.data() + box.lo[0]);
     }
-    layer.runs = std::move(part);
-    layer.material_counts = count_materials(layer.runs);
+    whole = std::move(part);
   }
   return layers;
 }
@@ -112,7 +112,7 @@ class RowSink {
         else if (voxels.touched())
           append(layer, row);
         else
-          layers_[layer].runs.append_uniform_row(0);
+          layers_[layer].materials().append_uniform_row(0);
       }
     }
   }
@@ -123,7 +123,7 @@ class RowSink {
   }
 
  private:
-  void append(size_t layer, const MaterialId* row) { layers_[layer].runs.append_row(row); }
+  void append(size_t layer, const MaterialId* row) { layers_[layer].materials().append_row(row); }
 
   std::vector<const float*> thresholds(StripVoxels& voxels, int64_t j, int64_t k) const {
     std::vector<const float*> rows;
@@ -168,7 +168,7 @@ std::vector<LayerResult> LayerEvaluator::region(const TileBox& box, const StopFl
   const size_t check_count = parts_->job.selector.check_count;
   std::vector<std::vector<CheckHits>> checks(results.size(), std::vector<CheckHits>(check_count));
   for (LayerResult& layer : results)
-    layer.runs = RunLayer(static_cast<uint32_t>(box.size(0)), static_cast<uint32_t>(box.size(1)));
+    layer.channels.emplace_back(RunLayer(static_cast<uint32_t>(box.size(0)), static_cast<uint32_t>(box.size(1))));
   const program::Remainder slab = parts_->remainder(box);
   const auto leaf = parts_->make_leaf();
   TileTraversal traversal(parts_->job, parts_->precision(), parts_->traversal_options(), *leaf);
@@ -185,10 +185,7 @@ std::vector<LayerResult> LayerEvaluator::region(const TileBox& box, const StopFl
     sink.take(strip, voxels);
   }
   sink.finish();
-  for (size_t n = 0; n < results.size(); ++n) {
-    results[n].checks = std::move(checks[n]);
-    results[n].material_counts = count_materials(results[n].runs);
-  }
+  for (size_t n = 0; n < results.size(); ++n) results[n].checks = std::move(checks[n]);
   return results;
 }
 

@@ -56,9 +56,9 @@ Result evaluate(const MaterialProgram& program, const Lattice& lattice, const Ev
   Result result;
   for (int64_t k = 0; k < lattice.count[2]; k += slab) {
     for (const LayerResult& layer : evaluator.layers(k, std::min(k + slab, lattice.count[2]))) {
-      for (uint32_t j = 0; j < layer.runs.height(); ++j) {
-        result.ids.resize(result.ids.size() + layer.runs.width());
-        layer.runs.row(j).unpack(result.ids.data() + result.ids.size() - layer.runs.width());
+      for (uint32_t j = 0; j < layer.materials().height(); ++j) {
+        result.ids.resize(result.ids.size() + layer.materials().width());
+        layer.materials().row(j).unpack(result.ids.data() + result.ids.size() - layer.materials().width());
       }
       result.checks.insert(result.checks.end(), layer.checks.begin(), layer.checks.end());
     }
@@ -167,9 +167,10 @@ TEST(Layers, RegionsAreCutFromTheWhole) {
       std::vector<MaterialId> row(160), of_part(static_cast<size_t>(box.size(0)));
       for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
         for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
-          whole[static_cast<size_t>(k)].runs.row(static_cast<uint32_t>(j)).unpack(row.data());
+          whole[static_cast<size_t>(k)].materials().row(static_cast<uint32_t>(j)).unpack(row.data());
           part[static_cast<size_t>(k - box.lo[2])]
-              .runs.row(static_cast<uint32_t>(j - box.lo[1]))
+              .materials()
+              .row(static_cast<uint32_t>(j - box.lo[1]))
               .unpack(of_part.data());
           ASSERT_TRUE(std::equal(of_part.begin(), of_part.end(), row.begin() + box.lo[0]))
               << name(dither) << ' ' << j << ' ' << k;

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/math/run.h"
 #include "program/program.h"
+#include "voxel/channel.h"
 
 namespace ombre::voxel {
 
@@ -24,10 +24,13 @@ struct CheckHits {
 };
 
 struct LayerResult {
-  RunLayer runs;                                // over the whole width and height of the lattice or region
-  std::optional<RunLayer> lower_bytes;          // lower bytes of 16-bit shades, whose upper bytes are the runs
-  std::array<uint64_t, 256> material_counts{};  // indexed by MaterialId
+  // The channels of the job, over the whole width and height of the lattice or region. Materials are the first one.
+  std::vector<ChannelPixels> channels;
   std::vector<CheckHits> checks;
+
+  // The runs of a layer that has materials.
+  const RunLayer& materials() const { return std::get<RunLayer>(channels.front()); }
+  RunLayer& materials() { return std::get<RunLayer>(channels.front()); }
 };
 
 }  // namespace ombre::voxel

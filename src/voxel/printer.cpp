@@ -7,6 +7,7 @@
 #include "base/text/json.h"
 #include "base/text/record.h"
 #include "base/text/text.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::voxel {
 namespace {
@@ -114,24 +115,10 @@ const Record<Printer>& printer_record() {
 
 }  // namespace
 
-const std::vector<std::string>& image_format_names() {
-  static const std::vector<std::string> names{"rgba", "indexed", "gray", "mask"};
-  return names;
-}
-
 const std::vector<std::string>& placement_names() {
   static const std::vector<std::string> names{"design", "center"};
   return names;
 }
-
-std::optional<ImageFormat> image_format(std::string_view name) {
-  const auto& names = image_format_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<ImageFormat>(found - names.begin());
-}
-
-const std::string& to_text(ImageFormat format) { return image_format_names()[static_cast<size_t>(format)]; }
 
 std::optional<NamePattern> NamePattern::parse(std::string_view text) {
   const size_t open = text.find("{index");

@@ -44,11 +44,6 @@ enum class Placement { design, center };
 // Returns the names, in the order of the enumeration.
 const std::vector<std::string>& placement_names();
 
-// Returns the names in profiles and on command lines, in the order of ImageFormat.
-const std::vector<std::string>& image_format_names();
-std::optional<ImageFormat> image_format(std::string_view name);
-const std::string& to_text(ImageFormat format);
-
 // The names of the files of a stack. "slice_{index:05}.png" names one file for each layer,
 // "slice_{index:05}_{material}.png" one file for each material of each layer.
 class NamePattern {

@@ -162,11 +162,4 @@ TEST(NamePattern, MaterialsHaveFilesOfTheirOwn) {
   EXPECT_EQ(plain->with_material().text(), "slice_{index:05}_{material}.png");
 }
 
-TEST(ImageFormat, HaveNames) {
-  EXPECT_EQ(image_format("rgba"), ImageFormat::rgba);
-  EXPECT_EQ(image_format("mask"), ImageFormat::mask);
-  EXPECT_EQ(to_text(ImageFormat::gray), "gray");
-  EXPECT_FALSE(image_format("jpeg"));
-}
-
 }  // namespace ombre::voxel

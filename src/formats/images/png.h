@@ -21,6 +21,10 @@ struct PngLayout : ImageLayout {
 // be in the palette. Throws Error if memory runs out.
 std::string encode_png(const RunLayer& layer, const Palette& palette, const PngLayout& layout);
 
+// Encodes a layer of bytes as shades of gray with 8 bits, or with 1 bit if the bytes are 0 and 1. The layout gives the
+// orientation and the resolution. Else as above.
+std::string encode_shades_png(const RunLayer& shades, int bits, const PngLayout& layout);
+
 // Encodes a picture with rows from the top and 4 bytes per pixel.
 std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba);
 
@@ -29,6 +33,9 @@ struct DotsPerMetre {
 };
 // Encodes a picture in 65,536 shades of gray, rows from the top.
 std::string encode_gray_png(uint32_t width, uint32_t height, const std::vector<uint16_t>& pixels,
+                            const DotsPerMetre& resolution);
+// Encodes a picture in colours, rows from the top, that is never indexed.
+std::string encode_rgba_png(uint32_t width, uint32_t height, const std::vector<Rgba>& pixels,
                             const DotsPerMetre& resolution);
 
 struct PngImage {

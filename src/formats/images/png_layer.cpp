@@ -108,12 +108,23 @@ void add_data(PngChunks& file, const RunLayer& layer, bool flip_y, Rows&& rows, 
   data.finish(stream);
 }
 
+std::string encode_gray(const RunLayer& layer, const Samples& numbers, const PngLayout& layout) {
+  PngChunks file;
+  ZlibStream stream;
+  file.add_header(layer.width(), layer.height(), PngColours::gray, numbers.bit_depth);
+  file.add_resolution(layout.dots_per_metre_x, layout.dots_per_metre_y);
+  add_data(file, layer, layout.flip_y, PackedRows(layer.width(), numbers, layout.flip_x, stream), stream);
+  file.add("IEND", "");
+  return file.take();
+}
+
 }  // namespace
 
 std::string encode_png(const RunLayer& layer, const Palette& job_palette, const PngLayout& layout) try {
   const PngColours type = colour_type(layout.format);
   const Palette palette = type == PngColours::indexed ? fitting(layer, job_palette) : job_palette;
   const Samples numbers = samples(palette, layout);
+  if (type == PngColours::gray) return encode_gray(layer, numbers, layout);
   PngChunks file;
   ZlibStream stream;
   file.add_header(layer.width(), layer.height(), type, numbers.bit_depth);
@@ -126,6 +137,18 @@ std::string encode_png(const RunLayer& layer, const Palette& job_palette, const 
     add_data(file, layer, layout.flip_y, PackedRows(layer.width(), numbers, layout.flip_x, stream), stream);
   file.add("IEND", "");
   return file.take();
+} catch (const std::bad_alloc&) {
+  throw Error(Code::memory, "not enough memory to encode an image; try fewer threads");
+}
+
+std::string encode_shades_png(const RunLayer& shades, int bits, const PngLayout& layout) try {
+  Samples numbers;
+  numbers.bit_depth = bits;
+  for (int shade = 0; shade < 1 << bits; ++shade) {
+    numbers.ids.push_back(static_cast<MaterialId>(shade));
+    numbers.of[static_cast<size_t>(shade)] = static_cast<uint8_t>(shade);
+  }
+  return encode_gray(shades, numbers, layout);
 } catch (const std::bad_alloc&) {
   throw Error(Code::memory, "not enough memory to encode an image; try fewer threads");
 }

@@ -2,6 +2,7 @@
 // do not depend on the processor.
 #include <libdeflate.h>
 
+#include <array>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -63,21 +64,44 @@ std::string compressed(const std::string& bytes) {
   return out;
 }
 
-// Returns the rows as differences to the rows above, which are small where shades vary slowly.
-std::string differences_of(const std::vector<uint16_t>& pixels, uint32_t width, uint32_t height) {
+std::array<uint8_t, 2> file_bytes(uint16_t shade) {
+  return {static_cast<uint8_t>(shade >> 8), static_cast<uint8_t>(shade)};
+}
+const Rgba& file_bytes(const Rgba& colour) { return colour; }
+
+// Returns the rows as differences to the rows above, which are small where pixels vary slowly.
+template <class Pixel>
+std::string differences_of(const std::vector<Pixel>& pixels, uint32_t width, uint32_t height) {
   constexpr char up = 2;  // number of the filter
   std::string rows;
-  rows.reserve((size_t{2} * width + 1) * height);
-  const auto byte = [&](size_t row, size_t n, int shift) {
-    return static_cast<uint8_t>(pixels[row * width + n] >> shift);
-  };
+  rows.reserve((sizeof(Pixel) * width + 1) * height);
   for (size_t row = 0; row < height; ++row) {
     rows += up;
-    for (size_t n = 0; n < width; ++n)
-      for (const int shift : {8, 0})
-        rows += static_cast<char>(byte(row, n, shift) - (row > 0 ? byte(row - 1, n, shift) : 0));
+    for (size_t n = row * width; n < (row + 1) * width; ++n) {
+      const auto bytes = file_bytes(pixels[n]), above = file_bytes(row > 0 ? pixels[n - width] : Pixel{});
+      for (size_t i = 0; i < bytes.size(); ++i) rows += static_cast<char>(bytes[i] - above[i]);
+    }
   }
   return rows;
+}
+
+void add_data(PngChunks& file, std::string_view data) {
+  constexpr size_t largest = size_t{1} << 30;
+  for (size_t at = 0; at < data.size(); at += largest) file.add("IDAT", data.substr(at, largest));
+}
+
+template <class Pixel>
+std::string encode_differences(uint32_t width, uint32_t height, const std::vector<Pixel>& pixels, PngColours type,
+                               int bit_depth, const DotsPerMetre& resolution) try {
+  ASSERT(!pixels.empty() && pixels.size() == size_t{width} * height);
+  PngChunks file;
+  file.add_header(width, height, type, bit_depth);
+  file.add_resolution(resolution.x, resolution.y);
+  add_data(file, compressed(differences_of(pixels, width, height)));
+  file.add("IEND", "");
+  return file.take();
+} catch (const std::bad_alloc&) {
+  throw Error(Code::memory, "not enough memory to encode an image; try fewer threads");
 }
 
 }  // namespace
@@ -98,16 +122,13 @@ std::string encode_png(uint32_t width, uint32_t height, const std::vector<uint8_
 }
 
 std::string encode_gray_png(uint32_t width, uint32_t height, const std::vector<uint16_t>& pixels,
-                            const DotsPerMetre& resolution) try {
-  ASSERT(!pixels.empty() && pixels.size() == size_t{width} * height);
-  PngChunks file;
-  file.add_header(width, height, PngColours::gray, 16);
-  file.add_resolution(resolution.x, resolution.y);
-  file.add("IDAT", compressed(differences_of(pixels, width, height)));
-  file.add("IEND", "");
-  return file.take();
-} catch (const std::bad_alloc&) {
-  throw Error(Code::memory, "not enough memory to encode an image; try fewer threads");
+                            const DotsPerMetre& resolution) {
+  return encode_differences(width, height, pixels, PngColours::gray, 16, resolution);
+}
+
+std::string encode_rgba_png(uint32_t width, uint32_t height, const std::vector<Rgba>& pixels,
+                            const DotsPerMetre& resolution) {
+  return encode_differences(width, height, pixels, PngColours::rgba, 8, resolution);
 }
 
 }  // namespace ombre::formats

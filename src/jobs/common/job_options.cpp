@@ -19,12 +19,7 @@ std::optional<PlanOptions> plan_options(const std::string& program, const Sampli
   options.image = images.format;
   options.place = sampling.place;
   options.whole_tray = sampling.tray;
-  if (images.by.empty()) return options;
-  if (images.format && images.format != ImageFormat::gray)
-    throw options::WrongValue("--format " + voxel::to_text(*images.format) + " holds materials; " +
-                              spelled::option("--by") + " makes gray images: leave " + spelled::option("--format") +
-                              " out");
-  options.value = ValueChoice{images.by, images.range, images.bits == "16" ? 16 : 8};
+  if (!images.by.empty()) options.value = ValueChoice{images.by, images.range, std::stoi(images.bits)};
   return options;
 }
 

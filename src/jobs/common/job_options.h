@@ -9,6 +9,7 @@
 #include "base/text/text.h"
 #include "jobs/common/plan_options.h"
 #include "jobs/common/sampling_rules.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::compile {
 
@@ -77,14 +78,16 @@ struct ImageOptions {
         choice("--format", &ImageOptions::format, voxel::image_format_names(),
                "Image format: " + words_text(voxel::image_format_names()) + " (default: the printer's)", "FORMAT"),
         option("--by,--gray,--grey", &ImageOptions::by, kind::text,
-               "Show an attribute or a material's fraction in shades of gray, black outside, instead of\n"
-               "materials",
+               "Show an attribute or a material's fraction instead of materials: a number in shades of gray,\n"
+               "black outside, or a colour as it is",
                "NAME"),
         option("--range", &ImageOptions::range, kind::range,
-               "Values of black and white (default: the range of the design)", "LO,HI")
+               "Values of black and white (default: the range of the design; of fractions and masks 0,1)", "LO,HI")
             .needs("--by"),
-        choice("--bits", &ImageOptions::bits, {"8", "16"},
-               "Bits of a gray pixel: 8 (default, 256 shades) or 16 (65,536)", "8|16")
+        choice("--bits", &ImageOptions::bits, voxel::number_bits(),
+               "Bits of a gray pixel: 8 (default, 256 shades), 16 (65,536), or 1 for a mask, white from the\n"
+               "middle of the range on",
+               "8|16|1")
             .needs("--by")};
     return spec;
   }

@@ -16,9 +16,9 @@ namespace ombre::compile {
 
 struct ValueChoice {
   std::string of;  // a material, for its fraction, or an attribute
-  std::optional<Interval>
-      range;     // black and white; nothing: the least and the greatest value inside, for a fraction 0 and 1
-  int bits = 8;  // bits of a pixel: 8 or 16
+  // Values of black and white; nothing: the least and the greatest value inside, for a fraction or a mask 0 and 1.
+  std::optional<Interval> range;
+  int bits = 8;  // bits of a number: 8, 16, or 1 for a mask
 };
 
 struct PlanOptions : SamplingRules {
@@ -37,7 +37,7 @@ struct PlanOptions : SamplingRules {
   // Memory that keeps values of stages that are computed as a whole, for other jobs; null: values are not kept. It must
   // outlive the plan.
   design::SubDesignMemory* memory = nullptr;
-  std::optional<ValueChoice> value;  // shows this value in shades of gray instead of materials
+  std::optional<ValueChoice> value;  // shows this value instead of materials
 };
 
 }  // namespace ombre::compile

@@ -38,7 +38,7 @@ TileProducer material_tiles(const RegionProducer& regions) {
     const auto made = regions(region, stop);
     for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
       for (int64_t j = region.lo[1]; j < region.hi[1]; ++j) {
-        const RunLayer& layer = made[static_cast<size_t>(k - region.lo[2])].runs;
+        const RunLayer& layer = made[static_cast<size_t>(k - region.lo[2])].materials();
         add_row(layer.row(static_cast<uint32_t>(j - region.lo[1])), {region.lo[0], j, k}, tiles);
       }
     return tiles;

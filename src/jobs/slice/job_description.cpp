@@ -5,6 +5,8 @@
 
 #include "base/text/json.h"
 #include "base/text/text.h"
+#include "jobs/slice/channel_counts.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::compile {
 namespace {
@@ -52,14 +54,6 @@ Data images(const SliceRequest& request) {
                      {"flip", flip}};
 }
 
-Data shades(const ShadeMeaning& meaning) {
-  return DataMembers{{"of", meaning.of},
-                     {"unit", meaning.unit},
-                     {"black", meaning.range.lo},
-                     {"white", meaning.range.hi},
-                     {"bits", static_cast<double>(meaning.bits)}};
-}
-
 // Describes the materials in the order of the palette of indexed images.
 Data materials(const SliceRequest& request) {
   DataList list{DataMembers{{"name", "void"}, {"id", 0.0}, {"rgba", colour(request.background)}}};
@@ -86,40 +80,34 @@ DataMembers describe_job(const SliceRequest& request) {
                   {"program", request.program},
                   {"design_hash", request.design_hash},
                   {"printer", request.printer},
-                  {"sampling", sampling(request)},
-                  {"materials", materials(request)},
-                  {"images", images(request)},
-                  {"checks", checks}};
-  if (request.shades) job.emplace_back("shades", shades(*request.shades));
+                  {"sampling", sampling(request)}};
+  if (request.has_materials()) job.emplace_back("materials", materials(request));
+  if (DataList others = describe_channels(request); !others.empty()) job.emplace_back("channels", std::move(others));
+  job.emplace_back("images", images(request));
+  job.emplace_back("checks", checks);
   return job;
 }
 
 Data describe_totals(const SliceRequest& request, const std::map<int64_t, LayerEntry>& layers) {
-  std::vector<uint64_t> voxels(request.materials.size());
+  VoxelCounts counts = no_counts(request);
   uint64_t files = 0, bytes = 0;
   const LayerEntry *lowest = nullptr, *highest = nullptr;
   for (const auto& [index, layer] : layers) {
-    for (size_t i = 0; i < voxels.size(); ++i) voxels[i] += layer.voxels[i];
+    counts.add(layer.counts);
     files += layer.files.size();
     for (const stores::StoredFile& file : layer.files) bytes += file.bytes;
-    if (layer.is_empty()) continue;
+    if (layer.counts.is_empty()) continue;
     if (!lowest) lowest = &layer;
     highest = &layer;
   }
-  const auto& pitch = request.lattice.pitch;
-  const double voxel_mm3 = pitch[0].mm() * pitch[1].mm() * pitch[2].mm();
-  DataList by_material;
-  for (size_t i = 0; i < voxels.size(); ++i)
-    by_material.emplace_back(DataMembers{{"name", request.materials[i].name},
-                                         {"voxels", number(voxels[i])},
-                                         {"volume_mm3", static_cast<double>(voxels[i]) * voxel_mm3}});
-  // The layers with material, counted from the lowest layer of the job. They give the offset of a stack that drops its
-  // empty layers.
+  // The layers that are not empty, counted from the lowest layer of the job. They give the offset of a stack that drops
+  // its empty layers.
   const Data occupied = lowest ? Data(DataList{number(lowest->layer), number(highest->layer)}) : Data();
-  return DataMembers{{"materials", by_material},
-                     {"first_and_last_layer", occupied},
-                     {"files", number(files)},
-                     {"bytes", number(bytes)}};
+  DataMembers totals = describe_counts(request, counts, voxel_mm3(request.lattice));
+  totals.emplace_back("first_and_last_layer", occupied);
+  totals.emplace_back("files", number(files));
+  totals.emplace_back("bytes", number(bytes));
+  return totals;
 }
 
 std::string first_difference(const DataMembers& there, const DataMembers& here) {

@@ -10,10 +10,11 @@
 #include "base/text/error.h"
 #include "base/text/json.h"
 #include "export/contact_sheet.h"
-#include "export/material_stack.h"
+#include "export/image_stack.h"
 #include "formats/containers/file.h"
 #include "jobs/slice/stored_slices.h"
 #include "stores/journal_folder.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::compile {
 namespace {
@@ -36,7 +37,7 @@ struct JobSummary {
   ImageFormat format = ImageFormat::indexed;
   std::vector<formats::Rgba> colours;  // colours of the materials, without void
   double origin_z_mm = 0, layer_mm = 0;
-  size_t check_count = 0;
+  LayerSizes sizes;
 };
 
 formats::Rgba read_colour(const Data& material, const std::string& path) {
@@ -54,30 +55,51 @@ ImageFormat format(const Data* images, const std::string& path) {
   return *format;
 }
 
+// Reads the materials, the first of which is void. Returns the colour of the background.
+formats::Rgba read_materials(const Data* materials, JobSummary& summary, const std::string& path) {
+  if (!materials) return {};
+  if (!materials->list() || materials->list()->empty())
+    throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
+  for (const Data& material : *materials->list()) summary.colours.push_back(read_colour(material, path));
+  const formats::Rgba background = summary.colours.front();
+  summary.colours.erase(summary.colours.begin());
+  summary.sizes.voxels += summary.colours.size();
+  return background;
+}
+
+void read_channels(const Data* channels, JobSummary& summary, const std::string& path) {
+  if (!channels || !channels->list()) return;
+  for (const Data& channel : *channels->list()) {
+    const Data* name = member(&channel, "type");
+    const auto type = name && name->string() ? voxel::channel_type(*name->string()) : std::nullopt;
+    if (!type) throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
+    ++summary.sizes.voxels;
+    summary.sizes.shades += voxel::channel_kind(*type).is_dose() ? 1 : 0;
+  }
+}
+
 JobSummary read_summary(const std::string& path) {
   Diagnostics ignored;
   const std::optional<Data> job = parse_json(make_source(path, formats::read_file(path)), ignored);
   const Data* sampling = member(job ? &*job : nullptr, "sampling");
   const std::vector<double> pitch = numbers(member(sampling, "pitch_mm"), path);
   const std::vector<double> origin = numbers(member(sampling, "origin_mm"), path);
-  const Data* materials = member(&*job, "materials");
   const Data* checks = member(&*job, "checks");
-  if (pitch.size() != 3 || origin.size() != 3 || !materials || !materials->list() || materials->list()->empty() ||
-      !checks || !checks->list())
+  if (pitch.size() != 3 || origin.size() != 3 || !checks || !checks->list())
     throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
 
   JobSummary summary;
   summary.style.pixel_width_mm = pitch[0];
   summary.style.pixel_height_mm = pitch[1];
   summary.format = format(member(&*job, "images"), path);
-  for (const Data& material : *materials->list()) summary.colours.push_back(read_colour(material, path));
-  const formats::Rgba background = summary.colours.front();
-  summary.colours.erase(summary.colours.begin());
+  const formats::Rgba background = read_materials(member(&*job, "materials"), summary, path);
+  read_channels(member(&*job, "channels"), summary, path);
+  if (summary.sizes.voxels == 0) throw Error(Code::file_kind, path + " is not a slice job", {{"file", path}});
   const bool is_mask = summary.format == ImageFormat::mask;
   summary.style.background = is_mask ? exporting::mask_off : exporting::shown(background, summary.format);
   summary.origin_z_mm = origin[2];
   summary.layer_mm = pitch[2];
-  summary.check_count = checks->list()->size();
+  summary.sizes.checks = checks->list()->size();
   return summary;
 }
 
@@ -101,8 +123,8 @@ std::string contact_sheet(const std::string& folder, int layer_count) {
   const JobSummary summary = read_summary((base / job_file).string());
   const std::string journal = formats::read_file((base / stores::journal_file).string());
   std::vector<exporting::SheetLayer> layers;
-  for (const LayerEntry& entry : parse_layers(journal, summary.colours.size(), summary.check_count))
-    if (!entry.is_empty() && !entry.files.empty()) layers.push_back(sheet_layer(entry, summary, base));
+  for (const LayerEntry& entry : parse_layers(journal, summary.sizes))
+    if (!entry.counts.is_empty() && !entry.files.empty()) layers.push_back(sheet_layer(entry, summary, base));
   if (layers.empty())
     throw Error(Code::file_content, folder + " has no layer with material to draw", {{"file", folder}});
   layers = evenly_spaced(layers, static_cast<size_t>(std::max(1, layer_count)));

@@ -68,7 +68,7 @@ LayerImages make_layer(const SliceRequest& request, const RegionProducer& region
   EncodedLayer& only = made.front();
   CheckSums checks(request);
   checks.add(only.entry.checks);
-  return {std::move(only.images), std::move(only.entry.voxels), checks.reports()};
+  return {std::move(only.images), std::move(only.entry.counts), checks.reports()};
 }
 
 }  // namespace ombre::compile

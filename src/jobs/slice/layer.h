@@ -30,8 +30,8 @@ struct LayerWindow {
 std::optional<LayerWindow> window_over(const voxel::Lattice& lattice, double x0, double y0, double x1, double y1);
 
 struct LayerImages {
-  std::vector<std::string> bytes;   // its PNG files: one, or one for each material
-  std::vector<uint64_t> voxels;     // count for each of the job's materials
+  std::vector<std::string> bytes;  // its PNG files: one, or one for each material
+  VoxelCounts counts;
   std::vector<CheckReport> checks;  // checks that failed
 };
 

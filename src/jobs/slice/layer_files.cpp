@@ -24,17 +24,19 @@ std::string file_word(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> material_names(const SliceRequest& request) {
+std::vector<std::string> shown_names(const SliceRequest& request) {
   std::vector<std::string> names;
   for (const SliceMaterial& material : request.materials) names.push_back(material.name);
+  for (const voxel::Channel& channel : request.channels)
+    if (channel.type != voxel::ChannelType::material) names.push_back(channel.name);
   return names;
 }
 
-std::vector<std::string> file_words(const std::vector<std::string>& materials) {
+std::vector<std::string> file_words(const std::vector<std::string>& shown) {
   std::vector<std::string> words;
   std::set<std::string> taken;  // in lower case, since some file systems ignore case
-  for (const std::string& material : materials) {
-    const std::string word = file_word(material);
+  for (const std::string& name : shown) {
+    const std::string word = file_word(name);
     std::string free = word;
     for (int n = 2; !taken.insert(to_lower(free)).second; ++n) free = word + "-" + std::to_string(n);
     words.push_back(free);
@@ -43,16 +45,16 @@ std::vector<std::string> file_words(const std::vector<std::string>& materials) {
 }
 
 LayerFiles::LayerFiles(const SliceRequest& request)
-    : LayerFiles(request.files, material_names(request), request.first_index, request.lattice.count[2]) {}
+    : LayerFiles(request.files, shown_names(request), request.first_index, request.lattice.count[2]) {}
 
-LayerFiles::LayerFiles(const voxel::NamePattern& files, const std::vector<std::string>& materials, int64_t first_index,
+LayerFiles::LayerFiles(const voxel::NamePattern& files, const std::vector<std::string>& shown, int64_t first_index,
                        int64_t layer_count)
     : first_index_(first_index), layer_count_(layer_count) {
   if (!files.has_material()) {
     patterns_ = {files};
     return;
   }
-  for (const std::string& word : file_words(materials)) patterns_.push_back(files.of_material(word));
+  for (const std::string& word : file_words(shown)) patterns_.push_back(files.of_material(word));
 }
 
 std::vector<std::string> LayerFiles::names(int64_t layer) const {

@@ -13,11 +13,11 @@ namespace ombre::compile {
 class LayerFiles {
  public:
   explicit LayerFiles(const SliceRequest& request);
-  // `materials` are the names of the job's materials, without void.
-  LayerFiles(const voxel::NamePattern& files, const std::vector<std::string>& materials, int64_t first_index,
+  // `shown` are the names of what has images: of the job's materials, without void, and of its other channels.
+  LayerFiles(const voxel::NamePattern& files, const std::vector<std::string>& shown, int64_t first_index,
              int64_t layer_count);
 
-  // Returns the names of one layer's files: one name, or one for each material, in their order.
+  // Returns the names of one layer's files: one name, or one for each of what is shown, in their order.
   std::vector<std::string> names(int64_t layer) const;
   // True if a file of some layer has this name.
   bool contains(std::string_view name) const;
@@ -27,10 +27,10 @@ class LayerFiles {
   int64_t first_index_ = 0, layer_count_ = 0;
 };
 
-// Returns the names of the job's materials, without void.
-std::vector<std::string> material_names(const SliceRequest& request);
+// Returns the names of the job's materials, without void, and of its other channels.
+std::vector<std::string> shown_names(const SliceRequest& request);
 
-// Returns the words that stand for materials in the names of files: letters, digits, '-' and '_', each word once.
-std::vector<std::string> file_words(const std::vector<std::string>& materials);
+// Returns the words that stand for these names in the names of files: letters, digits, '-' and '_', each word once.
+std::vector<std::string> file_words(const std::vector<std::string>& shown);
 
 }  // namespace ombre::compile

@@ -6,11 +6,12 @@
 
 #include "base/system/tasks.h"
 #include "base/text/text.h"
-#include "export/material_stack.h"
+#include "export/image_stack.h"
 #include "jobs/slice/seen_materials.h"
 #include "jobs/slice/value_layers.h"
 #include "questions/build.h"
 #include "questions/design_stages.h"
+#include "voxel/image_kinds.h"
 #include "voxel/layers.h"
 
 namespace ombre::compile {
@@ -162,9 +163,27 @@ void warn_of_grays(const SliceRequest& request, const SourceRange& where, Diagno
   }
 }
 
+// Returns whether the chosen images take the channel; if not, adds a diagnostic.
+bool images_take(const PlanOptions& options, const voxel::Channel& channel, const SourceRange& where,
+                 Diagnostics& diagnostics) {
+  if (!options.image || voxel::takes(*options.image, channel.type)) return true;
+  std::vector<std::string> taken;
+  for (const voxel::ChannelType type : voxel::image_kind(*options.image).takes)
+    taken.push_back(voxel::channel_kind(type).plural);
+  const std::vector<std::string> others = voxel::image_formats_of(channel.type);
+  diagnostics.error(Code::option, where,
+                    "images of the format \"" + voxel::to_text(*options.image) + "\" hold " + join(taken, " or ") +
+                        ", but the layers hold " + voxel::channel_kind(channel.type).plural + " of \"" + channel.name +
+                        '"',
+                    "write " + spelled::option("--format", join(others, " or ")) + ", or leave it out");
+  return false;
+}
+
 // Returns the part of the request that is the same for every job on the lattice.
-SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& lattice, const Hash& design_hash) {
+SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& lattice, const Hash& design_hash,
+                          const voxel::Channel& channel) {
   SliceRequest request;
+  request.channels = {channel};
   use_printer(request, options.printer, options.image);
   request.program = options.program;
   request.design_hash = design_hash.hex();
@@ -187,19 +206,15 @@ design::Design design_on(const design::Design& design, const voxel::Lattice& lat
   return with_stages(design::for_lattice(design, {lattice.origin, lattice.pitch}), loan);
 }
 
-std::optional<Plan> plan_shades(const LoadedPtr& loaded, PlanOptions options, const Box& box,
-                                const voxel::Lattice& lattice, Diagnostics& diagnostics) {
+std::optional<Plan> plan_value(const LoadedPtr& loaded, const PlanOptions& options, const Box& box,
+                               const voxel::Lattice& lattice, Diagnostics& diagnostics) {
   const design::Design design = design_on(loaded->design, lattice, options);
-  const auto meaning = shade_meaning(design, box, *options.value, diagnostics);
-  if (!meaning) return std::nullopt;
-  options.image = ImageFormat::gray;
+  const auto channel = value_channel(design, box, *options.value, diagnostics);
+  if (!channel || !images_take(options, *channel, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
   Plan plan;
   plan.stages = stages_of(design);
-  plan.request = base_request(options, lattice, design::hash(loaded->design));
-  plan.request.background = {0, 0, 0, 255};
-  plan.request.materials = value_shades();
-  plan.request.shades = *meaning;
-  auto regions = value_layers(design, lattice, *meaning, plan.request.evaluator, diagnostics);
+  plan.request = base_request(options, lattice, design::hash(loaded->design), *channel);
+  auto regions = value_layers(design, lattice, plan.request.channels, plan.request.evaluator, diagnostics);
   if (!regions) return std::nullopt;
   plan.regions = [loaded, regions = std::move(*regions)](const voxel::TileBox& region, const StopFlag* stop) {
     return regions(region, stop);
@@ -248,7 +263,9 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
   const auto lattice = LatticePlanner(*loaded, options, box, diagnostics).run();
   if (!lattice) return std::nullopt;
   warn_of_features(options.printer, box.size(), {loaded->source, 0, 0}, diagnostics);
-  if (options.value) return plan_shades(loaded, options, box, *lattice, diagnostics);
+  if (options.value) return plan_value(loaded, options, box, *lattice, diagnostics);
+  const voxel::Channel materials;
+  if (!images_take(options, materials, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
   const design::Design on_lattice = design_on(design, *lattice, options);
   Hash design_hash;
   std::optional<Built> built;
@@ -265,7 +282,7 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
 
   Plan plan;
   plan.stages = stages_of(on_lattice);
-  SliceRequest& request = plan.request = base_request(options, *lattice, design_hash);
+  SliceRequest& request = plan.request = base_request(options, *lattice, design_hash, materials);
   for (const MaterialId id : built->materials.materials) {
     if (id == 0) continue;
     const design::Material& material = design.materials.all()[id];

@@ -1,6 +1,8 @@
 // `ombre layer` writes one layer of a job, as slicing would write it.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "base/text/text.h"
@@ -12,6 +14,7 @@
 #include "jobs/common/overwrite.h"
 #include "jobs/common/remarks.h"
 #include "jobs/common/session.h"
+#include "jobs/slice/channel_counts.h"
 #include "jobs/slice/layer.h"
 #include "jobs/slice/layer_files.h"
 #include "jobs/slice/slice_choices.h"
@@ -58,7 +61,7 @@ std::optional<compile::LayerWindow> chosen_window(const LayerChoices& a, const v
 }
 
 // Returns the names of files: part.vcad and slice_00012.png give part_slice_00012.png. If each material has a file, -o
-// layer.png gives layer_red.png, layer_blue.png and so on.
+// layer.png gives layer_red.png, layer_blue.png and so on; other channels likewise.
 std::vector<std::string> output_files(const LayerChoices& a, const compile::SliceRequest& request, int64_t layer) {
   namespace fs = std::filesystem;
   std::vector<std::string> files;
@@ -70,7 +73,7 @@ std::vector<std::string> output_files(const LayerChoices& a, const compile::Slic
   if (!request.files.has_material()) return {a.output};
   if (a.output == "-") throw WrongArgument("each material has an image, and stdout holds one; give -o a file name");
   const fs::path path(a.output);
-  for (const std::string& word : compile::file_words(compile::material_names(request)))
+  for (const std::string& word : compile::file_words(compile::shown_names(request)))
     files.push_back((path.parent_path() / (path.stem().string() + "_" + word + path.extension().string())).string());
   return files;
 }
@@ -82,19 +85,14 @@ void tell_layer(const Events& events, const compile::SliceRequest& request, int6
   };
   events.say("layer " + std::to_string(layer) + ", " + mm_text(face(layer)) + " to " + mm_text(face(layer + 1)) +
              " mm, written to " + join(files, ", "));
-  DataList materials, names;
-  for (size_t i = 0; i < request.materials.size(); ++i) {
-    if (!request.shades)
-      events.say("  " + request.materials[i].name + ": " + format_count(images.voxels[i]) + " voxels" +
-                 (is_part ? " in the box" : ""));
-    materials.emplace_back(
-        DataMembers{{"name", request.materials[i].name}, {"voxels", static_cast<double>(images.voxels[i])}});
-  }
+  for (const std::string& text : compile::count_texts(request, images.counts, std::nullopt))
+    events.say("  " + text + (is_part ? " in the box" : ""));
+  DataList names;
   for (const std::string& file : files) names.emplace_back(file);
-  events.event("done", {{"files", names},
-                        {"layer", static_cast<double>(layer)},
-                        {"z_mm", DataList{face(layer), face(layer + 1)}},
-                        {"materials", materials}});
+  DataMembers members{
+      {"files", names}, {"layer", static_cast<double>(layer)}, {"z_mm", DataList{face(layer), face(layer + 1)}}};
+  std::ranges::move(compile::describe_counts(request, images.counts, std::nullopt), std::back_inserter(members));
+  events.event("done", members);
 }
 
 // The layer, the window in it, and its files.
@@ -144,7 +142,8 @@ std::optional<LayerPlan> plan_job(const LayerChoices& a, const compile::PlanOpti
 // True if the names are known before the plan. Default names, and those of a file for each material, are not.
 bool has_known_name(const LayerChoices& a, const compile::PlanOptions& options) {
   compile::SliceRequest images;
-  compile::use_printer(images, options.printer, options.value ? ImageFormat::gray : options.image);
+  if (options.value) images.channels.clear();  // no materials, which may have a file each
+  compile::use_printer(images, options.printer, options.image);
   return !a.output.empty() && !images.files.has_material();
 }
 

@@ -20,10 +20,14 @@ class MaterialSurvey {
   }
 
   void add(const std::vector<voxel::LayerResult>& layers) {
-    const std::scoped_lock lock(mutex_);
+    std::set<MaterialId> found;
     for (const voxel::LayerResult& layer : layers)
-      for (const SliceMaterial& material : request_.materials)
-        if (layer.material_counts[material.id] > 0) seen_.insert(material.id);
+      find_materials(layer.materials(), [&](MaterialId id) {
+        if (id != 0) found.insert(id);
+        return true;
+      });
+    const std::scoped_lock lock(mutex_);
+    seen_.merge(found);
     ++slabs_done_;
   }
 

@@ -8,6 +8,7 @@
 #include "base/system/stopwatch.h"
 #include "base/system/tasks.h"
 #include "base/text/error.h"
+#include "jobs/slice/channel_counts.h"
 #include "jobs/slice/forecast.h"
 #include "jobs/slice/slice_work.h"
 #include "jobs/slice/stored_slices.h"
@@ -163,14 +164,14 @@ class SliceRun {
   void finish_report() {
     report_.layers = layers_;
     report_.stopped_by_check = failed_check_;
-    report_.material_voxels.resize(request_.materials.size());
+    report_.counts = no_counts(request_);
     CheckSums checks(request_);
     for (const auto& [layer, entry] : slices_.layers(store_.finished())) {
       if (layer < layers_.begin || layer >= layers_.end) continue;
-      for (size_t i = 0; i < entry.voxels.size(); ++i) report_.material_voxels[i] += entry.voxels[i];
+      report_.counts.add(entry.counts);
       checks.add(entry.checks);
     }
-    for (const uint64_t voxels : report_.material_voxels) report_.voxels_inside += voxels;
+    for (const uint64_t voxels : report_.counts.voxels) report_.voxels_inside += voxels;
     report_.checks = checks.reports();
   }
 
@@ -186,7 +187,7 @@ class SliceRun {
   const std::vector<LayerRange> slabs_;  // slabs that are missing
   Forecast forecast_;
   VoxelProgress progress_;
-  const exporting::MaterialStack stack_ = image_stack(request_);
+  const exporting::ImageStack stack_ = image_stack(request_);
   SliceReport report_;
   bool skipped_ = false;
   std::atomic<bool> failed_check_{false};

@@ -9,6 +9,7 @@
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "jobs/slice/forecast.h"
+#include "jobs/slice/layer_files.h"
 #include "jobs/slice/slice.h"
 #include "jobs/slice/slice_work.h"
 
@@ -22,7 +23,7 @@ constexpr double most_seconds = 2, deadline_seconds = 4;
 constexpr double seconds_for_a_file = 50e-6, seconds_for_a_byte = 1 / 1.5e9;
 
 double guess_writing_seconds(const SliceRequest& request, LayerRange range, double bytes) {
-  const double files = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
+  const auto files = static_cast<double>(LayerFiles(request).names(0).size());
   return static_cast<double>(range.end - range.begin) * files * seconds_for_a_file + bytes * seconds_for_a_byte;
 }
 
@@ -39,12 +40,12 @@ struct Sample {
 };
 
 // Returns about the bytes that a layer's files take beside its rows.
-double bytes_without_rows(const SliceRequest& request, const exporting::MaterialStack& stack) {
-  RunLayer row(static_cast<uint32_t>(request.lattice.count[0]));
-  row.append_uniform_row(0);
-  if (request.shades && request.shades->bits == 16) return static_cast<double>(stack.encode_shades(row, row).size());
+double bytes_without_rows(const SliceRequest& request, const exporting::ImageStack& stack) {
+  std::vector<voxel::ChannelPixels> row;
+  for (const voxel::Channel& channel : request.channels)
+    row.push_back(voxel::blank_pixels(channel.type, static_cast<uint32_t>(request.lattice.count[0]), 1));
   double bytes = 0;
-  for (const std::string& image : stack.encode(row)) bytes += static_cast<double>(image.size());
+  for (const std::string& image : encode_layer(request, row, stack)) bytes += static_cast<double>(image.size());
   return bytes;
 }
 
@@ -77,7 +78,7 @@ class PieceMaker {
  private:
   const SliceRequest& request_;
   const RegionProducer& regions_;
-  const exporting::MaterialStack stack_ = image_stack(request_);
+  const exporting::ImageStack stack_ = image_stack(request_);
   const double fixed_bytes_;
 };
 

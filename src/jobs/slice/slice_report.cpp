@@ -1,6 +1,8 @@
 // Reports of `ombre slice` before, instead of and after its work.
 #include "jobs/slice/slice_report.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/text/text.h"
@@ -8,6 +10,8 @@
 #include "jobs/common/pace.h"
 #include "jobs/common/remarks.h"
 #include "jobs/common/session.h"
+#include "jobs/slice/channel_counts.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::jobs {
 namespace {
@@ -18,16 +22,46 @@ std::string counted(int64_t count, const std::string& noun) {
 
 std::string place_text(Vec3 p) { return '(' + mm_text(p.x) + ", " + mm_text(p.y) + ", " + mm_text(p.z) + ')'; }
 
-double voxel_mm3(const compile::SliceRequest& request) {
-  const auto& pitch = request.lattice.pitch;
-  return pitch[0].mm() * pitch[1].mm() * pitch[2].mm();
+// Returns a text such as "doses of 8 bits: density from 0.2 (black) to 1.1 (white) g/cm3".
+std::string channel_text(const voxel::Channel& channel) {
+  const voxel::ChannelKind& kind = voxel::channel_kind(channel.type);
+  const auto& [lo, hi] = channel.range;
+  std::string text = kind.plural + ": " + channel.name;
+  if (kind.last_shade == 0) return text;
+  if (kind.is_dose())
+    text += " from " + format_rounded(lo, 4) + " (black) to " + format_rounded(hi, 4) + " (white)";
+  else
+    text += ", white from " + format_rounded((lo + hi) / 2, 4);
+  return text + (channel.unit.empty() ? "" : " " + channel.unit);
 }
 
-// Returns a text such as "shades: density from 0.2 (black) to 1.1 (white) g/cm3".
-std::string shades_text(const compile::ShadeMeaning& shades) {
-  return "shades: " + shades.of + " from " + format_rounded(shades.range.lo, 4) + " (black) to " +
-         format_rounded(shades.range.hi, 4) + " (white)" + (shades.unit.empty() ? "" : " " + shades.unit);
+// Returns what the layers show, such as "materials: red, blue".
+std::string shown_text(const compile::SliceRequest& request) {
+  std::vector<std::string> names, texts;
+  for (const compile::SliceMaterial& material : request.materials) names.push_back(material.name);
+  for (const voxel::Channel& channel : request.channels)
+    texts.push_back(channel.type == voxel::ChannelType::material ? "materials: " + join(names, ", ")
+                                                                 : channel_text(channel));
+  return join(texts, "; ");
 }
+
+// Returns the members that name what the layers show.
+DataMembers shown_members(const compile::SliceRequest& request) {
+  DataList materials, channels = compile::describe_channels(request);
+  for (const compile::SliceMaterial& material : request.materials) materials.emplace_back(material.name);
+  DataMembers members;
+  if (request.has_materials()) members.emplace_back("materials", std::move(materials));
+  if (!channels.empty()) members.emplace_back("channels", std::move(channels));
+  return members;
+}
+
+// Returns why all layers are empty.
+std::string emptiness_text(const compile::SliceRequest& request) {
+  if (request.has_materials()) return "no voxel's centre is inside the design";
+  return "no voxel's centre is inside the design, or all values there are 0 in the images";
+}
+
+void append(DataMembers& members, DataMembers more) { std::ranges::move(more, std::back_inserter(members)); }
 
 }  // namespace
 
@@ -35,27 +69,21 @@ void tell_plan(const Events& events, const compile::SliceRequest& request, const
   const auto& [nx, ny, nz] = request.lattice.count;
   const auto& pitch = request.lattice.pitch;
   const Vec3 size = request.lattice.box().size();
-  std::vector<std::string> names;
-  DataList material_names;
-  for (const compile::SliceMaterial& material : request.materials) {
-    if (!request.shades) names.push_back(material.name);
-    material_names.emplace_back(material.name);
-  }
-  const std::string shown = request.shades ? shades_text(*request.shades) : "materials: " + join(names, ", ");
   events.say("box " + format_rounded(size.x, 6) + " x " + format_rounded(size.y, 6) + " x " +
              format_rounded(size.z, 6) + " mm, voxels " + format_rounded(pitch[0].mm()) + " x " +
              format_rounded(pitch[1].mm()) + " x " + format_rounded(pitch[2].mm()) + " mm");
   events.say(counted(nz, "layer") + " of " + std::to_string(nx) + " x " + std::to_string(ny) + ", " +
-             format_count(request.lattice.voxels()) + " voxels; " + shown);
+             format_count(request.lattice.voxels()) + " voxels; " + shown_text(request));
   if (options.layers)
     events.say("layers " + std::to_string(options.layers->begin) + ':' + std::to_string(options.layers->end) +
                " of these");
-  events.event("plan", {{"folder", options.folder},
-                        {"printer", request.printer},
-                        {"voxels", DataList{number(nx), number(ny), number(nz)}},
-                        {"pitch_mm", DataList{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}},
-                        {"size_mm", DataList{size.x, size.y, size.z}},
-                        {"materials", material_names}});
+  DataMembers members{{"folder", options.folder},
+                      {"printer", request.printer},
+                      {"voxels", DataList{number(nx), number(ny), number(nz)}},
+                      {"pitch_mm", DataList{pitch[0].mm(), pitch[1].mm(), pitch[2].mm()}},
+                      {"size_mm", DataList{size.x, size.y, size.z}}};
+  append(members, shown_members(request));
+  events.event("plan", members);
 }
 
 void tell_estimate(const Events& events, const compile::SliceRequest& request, const compile::SliceEstimate& estimate) {
@@ -85,30 +113,21 @@ void tell_report(const Events& events, const compile::SliceRequest& request, con
   if (report.seconds > 0 && voxels > 0) text += ", " + rate_text(voxels / report.seconds);
   events.say(text);
 
-  DataList materials;
-  for (size_t i = 0; i < request.materials.size(); ++i) {
-    const uint64_t count = report.material_voxels[i];
-    const double volume = static_cast<double>(count) * voxel_mm3(request);
-    if (!request.shades)
-      events.say("  " + request.materials[i].name + ": " + format_count(count) + " voxels, " + format_rounded(volume) +
-                 " mm3");
-    materials.emplace_back(
-        DataMembers{{"name", request.materials[i].name}, {"voxels", number(count)}, {"volume_mm3", volume}});
-  }
+  const double voxel_mm3 = compile::voxel_mm3(request.lattice);
+  for (const std::string& counted : compile::count_texts(request, report.counts, voxel_mm3)) events.say("  " + counted);
   const bool has_all_layers = report.layers.begin == 0 && report.layers.end == request.lattice.count[2];
-  if (has_all_layers && report.voxels_inside == 0)
-    events.warn("no voxel's centre is inside the design: all layers are empty");
+  if (has_all_layers && report.voxels_inside == 0) events.warn(emptiness_text(request) + ": all layers are empty");
   if (!report.whole_job_finished && !report.stopped_by_check)
     events.say("other layers of the job are missing; --resume writes them");
-  events.event("done", {{"folder", options.folder},
-                        {"complete", report.whole_job_finished},
-                        {"layers_written", number(report.layers_written)},
-                        {"layers_kept", number(report.layers_kept)},
-                        {"layers_dropped", number(report.layers_dropped)},
-                        {"voxels_inside", number(report.voxels_inside)},
-                        {"materials", materials},
-                        {"bytes_written", number(report.bytes_written)},
-                        {"seconds", report.seconds}});
+  DataMembers members{{"folder", options.folder},
+                      {"complete", report.whole_job_finished},
+                      {"layers_written", number(report.layers_written)},
+                      {"layers_kept", number(report.layers_kept)},
+                      {"layers_dropped", number(report.layers_dropped)},
+                      {"voxels_inside", number(report.voxels_inside)}};
+  append(members, compile::describe_counts(request, report.counts, voxel_mm3));
+  append(members, {{"bytes_written", number(report.bytes_written)}, {"seconds", report.seconds}});
+  events.event("done", members);
 }
 
 void tell_checks(const Events& events, const std::vector<compile::CheckReport>& checks) {

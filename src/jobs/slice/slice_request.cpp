@@ -4,6 +4,7 @@
 
 #include "base/text/text.h"
 #include "jobs/slice/slice_request.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::compile {
 namespace {
@@ -21,11 +22,18 @@ int64_t position(int64_t number, int64_t count) {
 
 }  // namespace
 
+bool Sampling::has_materials() const {
+  return !channels.empty() && channels.front().type == voxel::ChannelType::material;
+}
+
 void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<ImageFormat> image) {
   request.printer = printer.name;
   static_cast<voxel::Images&>(request) = printer;
   if (image) request.format = *image;
-  if (request.format == ImageFormat::mask) request.files = request.files.with_material();
+  for (const voxel::Channel& channel : request.channels)
+    request.format = voxel::format_for(channel.type, request.format);
+  const bool has_masks = request.format == ImageFormat::mask && request.has_materials();
+  if (has_masks || request.channels.size() > 1) request.files = request.files.with_material();
 }
 
 LayerProducer whole_layers(RegionProducer regions, const voxel::Lattice& lattice) {

@@ -9,12 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "base/math/interval.h"
 #include "base/system/progress.h"
 #include "formats/images/png.h"
 #include "jobs/common/sampling_rules.h"
+#include "jobs/slice/layer_entry.h"
 #include "stages/job_stages.h"
 #include "stores/folder_use.h"
+#include "voxel/channel.h"
 #include "voxel/lattice.h"
 #include "voxel/layers.h"
 #include "voxel/printer.h"
@@ -27,13 +28,6 @@ struct SliceMaterial {
   formats::Rgba rgba{};
 };
 
-// The meaning of shades of gray: black is at most range.lo, or outside; white is at least range.hi.
-struct ShadeMeaning {
-  std::string of, unit;  // a material, for its fraction, or an attribute with its unit
-  Interval range;
-  int bits = 8;  // bits of a pixel: 8 or 16
-};
-
 // The place of a box of voxels in a larger job.
 struct PartOfJob {
   std::array<int64_t, 3> first{}, count{};  // the least voxel, and the voxels of the whole
@@ -44,11 +38,14 @@ struct Sampling : SamplingRules {
   std::string program;      // "ombre 0.1.0"
   std::string design_hash;  // hex
   voxel::Lattice lattice;
-  std::optional<PartOfJob> part;          // set if the lattice is a part of another
+  std::optional<PartOfJob> part;  // set if the lattice is a part of another
+  std::vector<voxel::Channel> channels = {
+      voxel::Channel{}};                  // channels of the layers; the first one is of materials if any is
   std::vector<SliceMaterial> materials;   // materials in use, by ascending id, without void
-  std::optional<ShadeMeaning> shades;     // set if voxels show a value; then materials are its shades
   std::vector<std::string> check_texts;   // one for each check of the program: a text for people about the failure
   std::vector<std::string> check_places;  // places of the checks in the design, "part.vcad:3:1"; they decide no bytes
+
+  bool has_materials() const;
 };
 
 // Everything that decides the bytes of a job.
@@ -56,8 +53,8 @@ struct SliceRequest : Sampling, voxel::Images {
   std::string printer;  // name of the profile
 };
 
-// Applies the conventions of a profile; `image` overrides its image format. Masks always have one file for each
-// material.
+// Applies the conventions of a profile; `image` overrides its image format. If the channels have images of another
+// format only, it is the first of those. Masks always have one file for each material.
 void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<ImageFormat> image);
 
 // Layers [begin, end) of the whole job.
@@ -103,12 +100,12 @@ struct CheckReport {
 
 struct SliceReport {
   LayerRange layers;
-  int64_t layers_written = 0;             // in this run
-  int64_t layers_kept = 0;                // finished by an earlier run
-  int64_t layers_dropped = 0;             // empty ones that the printer does not want
-  uint64_t voxels_inside = 0;             // in `layers`, as are the counts below
-  std::vector<uint64_t> material_voxels;  // in the order of the request's materials
-  std::vector<CheckReport> checks;        // checks that failed somewhere
+  int64_t layers_written = 0;  // in this run
+  int64_t layers_kept = 0;     // finished by an earlier run
+  int64_t layers_dropped = 0;  // empty ones that the printer does not want
+  uint64_t voxels_inside = 0;  // in `layers`, as are the counts below
+  VoxelCounts counts;
+  std::vector<CheckReport> checks;  // checks that failed somewhere
   uint64_t bytes_written = 0;
   double seconds = 0;
   bool whole_job_finished = false;

@@ -3,22 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/system/assert.h"
 #include "base/system/tasks.h"
+#include "jobs/slice/channel_counts.h"
+#include "jobs/slice/value_layers.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::compile {
 namespace {
 
 constexpr int64_t most_slab_layers = 8;  // slabs of this height stay in a second-level cache of common size
 
-// Returns the most bits that a pixel takes in a file, if layers are noise.
-double pixel_bits(const SliceRequest& request) {
-  if (request.format == ImageFormat::mask) return 1;
+// Returns the most bits that a voxel takes in the images of a channel, if layers are noise.
+double image_bits(const SliceRequest& request, const voxel::Channel& channel) {
+  if (channel.type != voxel::ChannelType::material) return voxel::channel_kind(channel.type).bits;
+  const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
   const double information = std::log2(static_cast<double>(request.materials.size() + 1));
-  // Each pixel has four bytes, which are coded one by one if no match is found.
-  if (request.format == ImageFormat::rgba) return std::min(32.0, 4 * information);
-  return std::min(8.0, information + 0.5);
+  return images * voxel::image_kind(request.format).noise_bits(information);
 }
 
 // Memory of layers from evaluation to encoding.
@@ -27,22 +30,33 @@ class LayerMemory {
   explicit LayerMemory(const SliceRequest& request) : request_(request) {
     const auto& count = request.lattice.count;
     const double voxels = static_cast<double>(count[0]) * static_cast<double>(count[1]);
-    const double images = request.files.has_material() ? static_cast<double>(request.materials.size()) : 1;
-    runs_ = voxels;  // at most a byte for each voxel
-    images_ = images * voxels * pixel_bits(request) / 8;
+    for (const voxel::Channel& channel : request.channels) {
+      const double pixels = voxels * std::max(1, voxel::channel_kind(channel.type).bits / 8);
+      pixels_ += pixels;
+      images_ += voxels * image_bits(request, channel) / 8;
+      // Runs are encoded as they are, or from a copy; other pixels are turned, and then written as differences.
+      copies_ = std::max(copies_, pixels > voxels ? 2 * pixels : pixels);
+    }
   }
 
-  // Returns the memory while layers are made. Runs are freed as images are made. The image that is being made is copied
-  // as it grows, and some formats need a copy of its runs.
+  // Returns the memory while layers are made. Pixels are freed as images are made. The image that is being made is
+  // copied as it grows.
   double being_made(int64_t layers) const {
-    const auto evaluation = voxel::working_bytes(request_.lattice, layers, request_.dither, request_.materials.size());
-    return static_cast<double>(layers) * std::max(runs_, images_) + runs_ + images_ + static_cast<double>(evaluation);
+    return static_cast<double>(layers) * std::max(pixels_, images_) + copies_ + images_ + evaluation(layers);
   }
   double waiting(int64_t layers) const { return static_cast<double>(layers) * images_; }
 
  private:
+  double evaluation(int64_t layers) const {
+    const voxel::Lattice& lattice = request_.lattice;
+    size_t bytes = value_working_bytes(request_.channels, lattice, layers);
+    if (request_.has_materials())
+      bytes += voxel::working_bytes(lattice, layers, request_.dither, request_.materials.size());
+    return static_cast<double>(bytes);
+  }
+
   const SliceRequest& request_;
-  double runs_, images_;
+  double pixels_ = 0, images_ = 0, copies_ = 0;
 };
 
 }  // namespace
@@ -120,29 +134,35 @@ uint64_t EncodedLayer::bytes() const {
   return sum;
 }
 
-exporting::MaterialStack image_stack(const SliceRequest& request) {
-  exporting::MaterialStack stack{request, {}, request.lattice.pitch[0], request.lattice.pitch[1]};
+exporting::ImageStack image_stack(const SliceRequest& request) {
+  exporting::ImageStack stack{request, {}, request.lattice.pitch[0], request.lattice.pitch[1]};
   for (const SliceMaterial& material : request.materials) stack.materials.push_back({material.id, material.rgba});
   return stack;
 }
 
+std::vector<std::string> encode_layer(const SliceRequest& request, const std::vector<voxel::ChannelPixels>& channels,
+                                      const exporting::ImageStack& stack) {
+  std::vector<std::string> images;
+  for (size_t i = 0; i < request.channels.size(); ++i)
+    std::ranges::move(stack.encode(channels[i], request.channels[i].type), std::back_inserter(images));
+  return images;
+}
+
 std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
-                                    const exporting::MaterialStack& stack, LayerRange slab, const StopFlag* stop) {
+                                    const exporting::ImageStack& stack, LayerRange slab, const StopFlag* stop) {
   std::vector<voxel::LayerResult> layers = producer(slab.begin, slab.end, stop);
   ASSERT(static_cast<int64_t>(layers.size()) == slab.end - slab.begin);
   std::vector<EncodedLayer> encoded;
   for (size_t i = 0; i < layers.size() && !(stop && stop->requested()); ++i) {
-    // The layer's runs are freed when it is encoded.
+    // The layer's pixels are freed when it is encoded.
     const voxel::LayerResult layer = std::move(layers[i]);
     EncodedLayer result;
     result.entry.layer = slab.begin + static_cast<int64_t>(i);
-    for (const SliceMaterial& material : request.materials)
-      result.entry.voxels.push_back(layer.material_counts[material.id]);
+    result.entry.counts = count_voxels(request, layer);
     result.entry.checks = layer.checks;
     result.entry.checks.resize(request.check_texts.size());
-    if (!request.drop_empty_layers || !result.entry.is_empty())
-      result.images = layer.lower_bytes ? std::vector{stack.encode_shades(layer.runs, *layer.lower_bytes)}
-                                        : stack.encode(layer.runs);
+    if (!request.drop_empty_layers || !result.entry.counts.is_empty())
+      result.images = encode_layer(request, layer.channels, stack);
     encoded.push_back(std::move(result));
   }
   return encoded;

@@ -1,10 +1,10 @@
-// Cuts a slice job into slabs, and makes the bytes of a layer's files from its runs.
+// Cuts a slice job into slabs, and makes the bytes of a layer's files from its channels.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "export/material_stack.h"
+#include "export/image_stack.h"
 #include "jobs/slice/layer_entry.h"
 #include "jobs/slice/slice_request.h"
 
@@ -40,12 +40,16 @@ struct EncodedLayer {
   uint64_t bytes() const;
 };
 
-exporting::MaterialStack image_stack(const SliceRequest& request);
+exporting::ImageStack image_stack(const SliceRequest& request);
+
+// Returns the images of a layer's channels, one channel after the other.
+std::vector<std::string> encode_layer(const SliceRequest& request, const std::vector<voxel::ChannelPixels>& channels,
+                                      const exporting::ImageStack& stack);
 
 // Evaluates and encodes the layers of one slab. When asked to stop it throws Cancelled, or returns the layers that are
 // encoded. Called from several threads.
 std::vector<EncodedLayer> make_slab(const SliceRequest& request, const LayerProducer& producer,
-                                    const exporting::MaterialStack& stack, LayerRange slab,
+                                    const exporting::ImageStack& stack, LayerRange slab,
                                     const StopFlag* stop = nullptr);
 
 // Sums, for each of the request's checks, the voxels in which it failed, with the lowest one. Layers must come in

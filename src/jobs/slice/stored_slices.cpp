@@ -7,21 +7,29 @@
 #include "base/system/assert.h"
 #include "base/text/error.h"
 #include "base/text/json.h"
+#include "jobs/slice/channel_counts.h"
 #include "jobs/slice/job_description.h"
 
 namespace ombre::compile {
 namespace {
 
-// Returns the names of the job's materials, without void.
-std::optional<std::vector<std::string>> material_names(const Data* materials) {
-  if (!materials || !materials->list() || materials->list()->empty()) return std::nullopt;
-  std::vector<std::string> names;
-  for (const Data& material : *materials->list()) {
-    const Data* name = material.find("name");
-    if (!name || !name->string()) return std::nullopt;
+// Adds the names of a list's elements from `first` on. Returns false if the data is none.
+bool add_names(const Data* elements, size_t first, std::vector<std::string>& names) {
+  if (!elements) return true;
+  if (!elements->list() || elements->list()->size() < first) return false;
+  for (size_t n = first; n < elements->list()->size(); ++n) {
+    const Data* name = (*elements->list())[n].find("name");
+    if (!name || !name->string()) return false;
     names.push_back(*name->string());
   }
-  names.erase(names.begin());
+  return true;
+}
+
+// Returns the names of the job's materials, without void, and of its other channels.
+std::optional<std::vector<std::string>> shown_names(const Data& job) {
+  std::vector<std::string> names;
+  if (!add_names(job.find("materials"), 1, names) || !add_names(job.find("channels"), 0, names) || names.empty())
+    return std::nullopt;
   return names;
 }
 
@@ -36,11 +44,14 @@ std::optional<LayerFiles> layer_files(const Data& job) {
   if (!voxels || !voxels->list() || voxels->list()->size() != 3 || !voxels->list()->back().number())
     return std::nullopt;
   const auto pattern = voxel::NamePattern::parse(*files->string());
-  const auto materials = material_names(job.find("materials"));
+  const auto names = shown_names(job);
   const double first_index = *first->number(), count = *voxels->list()->back().number();
-  if (!pattern || !materials || std::abs(first_index) > 1e9 || !(count >= 0 && count < 1e9)) return std::nullopt;
-  return LayerFiles(*pattern, *materials, static_cast<int64_t>(first_index), static_cast<int64_t>(count));
+  if (!pattern || !names || std::abs(first_index) > 1e9 || !(count >= 0 && count < 1e9)) return std::nullopt;
+  return LayerFiles(*pattern, *names, static_cast<int64_t>(first_index), static_cast<int64_t>(count));
 }
+
+// A member of job.json that only earlier versions wrote, in jobs of values.
+constexpr const char* old_member = "shades";
 
 }  // namespace
 
@@ -76,6 +87,12 @@ bool StoredSlices::is_complete(const stores::Entries& finished) const {
 }
 
 void StoredSlices::check_same(const std::string& folder, const DataMembers& there) const {
+  if (Data(there).find(old_member))
+    throw Error(Code::other_job,
+                folder + " holds shades of gray by an earlier version of Ombre, which counted them as materials, so " +
+                    "this one cannot go on; replace it with " + spelled::option("--force") +
+                    ", or choose another folder",
+                {{"file", folder}});
   DataMembers job = there;
   std::erase_if(job, [](const auto& member) { return member.first == "status" || member.first == "totals"; });
   if (const std::string difference = first_difference(job, describe_job(request_)); !difference.empty())
@@ -88,7 +105,7 @@ void StoredSlices::check_same(const std::string& folder, const DataMembers& ther
 bool StoredSlices::accepts(const stores::Entry& entry) const {
   const std::optional<LayerEntry> layer = layer_of(entry);
   if (!layer || layer->layer >= request_.lattice.count[2]) return false;
-  if (layer->files.empty() && layer->is_empty() && request_.drop_empty_layers) return true;
+  if (layer->files.empty() && layer->counts.is_empty() && request_.drop_empty_layers) return true;
   const std::vector<std::string> names = files_.names(layer->layer);
   const auto is_named = [](const stores::StoredFile& file, const std::string& name) { return file.name == name; };
   return std::equal(layer->files.begin(), layer->files.end(), names.begin(), names.end(), is_named);
@@ -106,7 +123,7 @@ std::optional<stores::NameTest> StoredSlices::files_of(const Data& description) 
 }
 
 std::optional<LayerEntry> StoredSlices::layer_of(const stores::Entry& entry) const {
-  return compile::layer_of(entry, request_.materials.size(), request_.check_texts.size());
+  return compile::layer_of(entry, layer_sizes(request_));
 }
 
 }  // namespace ombre::compile

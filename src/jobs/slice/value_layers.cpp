@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/text/error.h"
+#include "design/attributes.h"
 #include "questions/question.h"
 #include "questions/region_survey.h"
 #include "voxel/fields.h"
@@ -14,119 +15,197 @@ namespace ombre::compile {
 namespace {
 
 using program::Field;
+using voxel::Channel;
+using voxel::ChannelPixels;
+using voxel::ChannelType;
+using voxel::Colour;
 using voxel::FieldTile;
 using voxel::LayerResult;
+using voxel::Raster;
 using voxel::TileBox;
 
 constexpr int64_t strip_rows = 64;  // rows that are evaluated at once
 
-// Returns the shade; it is black outside, and where the value is no number.
-Field shade_of(Question& question, Field value, const ShadeMeaning& meaning) {
-  program::Builder& builder = question.builder();
-  const Interval& range = meaning.range;
-  const double width = range.hi > range.lo ? range.hi - range.lo : 1, last = meaning.bits == 16 ? 65535 : 255;
-  const Field share = min(max((value - range.lo) * (1 / width), 0.0), builder.constant(1));
-  return select(logical_and(question.inside(), is_finite(value)), share * last, builder.constant(0));
+// Returns whether the design declares a colour of that name. Materials come first.
+bool is_colour(const design::Design& design, const std::string& name) {
+  if (design.materials.find(name)) return false;
+  return std::ranges::any_of(declared_attributes(design), [&](const design::AttributeDeclaration& attribute) {
+    return attribute.name == name && attribute.type == design::ValueType::colour;
+  });
 }
 
-// The shades of a strip of rows through some layers.
+// Returns the number of numbers that a voxel of the channel has.
+size_t numbers_of(const Channel& channel) { return channel.type == ChannelType::colour ? Colour().size() : 1; }
+
+// Returns the place of a number in a range as one of the whole numbers from 0 to `last`, before it is rounded; 0
+// outside and where the number is undefined.
+Field place_in(const Interval& range, int last, Field number, Question& question) {
+  program::Builder& builder = question.builder();
+  const double width = range.hi > range.lo ? range.hi - range.lo : 1;
+  const Field share = min(max((number - range.lo) * (1 / width), 0.0), builder.constant(1));
+  return select(logical_and(question.inside(), is_finite(number)), share * last, builder.constant(0));
+}
+
+// Adds the outputs of a channel. Returns false, and adds a diagnostic, when the design has no such value.
+bool add_outputs(const Channel& channel, Question& question, program::Outputs& outputs, Diagnostics& diagnostics) {
+  const bool is_colour = channel.type == ChannelType::colour;
+  const int last = is_colour ? 255 : voxel::channel_kind(channel.type).last_shade;
+  for (const std::string& name :
+       is_colour ? attribute_parts(question.design(), channel.name) : std::vector{channel.name}) {
+    const auto number = question.value(name, diagnostics);
+    if (!number) return false;
+    outputs.emplace_back(name, place_in(channel.range, last, *number, question));
+  }
+  return true;
+}
+
+// The numbers of a strip of rows through some layers, output after output.
 class Strip {
  public:
-  explicit Strip(const TileBox& box) : box_(box), shades_(static_cast<size_t>(box.voxels())) {}
+  Strip(const TileBox& box, size_t outputs)
+      : box_(box), voxels_(static_cast<size_t>(box.voxels())), numbers_(outputs * voxels_) {}
 
   void take(const FieldTile& tile) {
-    const float* from = tile.output(0);
-    for (int64_t k = tile.box.lo[2]; k < tile.box.hi[2]; ++k)
-      for (int64_t j = tile.box.lo[1]; j < tile.box.hi[1]; ++j) {
-        uint16_t* to = row(j, k) + (tile.box.lo[0] - box_.lo[0]);
-        for (int64_t i = tile.box.lo[0]; i < tile.box.hi[0]; ++i, ++to) {
-          *to = static_cast<uint16_t>(std::lround(*from));
-          if (!tile.is_uniform) ++from;
+    for (size_t output = 0; output * voxels_ < numbers_.size(); ++output) {
+      const float* from = tile.output(output);
+      for (int64_t k = tile.box.lo[2]; k < tile.box.hi[2]; ++k)
+        for (int64_t j = tile.box.lo[1]; j < tile.box.hi[1]; ++j) {
+          uint16_t* to = begin_of(output, j, k) + (tile.box.lo[0] - box_.lo[0]);
+          for (int64_t i = tile.box.lo[0]; i < tile.box.hi[0]; ++i, ++to) {
+            *to = static_cast<uint16_t>(std::lround(*from));
+            if (!tile.is_uniform) ++from;
+          }
         }
-      }
+    }
   }
 
-  uint16_t* row(int64_t j, int64_t k) {
-    return shades_.data() + ((k - box_.lo[2]) * box_.size(1) + (j - box_.lo[1])) * box_.size(0);
+  std::span<const uint16_t> row(size_t output, int64_t j, int64_t k) {
+    return {begin_of(output, j, k), static_cast<size_t>(box_.size(0))};
   }
 
  private:
+  uint16_t* begin_of(size_t output, int64_t j, int64_t k) {
+    return numbers_.data() + output * voxels_ + ((k - box_.lo[2]) * box_.size(1) + (j - box_.lo[1])) * box_.size(0);
+  }
+
   TileBox box_;
-  std::vector<uint16_t> shades_;
+  size_t voxels_;
+  std::vector<uint16_t> numbers_;
 };
 
-void append_row(std::span<const uint16_t> shades, int shift, RunLayer& to) {
-  std::vector<MaterialId> bytes(shades.size());
-  std::ranges::transform(shades, bytes.begin(), [&](uint16_t s) { return static_cast<MaterialId>(s >> shift); });
-  to.append_row(bytes.data());
-}
+// Appends a row of a strip to the pixels of a channel whose first output is given.
+struct RowAppender {
+  Strip& strip;
+  size_t output;
+  int64_t j, k;
 
-void append_row(std::span<const uint16_t> shades, LayerResult& layer) {
-  if (!layer.lower_bytes) return append_row(shades, 0, layer.runs);
-  append_row(shades, 8, layer.runs);
-  append_row(shades, 0, *layer.lower_bytes);
-  for (const uint16_t shade : shades)
-    if (shade > 0) ++layer.material_counts[std::max<size_t>(1, shade >> 8)];
-}
+  void operator()(RunLayer& to) const {
+    const auto shades = strip.row(output, j, k);
+    std::vector<MaterialId> bytes(shades.size());
+    std::ranges::transform(shades, bytes.begin(), [](uint16_t shade) { return static_cast<MaterialId>(shade); });
+    to.append_row(bytes.data());
+  }
+  void operator()(Raster<uint16_t>& to) const {
+    const auto shades = strip.row(output, j, k);
+    to.values.insert(to.values.end(), shades.begin(), shades.end());
+  }
+  void operator()(Raster<Colour>& to) const {
+    const size_t begin = to.values.size();
+    to.values.resize(begin + to.width);
+    for (size_t part = 0; part < Colour().size(); ++part) {
+      const auto numbers = strip.row(output + part, j, k);
+      for (size_t i = 0; i < numbers.size(); ++i) to.values[begin + i][part] = static_cast<uint8_t>(numbers[i]);
+    }
+  }
+};
 
-std::vector<LayerResult> layers_of(const voxel::FieldEvaluator& evaluator, const TileBox& region, int bits,
-                                   const StopFlag* stop) {
-  const auto width = static_cast<uint32_t>(region.size(0));
-  std::vector<LayerResult> layers(static_cast<size_t>(region.size(2)));
-  for (LayerResult& layer : layers) {
-    layer.runs = RunLayer(width);
-    if (bits == 16) layer.lower_bytes = RunLayer(width);
+class ValueLayers {
+ public:
+  ValueLayers(program::Program program, const voxel::Lattice& lattice, voxel::Evaluator evaluator,
+              std::vector<Channel> channels)
+      : fields_(std::move(program), lattice, evaluator), channels_(std::move(channels)) {
+    for (const Channel& channel : channels_) outputs_ += numbers_of(channel);
   }
-  for (int64_t j = region.lo[1]; j < region.hi[1]; j += strip_rows) {
-    if (stop && stop->requested()) throw Cancelled();
-    TileBox box = region;
-    box.lo[1] = j;
-    box.hi[1] = std::min(j + strip_rows, region.hi[1]);
-    Strip strip(box);
-    for (const FieldTile& tile : evaluator.tiles(box, stop)) strip.take(tile);
-    for (int64_t k = region.lo[2]; k < region.hi[2]; ++k)
-      for (int64_t row = box.lo[1]; row < box.hi[1]; ++row)
-        append_row({strip.row(row, k), width}, layers[static_cast<size_t>(k - region.lo[2])]);
+
+  std::vector<LayerResult> region(const TileBox& region, const StopFlag* stop) const {
+    std::vector<LayerResult> layers(static_cast<size_t>(region.size(2)));
+    for (LayerResult& layer : layers)
+      for (const Channel& channel : channels_)
+        layer.channels.push_back(voxel::blank_pixels(channel.type, static_cast<uint32_t>(region.size(0)), 0));
+    for (int64_t j = region.lo[1]; j < region.hi[1]; j += strip_rows) {
+      if (stop && stop->requested()) throw Cancelled();
+      TileBox box = region;
+      box.lo[1] = j;
+      box.hi[1] = std::min(j + strip_rows, region.hi[1]);
+      append_strip(box, layers, stop);
+    }
+    return layers;
   }
-  for (LayerResult& layer : layers)
-    if (!layer.lower_bytes) layer.material_counts = count_materials(layer.runs);
-  return layers;
+
+ private:
+  void append_strip(const TileBox& box, std::vector<LayerResult>& layers, const StopFlag* stop) const {
+    Strip strip(box, outputs_);
+    for (const FieldTile& tile : fields_.tiles(box, stop)) strip.take(tile);
+    for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
+      for (int64_t j = box.lo[1]; j < box.hi[1]; ++j)
+        append_row(strip, j, k, layers[static_cast<size_t>(k - box.lo[2])]);
+  }
+
+  void append_row(Strip& strip, int64_t j, int64_t k, LayerResult& layer) const {
+    size_t output = 0;
+    for (size_t n = 0; n < channels_.size(); ++n) {
+      std::visit(RowAppender{strip, output, j, k}, layer.channels[n]);
+      output += numbers_of(channels_[n]);
+    }
+  }
+
+  voxel::FieldEvaluator fields_;
+  std::vector<Channel> channels_;
+  size_t outputs_ = 0;
+};
+
+std::optional<Channel> colour_channel(const design::Design& design, const ValueChoice& choice,
+                                      Diagnostics& diagnostics) {
+  if (!choice.range && choice.bits == 8) return Channel{choice.of, ChannelType::colour, "", {0, 1}};
+  diagnostics.error(Code::option, design.parts[0].solid->where(),
+                    '"' + choice.of + "\" is a colour, whose numbers are 0 to 1 in 8 bits each",
+                    "leave " + spelled::option("--bits") + " and " + spelled::option("--range") + " out");
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<ShadeMeaning> shade_meaning(const design::Design& design, const Box& box, const ValueChoice& choice,
-                                          Diagnostics& diagnostics) {
-  ShadeMeaning meaning{choice.of, value_unit(design, choice.of), choice.range.value_or(Interval(0, 1)), choice.bits};
+std::optional<Channel> value_channel(const design::Design& design, const Box& box, const ValueChoice& choice,
+                                     Diagnostics& diagnostics) {
+  if (is_colour(design, choice.of)) return colour_channel(design, choice, diagnostics);
+  const ChannelType type = voxel::number_type(choice.bits);
+  Channel channel{choice.of, type, value_unit(design, choice.of), choice.range.value_or(Interval(0, 1))};
   const size_t errors = diagnostics.error_count();
-  const bool is_fraction = design.materials.find(choice.of) != nullptr;
-  if (!choice.range && !is_fraction)
-    if (const auto found = value_range(design, box, choice.of, diagnostics)) meaning.range = *found;
+  const bool has_usual_range = design.materials.find(choice.of) || type == ChannelType::mask;
+  if (!choice.range && !has_usual_range)
+    if (const auto found = value_range(design, box, choice.of, diagnostics)) channel.range = *found;
   if (diagnostics.error_count() > errors) return std::nullopt;
-  return meaning;
+  return channel;
 }
 
 std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
-                                           const ShadeMeaning& meaning, voxel::Evaluator evaluator,
+                                           const std::vector<Channel>& channels, voxel::Evaluator evaluator,
                                            Diagnostics& diagnostics) {
   Question question(design);
-  const auto value = question.value(meaning.of, diagnostics);
-  if (!value) return std::nullopt;
-  auto program = question.program({{meaning.of, shade_of(question, *value, meaning)}}, diagnostics);
+  program::Outputs outputs;
+  for (const Channel& channel : channels)
+    if (!add_outputs(channel, question, outputs, diagnostics)) return std::nullopt;
+  auto program = question.program(outputs, diagnostics);
   if (!program) return std::nullopt;
-  auto fields = std::make_shared<const voxel::FieldEvaluator>(std::move(*program), lattice, evaluator);
-  return [fields, bits = meaning.bits](const TileBox& region, const StopFlag* stop) {
-    return layers_of(*fields, region, bits, stop);
-  };
+  const auto layers = std::make_shared<const ValueLayers>(std::move(*program), lattice, evaluator, channels);
+  return [layers](const TileBox& region, const StopFlag* stop) { return layers->region(region, stop); };
 }
 
-std::vector<SliceMaterial> value_shades() {
-  std::vector<SliceMaterial> shades;
-  for (int n = 1; n < 256; ++n) {
-    const auto gray = static_cast<uint8_t>(n);
-    shades.push_back({"gray " + std::to_string(n), gray, {gray, gray, gray, 255}});
-  }
-  return shades;
+size_t value_working_bytes(const std::vector<Channel>& channels, const voxel::Lattice& lattice, int64_t layers) {
+  size_t bytes = 0;  // of a voxel of a strip: its numbers as they are evaluated, and as they are rounded
+  for (const Channel& channel : channels)
+    if (channel.type != ChannelType::material) bytes += numbers_of(channel) * (sizeof(float) + sizeof(uint16_t));
+  return bytes * static_cast<size_t>(lattice.count[0] * std::min(strip_rows, lattice.count[1]) * layers);
 }
 
 }  // namespace ombre::compile

@@ -1,8 +1,9 @@
-// Makes layers of a value in shades of gray, for machines that dose light or infill by an image.
+// Makes layers whose channels show values: doses for machines that dose light or infill by an image, masks, colours.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "design/design.h"
 #include "jobs/common/plan_options.h"
@@ -10,18 +11,19 @@
 
 namespace ombre::compile {
 
-// Returns nothing, and adds a diagnostic, when the design has no such value.
-std::optional<ShadeMeaning> shade_meaning(const design::Design& design, const Box& box, const ValueChoice& choice,
-                                          Diagnostics& diagnostics);
+// Returns the channel that shows a value: of colours for an attribute that is a colour, else of numbers. Returns
+// nothing, and adds a diagnostic, when the design has no such value, or when it has no such bits or range.
+std::optional<voxel::Channel> value_channel(const design::Design& design, const Box& box, const ValueChoice& choice,
+                                            Diagnostics& diagnostics);
 
-// Makes voxels with the shades 0 to 255, or 65,535, instead of materials. The shade is 0 up to range.lo and outside,
-// the last one from range.hi on, and linear and rounded to the nearest in between. Shades of 16 bits are counted by
-// their upper bytes, 1 to 255 as 1. Returns nothing, and adds a diagnostic, if the program would not fit into memory.
+// Makes layers of channels that are no materials. A number's shade is 0 up to range.lo and outside, the last one from
+// range.hi on, and linear and rounded to the nearest in between. Colours are fully transparent outside. What is no
+// number is 0. Returns nothing, and adds a diagnostic, if the program would not fit into memory.
 std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
-                                           const ShadeMeaning& meaning, voxel::Evaluator evaluator,
+                                           const std::vector<voxel::Channel>& channels, voxel::Evaluator evaluator,
                                            Diagnostics& diagnostics);
 
-// Returns all shades except black, as a job's materials.
-std::vector<SliceMaterial> value_shades();
+// Returns the most memory that making so many layers of such channels takes, without the layers.
+size_t value_working_bytes(const std::vector<voxel::Channel>& channels, const voxel::Lattice& lattice, int64_t layers);
 
 }  // namespace ombre::compile

@@ -1,4 +1,4 @@
-// Encodes the images of a layer: one of all materials, or one per material.
+// Encodes the images of a layer: one of each channel, or one of each material.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include "base/math/pitch.h"
 #include "base/math/run.h"
 #include "formats/images/png.h"
+#include "voxel/channel.h"
 #include "voxel/printer.h"
 
 namespace ombre::exporting {
@@ -17,15 +18,13 @@ struct StackMaterial {
 };
 
 // All settings that determine the bytes of a layer's files.
-struct MaterialStack : voxel::Images {
+struct ImageStack : voxel::Images {
   std::vector<StackMaterial> materials;  // the job's materials, without void
   Pitch pitch_x, pitch_y;
 
-  // Returns one PNG file, or one for each material in their order, in which the others are void. Throws Error if memory
-  // runs out.
-  std::vector<std::string> encode(const RunLayer& layer) const;
-  // Returns one PNG file with 65,536 shades of gray.
-  std::string encode_shades(const RunLayer& upper_bytes, const RunLayer& lower_bytes) const;
+  // Returns the PNG files of a channel, whose type the format takes: one, or of materials one for each in their order,
+  // in which the others are void. Throws Error if memory runs out.
+  std::vector<std::string> encode(const voxel::ChannelPixels& pixels, voxel::ChannelType type) const;
 };
 
 // Returns the colour that an image of this format shows for a colour: with `gray` its luma, 0.299 r + 0.587 g + 0.114 b
