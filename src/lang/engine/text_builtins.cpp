@@ -50,13 +50,12 @@ Value ord(const BuiltinCall& call) {
 
 }  // namespace
 
-std::span<const Builtin> text_builtins() {
-  static const std::vector<Builtin> table = {
+std::vector<Builtin> text_builtins() {
+  return {
       {"str", {}, 0, true, str},
       {"chr", {"codes"}, 1, true, chr},
       {"ord", {"text"}, 1, false, ord},
   };
-  return table;
 }
 
 }  // namespace ombre::lang

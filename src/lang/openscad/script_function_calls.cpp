@@ -58,7 +58,8 @@ Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
   if (auto made = result_of_objects(found->second.name, arguments)) return *made;
   Problems problems;
   const FunctionCall made{found->second.name, std::move(arguments), meter_, problems, module_calls_, random_, call};
-  Value result = found->second.call(made);
+  const bool is_count_right = made.size() >= found->second.least && made.size() <= found->second.most;
+  Value result = is_count_right ? found->second.call(made) : made.wrong_count();
   warn_all(problems, call.span);
   return result;
 }

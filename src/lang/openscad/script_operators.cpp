@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/math/math.h"
+#include "lang/engine/operators.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
@@ -57,17 +57,16 @@ class Computation {
     return {};
   }
 
-  // Applies `f` to each element. Undefined results become undef without a warning.
+  // Removes the warnings of an element, whose undefined result becomes undef.
+  Value quietly(Value result, size_t reported) {
+    problems_.resize(reported);
+    return result;
+  }
+
   template <class F>
   Value of_each(const List& list, const F& f) {
-    ListBuilder result(meter_);
-    result.reserve(list.items.size());
     const size_t reported = problems_.size();
-    for (const Value& item : list.items) {
-      result.push(f(item));
-      problems_.resize(reported);
-    }
-    return result.finish();
+    return lang::of_each(list, meter_, [&](const Value& item) { return quietly(f(item), reported); });
   }
 
   static int64_t to_integer(double n) {
@@ -86,20 +85,9 @@ class Computation {
   }
 
   static Value of_numbers(Operator op, double a, double b) {
-    switch (op) {
-      case Operator::add:
-        return a + b;
-      case Operator::subtract:
-        return a - b;
-      case Operator::divide:
-        return a / b;
-      case Operator::modulo:
-        return std::fmod(a, b);
-      case Operator::power:
-        return math::pow(a, b);
-      default:
-        return bits(op, a, b);
-    }
+    const bool has_bits =
+        op == Operator::bit_or || op == Operator::bit_and || op == Operator::shift_left || op == Operator::shift_right;
+    return has_bits ? bits(op, a, b) : Value(number_of(op, a, b));
   }
 
   Value arithmetic(Operator op, const Value& left, const Value& right) {
@@ -114,15 +102,8 @@ class Computation {
   }
 
   Value zip(Operator op, const List& a, const List& b) {
-    ListBuilder result(meter_);
-    const size_t size = std::min(a.items.size(), b.items.size());
-    result.reserve(size);
     const size_t reported = problems_.size();
-    for (size_t i = 0; i < size; ++i) {
-      result.push(binary(op, a.items[i], b.items[i]));
-      problems_.resize(reported);
-    }
-    return result.finish();
+    return of_pairs(a, b, meter_, [&](const Value& x, const Value& y) { return quietly(binary(op, x, y), reported); });
   }
 
   Value product(const Value& left, const Value& right) {
@@ -213,14 +194,6 @@ class Computation {
       result.push(std::move(product));
     }
     return result.finish();
-  }
-
-  template <class T>
-  static bool ordered(Operator op, const T& a, const T& b) {
-    if (op == Operator::less) return a < b;
-    if (op == Operator::less_equal) return a <= b;
-    if (op == Operator::greater) return a > b;
-    return a >= b;
   }
 
   Value comparison(Operator op, const Value& left, const Value& right) {
