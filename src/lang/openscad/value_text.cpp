@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/text/text.h"
 #include "lang/engine/scope.h"
 
 namespace ombre::lang::openscad {
@@ -69,6 +70,29 @@ std::string stream_text(double number) {
   std::array<char, 32> buffer;
   std::snprintf(buffer.data(), buffer.size(), "%g", number);
   return buffer.data();
+}
+
+std::string literal_of(double number) {
+  if (std::isnan(number)) return "(0/0)";
+  if (std::isinf(number)) return number > 0 ? "(1/0)" : "(-1/0)";
+  return format_number(number);
+}
+
+std::string literal_of(const std::string& text) {
+  std::string literal = "\"";
+  for (const char c : text) {
+    if (c == '\n')
+      literal += "\\n";
+    else if (c == '\t')
+      literal += "\\t";
+    else if (c == '\r')
+      literal += "\\r";
+    else if (c == '"' || c == '\\')
+      literal += std::string("\\") + c;
+    else
+      literal += c;
+  }
+  return literal + '"';
 }
 
 void append_value(std::string& text, const Value& value, bool quoted, Meter& meter) {
