@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -91,6 +93,22 @@ Value lookup(double key, const List& table, const Pair& pair) {
   if (!above || key_of(above) == key_of(below)) return value_of(below);
   const double part = (key - key_of(below)) / (key_of(above) - key_of(below));
   return value_of(below) * (1 - part) + value_of(above) * part;
+}
+
+// Appends the character of a code point, if there is one.
+inline void append_character(std::string& text, double code, Meter& meter) {
+  meter.spend();
+  meter.check_text(text.size());
+  const double whole = std::trunc(code);
+  if (is_code_point(whole)) append_code_point(text, static_cast<uint32_t>(whole));
+}
+
+// Adds what search() gives for one value: the place itself where one is wanted, else a list of all places. Without a
+// place, `keeps_empty` says whether an empty list is added.
+inline void push_places(const std::vector<double>& places, bool wants_one, bool keeps_empty, ListBuilder& result,
+                        Meter& meter) {
+  if (wants_one && !places.empty()) return result.push(places.front());
+  if (!wants_one || keeps_empty) result.push(make_list(places, meter));
 }
 
 inline double absolute(double x) { return std::abs(x); }

@@ -31,28 +31,20 @@ class Search {
   }
 
   Value run() {
-    ListBuilder result(call_.meter);
     const Value& wanted = call_[0];
-    if (const Text* text = wanted.text()) {
+    if (!wanted.text() && !wanted.list()) return make_list(places(wanted), call_.meter);
+    ListBuilder result(call_.meter);
+    if (const Text* text = wanted.text())
       for (const Value& character : characters(text->text)) add(character, false, result);
-    } else if (const List* list = wanted.list()) {
+    if (const List* list = wanted.list())
       for (const Value& value : list->items) add(value, true, result);
-    } else {
-      for (const double place : places(wanted)) result.push(place);
-    }
     return result.finish();
   }
 
  private:
-  // If one position per value is wanted, positions are written without inner lists. A listed value that is not found
-  // gives [].
+  // A listed value that is not found gives [].
   void add(const Value& wanted, bool is_listed, ListBuilder& result) {
-    const std::vector<double> found = places(wanted);
-    if (most_ == 1 && !found.empty()) return result.push(found.front());
-    if (most_ == 1 && !is_listed) return;
-    ListBuilder all(call_.meter);
-    for (const double place : found) all.push(place);
-    result.push(all.finish());
+    common::push_places(places(wanted), most_ == 1, is_listed, result, call_.meter);
   }
 
   std::vector<double> places(const Value& wanted) const {

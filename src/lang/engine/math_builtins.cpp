@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/math/math.h"
 #include "base/math/vec.h"
 #include "lang/engine/builtins.h"
 #include "lang/engine/common_functions.h"

@@ -48,13 +48,6 @@ Value arithmetic(Operator op, const Value& left, const Value& right, Meter& mete
   mismatch(left, right);
 }
 
-bool compare(Operator op, const Value& left, const Value& right) {
-  if (left.number() && right.number()) return ordered(op, *left.number(), *right.number());
-  if (left.text() && right.text()) return ordered(op, left.text()->text, right.text()->text);
-  if (left.boolean() && right.boolean()) return ordered<int>(op, *left.boolean(), *right.boolean());
-  mismatch(left, right);
-}
-
 }  // namespace
 
 double number_of(Operator op, double a, double b) {
@@ -74,25 +67,25 @@ double number_of(Operator op, double a, double b) {
   }
 }
 
+std::optional<bool> ordered_values(Operator op, const Value& left, const Value& right) {
+  if (left.number() && right.number()) return ordered(op, *left.number(), *right.number());
+  if (left.text() && right.text()) return ordered(op, left.text()->text, right.text()->text);
+  if (left.boolean() && right.boolean()) return ordered<int>(op, *left.boolean(), *right.boolean());
+  return std::nullopt;
+}
+
 Value apply(Operator op, const Value& left, const Value& right, Meter& meter) {
   meter.spend();
   const bool compares = op != Operator::equal && op != Operator::not_equal;
   if ((left.object() || right.object()) &&
       (compares ? !left.list() && !right.list() : is_scalar(left) && is_scalar(right)))
     return of_objects(op, left, right, meter);
-  switch (op) {
-    case Operator::equal:
-      return equal(left, right, meter);
-    case Operator::not_equal:
-      return !equal(left, right, meter);
-    case Operator::less:
-    case Operator::less_equal:
-    case Operator::greater:
-    case Operator::greater_equal:
-      return compare(op, left, right);
-    default:
-      return arithmetic(op, left, right, meter);
-  }
+  if (op == Operator::equal) return equal(left, right, meter);
+  if (op == Operator::not_equal) return !equal(left, right, meter);
+  if (!is_order(op)) return arithmetic(op, left, right, meter);
+  const auto is_ordered = ordered_values(op, left, right);
+  if (!is_ordered) mismatch(left, right);
+  return *is_ordered;
 }
 
 Value apply(Operator op, const Value& operand, Meter& meter) {

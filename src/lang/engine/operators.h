@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "lang/engine/value.h"
@@ -20,7 +21,9 @@ Value apply(ast::Operator op, const Value& operand, Meter& meter);
 // Applies an arithmetic operator.
 double number_of(ast::Operator op, double a, double b);
 
-// Applies an operator that orders.
+inline bool is_order(ast::Operator op) { return op >= ast::Operator::less && op <= ast::Operator::greater_equal; }
+
+// Applies an operator for which is_order() is true.
 template <class T>
 bool ordered(ast::Operator op, const T& a, const T& b) {
   if (op == ast::Operator::less) return a < b;
@@ -28,6 +31,9 @@ bool ordered(ast::Operator op, const T& a, const T& b) {
   if (op == ast::Operator::greater) return a > b;
   return a >= b;
 }
+
+// Orders two numbers, texts or truth values. Returns nothing for others.
+std::optional<bool> ordered_values(ast::Operator op, const Value& left, const Value& right);
 
 // Returns the list of f(item).
 template <class F>

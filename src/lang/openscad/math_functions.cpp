@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/math/math.h"
 #include "base/math/vec.h"
 #include "lang/openscad/script_functions.h"
 #include "lang/openscad/value_text.h"
@@ -25,7 +24,7 @@ Value extreme(const Call& call) {
     for (const Value& item : list->items) {
       const Value is_less = is_greatest ? binary(ast::Operator::less, best, item, call.meter, ignored)
                                         : binary(ast::Operator::less, item, best, call.meter, ignored);
-      if (truth(is_less)) best = item;
+      if (is_true(is_less)) best = item;
     }
     return best;
   }

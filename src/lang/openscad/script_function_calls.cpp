@@ -98,7 +98,7 @@ void Evaluator::assert_true(const std::vector<ast::Argument>& arguments, const a
     position += is_named ? 0 : 1;
   }
   if (!condition) warn("Ignoring unknown variable 'condition'", where);
-  if (condition && truth(eval(*condition, scope))) return;
+  if (condition && is_true(eval(*condition, scope))) return;
   std::string text = condition ? "Assertion '" + expression_text(*condition) + "' failed" : "Assertion failed";
   const Value note = message ? eval(*message, scope) : Value();
   if (!note.is_undef()) text += ": " + value_text(note, true, meter_);

@@ -19,26 +19,15 @@ class Computation {
 
   Value binary(Operator op, const Value& left, const Value& right) {
     meter_.spend();
-    switch (op) {
-      case Operator::equal:
-        return equal(left, right, meter_);
-      case Operator::not_equal:
-        return !equal(left, right, meter_);
-      case Operator::less:
-      case Operator::less_equal:
-      case Operator::greater:
-      case Operator::greater_equal:
-        return comparison(op, left, right);
-      case Operator::multiply:
-        return product(left, right);
-      default:
-        return arithmetic(op, left, right);
-    }
+    if (op == Operator::equal) return equal(left, right, meter_);
+    if (op == Operator::not_equal) return !equal(left, right, meter_);
+    if (is_order(op)) return comparison(op, left, right);
+    return op == Operator::multiply ? product(left, right) : arithmetic(op, left, right);
   }
 
   Value unary(Operator op, const Value& operand) {
     meter_.spend();
-    if (op == Operator::logical_not) return !truth(operand);
+    if (op == Operator::logical_not) return !is_true(operand);
     if (op == Operator::plus) return operand;
     if (const double* n = operand.number()) return op == Operator::negate ? -*n : static_cast<double>(~to_integer(*n));
     if (const List* list = operand.list(); list && op == Operator::negate)
@@ -119,13 +108,20 @@ class Computation {
     if (a.items.empty() || b.items.empty()) return fail("Multiplication is undefined on empty vectors");
     const Value &first = a.items.front(), &other = b.items.front();
     if (first.number() && other.number()) return vector_by_vector(a, b);
-    if (first.list() && other.number()) return matrix_by_vector(a, b);
+    if (first.list() && other.number())
+      return rows_by(&Computation::vector_by_vector, a, b,
+                     "matrix*vector requires matrix column count to match vector length");
     if (first.number() && other.list()) return vector_by_matrix(a, b);
-    if (first.list() && other.list()) return matrix_by_matrix(a, b);
+    if (first.list() && other.list())
+      return rows_by(&Computation::vector_by_matrix, a, b,
+                     "matrix*matrix requires left operand column count to match right operand row count");
     return fail(std::string("undefined vector*vector multiplication where first elements are types ") +
                 type_name(first) + " and " + type_name(other));
   }
 
+  Value not_rectangular(size_t row) {
+    return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
+  }
   static std::string sizes(size_t a, size_t b) { return " (" + std::to_string(a) + " != " + std::to_string(b) + ")"; }
 
   Value vector_by_vector(const List& a, const List& b) {
@@ -141,18 +137,18 @@ class Computation {
     return sum;
   }
 
-  Value matrix_by_vector(const List& a, const List& b) {
+  // Multiplies each row of a matrix with a vector or matrix, from the left.
+  Value rows_by(Value (Computation::*times)(const List&, const List&), const List& a, const List& b,
+                const char* requirement) {
     const size_t columns = a.items.front().list()->items.size();
-    if (columns != b.items.size())
-      return fail("matrix*vector requires matrix column count to match vector length" + sizes(columns, b.items.size()));
+    if (columns != b.items.size()) return fail(requirement + sizes(columns, b.items.size()));
     ListBuilder result(meter_);
     for (size_t row = 0; row < a.items.size(); ++row) {
       const List* line = a.items[row].list();
-      if (!line || line->items.size() != columns)
-        return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
-      Value sum = vector_by_vector(*line, b);
-      if (!sum.number()) return {};
-      result.push(std::move(sum));
+      if (!line || line->items.size() != columns) return not_rectangular(row);
+      Value product = (this->*times)(*line, b);
+      if (product.is_undef()) return {};
+      result.push(std::move(product));
     }
     return result.finish();
   }
@@ -168,8 +164,7 @@ class Computation {
       for (size_t row = 0; row < b.items.size(); ++row) {
         meter_.spend();
         const List* line = b.items[row].list();
-        if (!line || line->items.size() != columns)
-          return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
+        if (!line || line->items.size() != columns) return not_rectangular(row);
         const double *x = a.items[row].number(), *y = line->items[column].number();
         if (!x || !y) return undefined(Operator::multiply, a.items[row], line->items[column]);
         sum += *x * *y;
@@ -179,27 +174,8 @@ class Computation {
     return result.finish();
   }
 
-  Value matrix_by_matrix(const List& a, const List& b) {
-    const size_t columns = a.items.front().list()->items.size();
-    if (columns != b.items.size())
-      return fail("matrix*matrix requires left operand column count to match right operand row count" +
-                  sizes(columns, b.items.size()));
-    ListBuilder result(meter_);
-    for (size_t row = 0; row < a.items.size(); ++row) {
-      const List* line = a.items[row].list();
-      if (!line || line->items.size() != columns)
-        return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
-      Value product = vector_by_matrix(*line, b);
-      if (!product.list()) return {};
-      result.push(std::move(product));
-    }
-    return result.finish();
-  }
-
   Value comparison(Operator op, const Value& left, const Value& right) {
-    if (left.number() && right.number()) return ordered(op, *left.number(), *right.number());
-    if (left.text() && right.text()) return ordered(op, left.text()->text, right.text()->text);
-    if (left.boolean() && right.boolean()) return ordered<int>(op, *left.boolean(), *right.boolean());
+    if (const auto is_ordered = ordered_values(op, left, right)) return *is_ordered;
     if (left.list() && right.list()) return of_vectors(op, *left.list(), *right.list());
     if (const Range* a = left.range(), *b = right.range(); a && b) {
       const std::array<double, 3> x{a->begin, a->step, a->end}, y{b->begin, b->step, b->end};
@@ -221,7 +197,7 @@ class Computation {
           problems_.back() += "\n\tin vector comparison at index " + std::to_string(i);
           return {};
         }
-        if (!truth(is_less)) continue;
+        if (!is_true(is_less)) continue;
         const bool is_first = !is_swapped, is_less_wanted = op == Operator::less || op == Operator::less_equal;
         return is_first == is_less_wanted;
       }
@@ -242,7 +218,5 @@ Value binary(Operator op, const Value& left, const Value& right, Meter& meter, P
 Value unary(Operator op, const Value& operand, Meter& meter, Problems& problems) {
   return Computation(meter, problems).unary(op, operand);
 }
-
-bool truth(const Value& value) { return is_true(value); }
 
 }  // namespace ombre::lang::openscad

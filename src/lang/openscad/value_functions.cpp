@@ -18,23 +18,16 @@ Value str(const Call& call) {
   return make_text(std::move(text), call.meter);
 }
 
-void append_character(std::string& text, double code, const Call& call) {
-  call.meter.spend();
-  call.meter.check_text(text.size());
-  const double whole = std::trunc(code);
-  if (whole > 0 && is_code_point(whole)) append_code_point(text, static_cast<uint32_t>(whole));
-}
-
 Value chr(const Call& call) {
   std::string text;
   for (const Value& argument : call.arguments) {
-    if (const double* code = argument.number()) append_character(text, *code, call);
+    if (const double* code = argument.number()) common::append_character(text, *code, call.meter);
     if (const List* list = argument.list())
       for (const Value& item : list->items)
-        if (item.number()) append_character(text, *item.number(), call);
+        if (item.number()) common::append_character(text, *item.number(), call.meter);
     const Range* range = argument.range();
     if (!range || element_count(*range) >= most_range_elements) continue;
-    for (double i = 0; i < element_count(*range); ++i) append_character(text, range->at(i), call);
+    for (double i = 0; i < element_count(*range); ++i) common::append_character(text, range->at(i), call.meter);
   }
   return make_text(std::move(text), call.meter);
 }
@@ -104,13 +97,8 @@ class Search {
     return has_it ? &list->items[static_cast<size_t>(column_)] : nullptr;
   }
 
-  // Adds one position as a number, several as a vector.
-  void push(const std::vector<double>& places, bool is_empty_kept, ListBuilder& result) const {
-    if (most_ == 1 && !places.empty()) return result.push(places.front());
-    if (most_ == 1 && !is_empty_kept) return;
-    ListBuilder all(call_.meter);
-    for (const double place : places) all.push(place);
-    result.push(all.finish());
+  void push(const std::vector<double>& places, bool keeps_empty, ListBuilder& result) const {
+    common::push_places(places, most_ == 1, keeps_empty, result, call_.meter);
   }
 
   std::vector<double> places_of(const Value& wanted, bool takes_columns_only) const {
@@ -125,11 +113,7 @@ class Search {
     return places;
   }
 
-  Value of_value(const Value& wanted) const {
-    ListBuilder result(call_.meter);
-    for (const double place : places_of(wanted, false)) result.push(place);
-    return result.finish();
-  }
+  Value of_value(const Value& wanted) const { return make_list(places_of(wanted, false), call_.meter); }
 
   Value of_values(const List& wanted) const {
     ListBuilder result(call_.meter);
