@@ -67,10 +67,8 @@ DataList describe_nodes() {
 
 DataList describe_functions() {
   DataList list;
-  for (const auto& builtins :
-       {lang::math_builtins(), lang::list_builtins(), lang::text_builtins(), lang::point_builtins()})
-    for (const lang::Builtin& builtin : builtins)
-      list.emplace_back(DataMembers{{"name", builtin.name}, {"signature", builtin.signature()}});
+  for (const lang::Builtin& builtin : lang::builtins())
+    list.emplace_back(DataMembers{{"name", builtin.name}, {"signature", builtin.signature()}});
   return list;
 }
 

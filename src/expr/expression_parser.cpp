@@ -2,7 +2,9 @@
 
 #include <charconv>
 
+#include "base/system/temporary.h"
 #include "base/text/text.h"
+#include "expr/expression.h"
 #include "expr/functions.h"
 
 namespace ombre::expr {
@@ -167,18 +169,9 @@ class Parser {
     return node;
   }
 
-  struct Depth {
-    explicit Depth(int& d) : depth(++d), counter(d) {}
-    ~Depth() { --counter; }
-    Depth(const Depth&) = delete;
-    Depth& operator=(const Depth&) = delete;
-    int depth;
-    int& counter;
-  };
-
   NodePtr expression(int least_level) {
-    const Depth depth(depth_);
-    if (depth.depth > deepest) {
+    const Temporary level(depth_, depth_ + 1);
+    if (depth_ > deepest) {
       fail(now_, "this nests deeper than " + std::to_string(deepest) + " levels");
       return nullptr;
     }

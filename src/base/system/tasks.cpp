@@ -12,7 +12,8 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <utility>
+
+#include "base/system/temporary.h"
 
 namespace ombre {
 
@@ -23,17 +24,6 @@ int worker_count(int threads) { return threads > 0 ? std::min(threads, core_coun
 
 // Number of threads of the run whose task this thread executes; 0 outside tasks.
 thread_local int threads_of_task = 0;
-
-class AtTask {
- public:
-  explicit AtTask(int threads) : before_(std::exchange(threads_of_task, threads)) {}
-  ~AtTask() { threads_of_task = before_; }
-  AtTask(const AtTask&) = delete;
-  AtTask& operator=(const AtTask&) = delete;
-
- private:
-  int before_;
-};
 
 // Calls run(threads) in an arena of that many threads. Within a task of another run it shares that run's threads,
 // because an arena of its own would add more. The inner run is isolated, so that a thread that waits for it does not
@@ -81,12 +71,12 @@ void run_ordered(size_t count, int threads, size_t window, const std::function<s
       return {};
     };
     const auto work = [&](Item item) -> Item {
-      const AtTask here(shared);
+      const Temporary here(threads_of_task, shared);
       guarded([&] { item.result = produce(item.index); });
       return item;
     };
     const auto give = [&](Item item) {
-      const AtTask here(shared);
+      const Temporary here(threads_of_task, shared);
       guarded([&] { consume(item.index, item.result); });
     };
     tbb::parallel_pipeline(std::max<size_t>(1, window),
@@ -101,7 +91,7 @@ void run_parallel(size_t count, int threads, const std::function<void(size_t)>& 
   // Hands out tasks one by one: the default partitioner hands out eighths, whose times may differ greatly.
   with_threads(threads, [&](int shared) {
     const auto task = [&](size_t i) {
-      const AtTask here(shared);
+      const Temporary here(threads_of_task, shared);
       body(i);
     };
     tbb::parallel_for(size_t{0}, count, task, tbb::simple_partitioner());

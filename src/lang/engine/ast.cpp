@@ -2,82 +2,45 @@
 
 namespace ombre::lang::ast {
 
-const char* spelling(Operator op) {
-  switch (op) {
-    case Operator::add:
-    case Operator::plus:
-      return "+";
-    case Operator::subtract:
-    case Operator::negate:
-      return "-";
-    case Operator::multiply:
-      return "*";
-    case Operator::divide:
-      return "/";
-    case Operator::modulo:
-      return "%";
-    case Operator::power:
-      return "^";
-    case Operator::less:
-      return "<";
-    case Operator::less_equal:
-      return "<=";
-    case Operator::greater:
-      return ">";
-    case Operator::greater_equal:
-      return ">=";
-    case Operator::equal:
-      return "==";
-    case Operator::not_equal:
-      return "!=";
-    case Operator::logical_and:
-      return "&&";
-    case Operator::logical_or:
-      return "||";
-    case Operator::bit_or:
-      return "|";
-    case Operator::bit_and:
-      return "&";
-    case Operator::shift_left:
-      return "<<";
-    case Operator::shift_right:
-      return ">>";
-    case Operator::bit_not:
-      return "~";
-    case Operator::logical_not:
-      break;
-  }
-  return "!";
+namespace {
+
+// They stand in the order of Operator.
+constexpr std::array spellings{"+",  "-",  "*",  "/", "%", "^",  "<",  "<=", ">", ">=", "==",
+                               "!=", "&&", "||", "|", "&", "<<", ">>", "-",  "+", "!",  "~"};
+static_assert(spellings.size() == static_cast<size_t>(Operator::bit_not) + 1);
+
+template <class Definition>
+using ByName = std::unordered_map<Symbol, const Definition*>;
+
+template <class Definition>
+void add_to(std::vector<const Definition*>& list, ByName<Definition>& by_name, const Statement& statement) {
+  const auto& definition = static_cast<const Definition&>(statement);
+  list.push_back(&definition);
+  by_name[definition.name.symbol] = &definition;
 }
 
+template <class Definition>
+const Definition* found_in(const ByName<Definition>& by_name, Symbol name) {
+  const auto found = by_name.find(name);
+  return found == by_name.end() ? nullptr : found->second;
+}
+
+}  // namespace
+
+const char* spelling(Operator op) { return spellings[static_cast<size_t>(op)]; }
+
 const char* spelling(PrefixKind kind) {
-  switch (kind) {
-    case PrefixKind::let:
-      return "let";
-    case PrefixKind::assertion:
-      return "assert";
-    case PrefixKind::echo:
-      break;
-  }
-  return "echo";
+  return kind == PrefixKind::let ? "let" : kind == PrefixKind::assertion ? "assert" : "echo";
 }
 
 void Plan::add(const Statement& statement) {
   switch (statement.kind) {
     case Statement::Kind::assign:
       return assign(static_cast<const Assign&>(statement));
-    case Statement::Kind::function: {
-      const auto& definition = static_cast<const FunctionDef&>(statement);
-      functions.push_back(&definition);
-      functions_by_name_[definition.name.symbol] = &definition;
-      return;
-    }
-    case Statement::Kind::module: {
-      const auto& definition = static_cast<const ModuleDef&>(statement);
-      modules.push_back(&definition);
-      modules_by_name_[definition.name.symbol] = &definition;
-      return;
-    }
+    case Statement::Kind::function:
+      return add_to(functions, functions_by_name_, statement);
+    case Statement::Kind::module:
+      return add_to(modules, modules_by_name_, statement);
     case Statement::Kind::include:
       return;  // the loader replaces it by the file's statements
     case Statement::Kind::group:
@@ -98,16 +61,8 @@ void Plan::assign(const Assign& assignment) {
   }
 }
 
-const FunctionDef* Plan::function(Symbol name) const {
-  const auto found = functions_by_name_.find(name);
-  return found == functions_by_name_.end() ? nullptr : found->second;
-}
-
-const ModuleDef* Plan::module(Symbol name) const {
-  const auto found = modules_by_name_.find(name);
-  return found == modules_by_name_.end() ? nullptr : found->second;
-}
-
+const FunctionDef* Plan::function(Symbol name) const { return found_in(functions_by_name_, name); }
+const ModuleDef* Plan::module(Symbol name) const { return found_in(modules_by_name_, name); }
 bool Plan::assigns(Symbol name) const { return places_.count(name) > 0; }
 
 }  // namespace ombre::lang::ast

@@ -1,7 +1,6 @@
 // The builtin functions of scripts.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +29,7 @@ class BuiltinCall {
   const List& list(size_t i) const;
   const std::string& text(size_t i) const;
   const std::vector<Value>& all() const { return arguments_; }
-  [[noreturn]] void expected(size_t i, const std::string& what, const Phrase& hint = {}) const;
+  [[noreturn]] Value expected(size_t i, const std::string& what, const Phrase& hint = {}) const;
 
   Meter& meter;
 
@@ -49,9 +48,12 @@ struct Builtin {
   std::string signature() const;  // for example "pow(base, exponent)"
 };
 
-std::span<const Builtin> math_builtins();
-std::span<const Builtin> list_builtins();
-std::span<const Builtin> text_builtins();
-std::span<const Builtin> point_builtins();
+// Returns all of them.
+const std::vector<Builtin>& builtins();
+
+std::vector<Builtin> math_builtins();
+std::vector<Builtin> list_builtins();
+std::vector<Builtin> text_builtins();
+std::vector<Builtin> point_builtins();
 
 }  // namespace ombre::lang

@@ -74,12 +74,7 @@ void Interpreter::call_node(const CallStatement& statement, const ScopePtr& scop
   else if (facets && invocation.has_own_facets && !facets->is_undef())
     invocation.wrong_facets = describe(*facets);
   if (!statement.children.statements.empty()) {
-    struct Inside {
-      int& depth;
-      ~Inside() { --depth; }
-    };
-    ++node_depth_;
-    const Inside inside{node_depth_};
+    const Temporary inside(node_depth_, node_depth_ + 1);
     const size_t failures = failures_;
     run_block(statement.children, scope, invocation.children, &invocation.group_ends);
     invocation.has_wrong_children = failures_ > failures;

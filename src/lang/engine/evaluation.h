@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/temporary.h"
 #include "lang/engine/loader.h"
 #include "lang/engine/scope.h"
 #include "lang/engine/vocabulary.h"
@@ -32,24 +33,6 @@ class Evaluation {
 
   // Thrown if the current item cannot be evaluated. A message was added before.
   struct Stopped {};
-
-  // Counts levels of evaluation for as long as it lives.
-  class Level {
-   public:
-    Level(Evaluation& evaluation, const ast::Span& at, int weight = 1) : evaluation_(evaluation), weight_(weight) {
-      evaluation.at_ = at;
-      evaluation.meter_.spend();
-      if (evaluation.depth_ + weight > evaluation.meter_.limits().depth) evaluation.self().stop_at_depth(at);
-      evaluation.depth_ += weight;
-    }
-    ~Level() { evaluation_.depth_ -= weight_; }
-    Level(const Level&) = delete;
-    Level& operator=(const Level&) = delete;
-
-   private:
-    Evaluation& evaluation_;
-    int weight_;
-  };
 
   // Removes the special variables that were set during its life.
   class SpecialsMark {
@@ -80,6 +63,13 @@ class Evaluation {
 
   Language& self() { return static_cast<Language&>(*this); }
   Symbol symbol(std::string_view name) const { return program_.names->intern(name); }
+  // Counts levels of evaluation for as long as the result lives.
+  Temporary<int> deeper(const ast::Span& at, int levels = 1) {
+    at_ = at;
+    meter_.spend();
+    if (depth_ + levels > meter_.limits().depth) self().stop_at_depth(at);
+    return {depth_, depth_ + levels};
+  }
   static const ast::Span& place(const ast::Span& construct, const ast::Span& part) {
     return Language::rules.names_whole_constructs ? construct : part;
   }

@@ -28,7 +28,7 @@ template <class Language, class Product>
 Value Evaluation<Language, Product>::eval_compound(const ast::Expr& expr, const ScopePtr& scope) {
   using Kind = ast::Expr::Kind;
   const bool may_call = expr.kind == Kind::call || expr.kind == Kind::conditional || expr.kind == Kind::prefix;
-  const Level level(*this, expr.span, may_call ? Language::rules.call_levels : 1);
+  const auto level = deeper(expr.span, may_call ? Language::rules.call_levels : 1);
   switch (expr.kind) {
     case Kind::string: {
       const auto& literal = static_cast<const ast::String&>(expr);
@@ -194,7 +194,7 @@ Value Evaluation<Language, Product>::otherwise(const ast::Conditional& condition
                                                const ScopePtr& scope) {
   if (first == conditional.branches.size()) return eval(*conditional.otherwise, scope);
   const auto& [condition, value] = conditional.branches[first];
-  const Level level(*this, condition->span, Language::rules.call_levels);
+  const auto level = deeper(condition->span, Language::rules.call_levels);
   const Value decision = eval(*condition, scope);
   if (!decision.object()) return is_true(decision) ? eval(*value, scope) : otherwise(conditional, first + 1, scope);
   const Value yes = eval(*value, scope);

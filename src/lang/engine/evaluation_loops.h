@@ -53,7 +53,7 @@ void Evaluation<Language, Product>::for_each_scope(const ast::Argument& loop, co
 template <class Language, class Product>
 void Evaluation<Language, Product>::generate(const ast::Expr& expr, const ScopePtr& scope, ListBuilder& out) {
   using Kind = ast::Expr::Kind;
-  const Level level(*this, expr.span);
+  const auto level = deeper(expr.span);
   switch (expr.kind) {
     case Kind::generate_for:
       return generate_for(static_cast<const ast::GenerateFor&>(expr), 0, scope, out);
@@ -82,7 +82,7 @@ template <class Language, class Product>
 void Evaluation<Language, Product>::generate_for(const ast::GenerateFor& loop, size_t variable, const ScopePtr& scope,
                                                  ListBuilder& out) {
   if (variable == loop.loops.size()) return generate(*loop.element, scope, out);
-  const Level level(*this, loop.span);
+  const auto level = deeper(loop.span);
   for_each_scope(loop.loops[variable], loop.span, scope,
                  [&](const ScopePtr& inner) { generate_for(loop, variable + 1, inner, out); });
 }

@@ -60,7 +60,7 @@ template <class Language, class Product>
 void Evaluation<Language, Product>::run_loop(const ast::CallStatement& statement, size_t variable,
                                              const ScopePtr& scope, Products& out) {
   if (variable == statement.arguments.size()) return run_block(statement.children, scope, out);
-  const Level level(*this, statement.whole, Language::rules.call_levels);
+  const auto level = deeper(statement.whole, Language::rules.call_levels);
   for_each_scope(statement.arguments[variable], statement.span, scope,
                  [&](const ScopePtr& inner) { run_loop(statement, variable + 1, inner, out); });
 }

@@ -12,8 +12,7 @@ Interpreter::Interpreter(const Program& program, Vocabulary& vocabulary, const O
       diagnostics_(diagnostics),
       children_name_(symbol("children")),
       children_count_name_(symbol("$children")) {
-  for (const auto table : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
-    for (const Builtin& builtin : table) builtins_[symbol(builtin.name)] = &builtin;
+  for (const Builtin& builtin : builtins()) builtins_[symbol(builtin.name)] = &builtin;
   // Initial values of OpenSCAD's special variables.
   const auto special = [&](const char* name, Value value) { specials_.emplace_back(symbol(name), std::move(value)); };
   special("$fn", 0.0);

@@ -40,19 +40,6 @@ class Interpreter : Evaluation<Interpreter, Product> {
   void trace(const EnteredCalls&) {}
   void trace(const ast::Statement&) {}
 
-  // Makes `now` the current reader of deferred calls while the actions of a list run.
-  class Reading {
-   public:
-    Reading(ReadAhead*& place, ReadAhead* now) : place_(place), before_(std::exchange(place, now)) {}
-    ~Reading() { place_ = before_; }
-    Reading(const Reading&) = delete;
-    Reading& operator=(const Reading&) = delete;
-
-   private:
-    ReadAhead*& place_;
-    ReadAhead* before_;
-  };
-
   // Defined in interpreter_diagnostics.cpp.
   void report(Diagnostic diagnostic);
   static constexpr size_t most_callers = 8;  // number of callers that an invocation lists

@@ -38,7 +38,7 @@ Value Interpreter::assigned(const ast::Assign& assignment, const ScopePtr& scope
 
 void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends) {
   const auto reader = options_.threads > 1 ? ReadAhead::start(plan.actions, *program_.names) : nullptr;
-  const Reading reading(reader_, reader.get());
+  const Temporary reading(reader_, reader.get());
   for (size_t n = 0; n < plan.actions.size(); ++n) {
     if (reader) reader->go_to(n);
     run_action(*plan.actions[n], scope, out);
@@ -57,7 +57,7 @@ void Interpreter::run_action(const Statement& statement, const ScopePtr& scope, 
 }
 
 void Interpreter::execute(const Statement& statement, const ScopePtr& scope, Nodes& out) {
-  const Level level(*this, statement.span, heavy);
+  const auto level = deeper(statement.span, heavy);
   if (statement.modifiers.empty())
     dispatch(statement, scope, out);
   else

@@ -3,52 +3,21 @@
 
 #include "base/text/utf8.h"
 #include "lang/engine/builtins.h"
+#include "lang/engine/common_functions.h"
 
 namespace ombre::lang {
 namespace {
 
-Value len(const BuiltinCall& call) {
-  if (const List* list = call[0].list()) return static_cast<double>(list->items.size());
-  if (!call[0].text()) call.expected(0, "a list or a string");
-  call.meter.spend(call.text(0).size() / 16);
-  return static_cast<double>(count_code_points(call.text(0)));
-}
-
-// Joins lists, and appends other values.
-Value concat(const BuiltinCall& call) {
-  ListBuilder result(call.meter);
-  for (const Value& argument : call.all()) {
-    const List* list = argument.list();
-    if (!list) {
-      result.push(argument);
-      continue;
-    }
-    call.meter.spend(list->items.size());
-    for (const Value& item : list->items) result.push(item);
-  }
-  return result.finish();
-}
-
-// Interpolates linearly between the keys; constant beyond them.
 Value lookup(const BuiltinCall& call) {
   const double key = call.number(0);
   const List& table = call.list(1);
   call.meter.spend(table.items.size());
-  const double *below = nullptr, *above = nullptr;  // the nearest keys
-  double value_below = 0, value_above = 0;
-  for (const Value& row : table.items) {
+  return common::lookup(key, table, [&](const Value& row) {
     const List* pair = row.list();
     if (!pair || pair->items.size() < 2 || !pair->items[0].number() || !pair->items[1].number())
       call.expected(1, "a list of [key, value] pairs", "write lookup(key, [[key, value], [key, value], ...])");
-    const double *at = pair->items[0].number(), *value = pair->items[1].number();
-    if (*at <= key && (!below || *at > *below)) below = at, value_below = *value;
-    if (*at >= key && (!above || *at < *above)) above = at, value_above = *value;
-  }
-  if (!below && !above) return {};
-  if (!below || (above && *above == key)) return value_above;
-  if (!above || *above == *below) return value_below;
-  const double part = (key - *below) / (*above - *below);
-  return value_below * (1 - part) + value_above * part;
+    return pair;
+  });
 }
 
 // Finds the positions of values in a list, or of characters in a string.
@@ -62,28 +31,20 @@ class Search {
   }
 
   Value run() {
-    ListBuilder result(call_.meter);
     const Value& wanted = call_[0];
-    if (const Text* text = wanted.text()) {
+    if (!wanted.text() && !wanted.list()) return make_list(places(wanted), call_.meter);
+    ListBuilder result(call_.meter);
+    if (const Text* text = wanted.text())
       for (const Value& character : characters(text->text)) add(character, false, result);
-    } else if (const List* list = wanted.list()) {
+    if (const List* list = wanted.list())
       for (const Value& value : list->items) add(value, true, result);
-    } else {
-      for (const double place : places(wanted)) result.push(place);
-    }
     return result.finish();
   }
 
  private:
-  // If one position per value is wanted, positions are written without inner lists. A listed value that is not found
-  // gives [].
+  // A listed value that is not found gives [].
   void add(const Value& wanted, bool is_listed, ListBuilder& result) {
-    const std::vector<double> found = places(wanted);
-    if (most_ == 1 && !found.empty()) return result.push(found.front());
-    if (most_ == 1 && !is_listed) return;
-    ListBuilder all(call_.meter);
-    for (const double place : found) all.push(place);
-    result.push(all.finish());
+    common::push_places(places(wanted), most_ == 1, is_listed, result, call_.meter);
   }
 
   std::vector<double> places(const Value& wanted) const {
@@ -128,14 +89,11 @@ Value search(const BuiltinCall& call) { return Search(call).run(); }
 
 }  // namespace
 
-std::span<const Builtin> list_builtins() {
-  static const std::vector<Builtin> table = {
-      {"len", {"value"}, 1, false, len},
-      {"concat", {}, 0, true, concat},
+std::vector<Builtin> list_builtins() {
+  return {
       {"lookup", {"key", "table"}, 2, false, lookup},
       {"search", {"match_value", "string_or_vector", "num_returns_per_match", "index_col_num"}, 2, false, search},
   };
-  return table;
 }
 
 }  // namespace ombre::lang

@@ -66,7 +66,7 @@ std::optional<Operator> unary_operator(TokenKind token) {
 }  // namespace
 
 ExprPtr Parser::expression() {
-  const Level level(*this);
+  const auto level = deeper();
   if (!at(TokenKind::name)) return conditional();
   if (at_word("function")) return function_literal();
   if (at_word("let")) return prefix(PrefixKind::let, false);
@@ -117,7 +117,7 @@ ExprPtr Parser::links(int precedence, ExprPtr first) {
 ExprPtr Parser::unary() {
   const auto op = unary_operator(kind());
   if (!op) return power();
-  const Level level(*this);
+  const auto level = deeper();
   const uint32_t begin = token().begin;
   take();
   ExprPtr operand = unary();
@@ -128,7 +128,7 @@ ExprPtr Parser::unary() {
 ExprPtr Parser::power() {
   ExprPtr base = postfix();
   if (!at(TokenKind::caret)) return base;
-  const Level level(*this);
+  const auto level = deeper();
   const Span op_span = span(token());
   take();
   ExprPtr exponent = unary();
@@ -295,7 +295,7 @@ ExprPtr Parser::element() {
   if (at_generator()) return generator();
   if (at_word("let")) return prefix(PrefixKind::let, true);
   if (!at_parenthesised_generator()) return expression();
-  const Level level(*this);
+  const auto level = deeper();
   take();
   ExprPtr inner = element();
   expect(TokenKind::right_paren, ")");
@@ -303,7 +303,7 @@ ExprPtr Parser::element() {
 }
 
 ExprPtr Parser::generator() {
-  const Level level(*this);
+  const auto level = deeper();
   if (at_word("for")) return generate_for();
   const uint32_t begin = token().begin;
   if (at_word("each")) {
@@ -377,7 +377,7 @@ bool Parser::at_expression_end() {
 }
 
 ExprPtr Parser::prefix(PrefixKind which, bool inside_list) {
-  const Level level(*this);
+  const auto level = deeper();
   auto result = std::make_unique<Prefix>(span(token()), which);
   take();
   if (which == PrefixKind::let) {

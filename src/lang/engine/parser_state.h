@@ -2,11 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/system/temporary.h"
 #include "lang/engine/ast.h"
 #include "lang/engine/lexer.h"
 #include "lang/engine/parser.h"
@@ -34,32 +35,8 @@ class Parser {
   ast::StatementPtr statement();
 
  private:
-  // Counts a level of nesting for as long as it lives.
-  class Level {
-   public:
-    explicit Level(Parser& parser);
-    ~Level() { --parser_.depth_; }
-    Level(const Level&) = delete;
-    Level& operator=(const Level&) = delete;
-
-   private:
-    Parser& parser_;
-  };
-
-  // Marks code that may be evaluated many times, for as long as it lives.
-  class Repeated {
-   public:
-    explicit Repeated(Parser& parser, bool is_repeated = true) : parser_(parser), count_(is_repeated ? 1 : 0) {
-      parser_.repeats_ += count_;
-    }
-    ~Repeated() { parser_.repeats_ -= count_; }
-    Repeated(const Repeated&) = delete;
-    Repeated& operator=(const Repeated&) = delete;
-
-   private:
-    Parser& parser_;
-    int count_;
-  };
+  // Counts a level of nesting for as long as the result lives.
+  Temporary<int> deeper();
 
   // Functions that read tokens.
   Token token(size_t ahead = 0) { return tokens_.ahead(ahead); }
@@ -89,6 +66,8 @@ class Parser {
   ast::StatementPtr include();
   ast::StatementPtr group();
   ast::StatementPtr assignment();
+  template <class Definition>
+  std::unique_ptr<Definition> definition(const char* what);
   ast::StatementPtr function_definition();
   ast::StatementPtr module_definition();
   ast::StatementPtr instantiation();
@@ -137,7 +116,7 @@ class Parser {
   Diagnostics& diagnostics_;
   int depth_ = 0;
   bool defers_ = false;
-  int repeats_ = 0;  // number of enclosing loops and modules
+  bool is_repeated_ = false;  // within a loop or module, whose calls may be evaluated many times
 };
 
 }  // namespace ombre::lang

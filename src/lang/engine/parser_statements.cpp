@@ -33,11 +33,11 @@ std::string quoted(std::string_view text) {
 
 // Functions that read tokens.
 
-Parser::Level::Level(Parser& parser) : parser_(parser) {
-  if (parser_.depth_ >= deepest_nesting)
-    parser_.fail(parser_.span(parser_.token()), "this nests deeper than " + std::to_string(deepest_nesting) + " levels",
-                 "give parts of it names of their own");
-  ++parser_.depth_;
+Temporary<int> Parser::deeper() {
+  if (depth_ >= deepest_nesting)
+    fail(span(token()), "this nests deeper than " + std::to_string(deepest_nesting) + " levels",
+         "give parts of it names of their own");
+  return {depth_, depth_ + 1};
 }
 
 bool Parser::at_word(std::string_view word, size_t ahead) {
@@ -114,7 +114,7 @@ void Parser::statements(std::vector<StatementPtr>& into, bool inside_braces) {
 // Defers a call. A design may be a list of a million calls, whose tree would be many times as large as its text. Calls
 // that are evaluated once are therefore read again one by one; calls in loops and modules are kept.
 void Parser::defer(StatementPtr& statement) const {
-  if (!defers_ || repeats_ > 0 || statement->kind != Statement::Kind::call) return;
+  if (!defers_ || is_repeated_ || statement->kind != Statement::Kind::call) return;
   statement = std::make_unique<Deferred>(*statement);
 }
 
@@ -154,7 +154,7 @@ StatementPtr Parser::include() {
 }
 
 StatementPtr Parser::group() {
-  const Level level(*this);
+  const auto level = deeper();
   auto result = std::make_unique<Group>(span(token()));
   take();
   statements(result->statements, true);
@@ -171,11 +171,18 @@ StatementPtr Parser::assignment() {
   return result;
 }
 
-StatementPtr Parser::function_definition() {
-  auto result = std::make_unique<FunctionDef>(span(token()));
+// Reads the keyword, the name and the parameters.
+template <class Definition>
+std::unique_ptr<Definition> Parser::definition(const char* what) {
+  auto result = std::make_unique<Definition>(span(token()));
   take();
-  result->name = name("the name of the function");
+  result->name = name(what);
   parameters(result->parameters);
+  return result;
+}
+
+StatementPtr Parser::function_definition() {
+  auto result = definition<FunctionDef>("the name of the function");
   expect(TokenKind::assign, "=");
   result->body = expression();
   result->span = since(result->span.begin);
@@ -184,19 +191,16 @@ StatementPtr Parser::function_definition() {
 }
 
 StatementPtr Parser::module_definition() {
-  auto result = std::make_unique<ModuleDef>(span(token()));
-  take();
-  result->name = name("the name of the module");
-  parameters(result->parameters);
-  const Level level(*this);
-  const Repeated repeated(*this);
+  auto result = definition<ModuleDef>("the name of the module");
+  const auto level = deeper();
+  const Temporary repeated(is_repeated_, true);
   block(result->body, "the module's statements");
   result->span = since(result->span.begin);
   return result;
 }
 
 StatementPtr Parser::instantiation() {
-  const Level level(*this);
+  const auto level = deeper();
   Modifiers modifiers;
   for (;; take()) {
     if (at(TokenKind::star))
@@ -285,7 +289,7 @@ StatementPtr Parser::call(Modifiers modifiers) {
     fail(span(token()), "expected \"(\" after " + quoted(callee.text()) + ", found " + found(), hint);
   }
   result->whole = since(callee.span.begin);
-  const Repeated repeated(*this, result->kind == Statement::Kind::loop);
+  const Temporary repeated(is_repeated_, is_repeated_ || result->kind == Statement::Kind::loop);
   // The last statement before "}" may omit its ";".
   if (!accept(TokenKind::semicolon) && !at_last_of_braces())
     block(result->children, "\";\" or the children of the call");
@@ -306,7 +310,7 @@ void Parser::block(Block& into, const char* owner) {
 }
 
 void Parser::braces(Block& into) {
-  const Level level(*this);
+  const auto level = deeper();
   take();
   into.has_braces = true;
   statements(into.statements, true);

@@ -29,11 +29,7 @@ std::vector<Vec3> points_argument(const BuiltinCall& call) {
   return points;
 }
 
-Value point_value(const BuiltinCall& call, Vec3 p) {
-  ListBuilder result(call.meter);
-  for (int axis = 0; axis < 3; ++axis) result.push(p[axis]);
-  return result.finish();
-}
+Value point_value(const BuiltinCall& call, Vec3 p) { return make_list({p.x, p.y, p.z}, call.meter); }
 
 Value edges_value(const BuiltinCall& call, const OfPoints<Edge3>& edges) {
   if (!edges.problem.empty()) throw BadArgument{0, std::string(call.name()) + "(): " + edges.problem, ""};
@@ -61,12 +57,11 @@ Value voronoi(const BuiltinCall& call) {
 
 }  // namespace
 
-std::span<const Builtin> point_builtins() {
-  static const std::vector<Builtin> table = {
+std::vector<Builtin> point_builtins() {
+  return {
       {"delaunay_edges", {"points"}, 1, false, delaunay},
       {"voronoi_edges", {"points", "min", "max"}, 1, false, voronoi},
   };
-  return table;
 }
 
 }  // namespace ombre::lang

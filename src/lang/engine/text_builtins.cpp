@@ -3,6 +3,7 @@
 
 #include "base/text/utf8.h"
 #include "lang/engine/builtins.h"
+#include "lang/engine/common_functions.h"
 
 namespace ombre::lang {
 namespace {
@@ -16,25 +17,19 @@ Value str(const BuiltinCall& call) {
   return make_text(std::move(text), call.meter);
 }
 
-void append_character(std::string& text, double code, const BuiltinCall& call) {
-  call.meter.spend();
-  call.meter.check_text(text.size());
-  if (is_code_point(code)) append_code_point(text, static_cast<uint32_t>(code));
-}
-
-// Converts numbers, lists and ranges of code points to text. Invalid code points are left out.
+// Converts numbers, lists and ranges of code points to text.
 Value chr(const BuiltinCall& call) {
   std::string text;
   for (size_t i = 0; i < call.size(); ++i) {
     if (const double* code = call[i].number()) {
-      append_character(text, *code, call);
+      common::append_character(text, *code, call.meter);
     } else if (const List* list = call[i].list()) {
       if (!is_number_list(*list)) call.expected(i, "a list of numbers");
-      for (const Value& item : list->items) append_character(text, *item.number(), call);
+      for (const Value& item : list->items) common::append_character(text, *item.number(), call.meter);
     } else if (const Range* range = call[i].range()) {
       const double count = range->count();
       if (count > static_cast<double>(call.meter.limits().elements)) call.meter.too_many_elements();
-      for (double at = 0; at < count; ++at) append_character(text, range->at(at), call);
+      for (double at = 0; at < count; ++at) common::append_character(text, range->at(at), call.meter);
     } else {
       call.expected(i, "numbers, lists or ranges of numbers");
     }
@@ -50,13 +45,12 @@ Value ord(const BuiltinCall& call) {
 
 }  // namespace
 
-std::span<const Builtin> text_builtins() {
-  static const std::vector<Builtin> table = {
+std::vector<Builtin> text_builtins() {
+  return {
       {"str", {}, 0, true, str},
       {"chr", {"codes"}, 1, true, chr},
       {"ord", {"text"}, 1, false, ord},
   };
-  return table;
 }
 
 }  // namespace ombre::lang

@@ -49,6 +49,12 @@ Value make_text(std::string text, Meter& meter) {
   return TextPtr(std::make_shared<const Text>(std::move(text), nullptr, meter));
 }
 
+Value make_list(const std::vector<double>& numbers, Meter& meter) {
+  ListBuilder result(meter);
+  for (const double number : numbers) result.push(number);
+  return result.finish();
+}
+
 double Range::count() const {
   const double steps = (end - begin) / step;
   return steps < 0 ? 0 : std::floor(steps + std::min(steps * 1e-12, 1e-6)) + 1;
@@ -115,13 +121,13 @@ std::string number_text(double number) {
   return {buffer.data(), end};
 }
 
-void append_text(std::string& text, const Value& value, bool quoted, Meter& meter) {
+void append_text(std::string& text, const Value& value, bool quoted, Meter& meter, const TextStyle& style) {
   meter.spend();
   meter.check_text(text.size());
   if (const bool* b = value.boolean()) {
     text += *b ? "true" : "false";
   } else if (const double* n = value.number()) {
-    text += number_text(*n);
+    text += style.number(*n);
   } else if (const Text* t = value.text()) {
     meter.check_text(text.size() + t->text.size());
     text += quoted ? '"' + t->text + '"' : t->text;
@@ -129,13 +135,14 @@ void append_text(std::string& text, const Value& value, bool quoted, Meter& mete
     text += '[';
     for (size_t i = 0; i < list->items.size(); ++i) {
       if (i > 0) text += ", ";
-      append_text(text, list->items[i], true, meter);
+      append_text(text, list->items[i], true, meter, style);
     }
     text += ']';
   } else if (const Range* range = value.range()) {
-    text += '[' + number_text(range->begin) + " : " + number_text(range->step) + " : " + number_text(range->end) + ']';
-  } else if (value.closure()) {
-    text += "function";
+    text +=
+        '[' + style.number(range->begin) + " : " + style.number(range->step) + " : " + style.number(range->end) + ']';
+  } else if (const Closure* closure = value.closure()) {
+    text += style.function(*closure);
   } else if (const Object* object = value.object()) {
     text += object->text();
   } else {

@@ -140,14 +140,20 @@ class ListBuilder {
 };
 
 Value make_text(std::string text, Meter& meter);
+Value make_list(const std::vector<double>& numbers, Meter& meter);
 
 bool is_true(const Value& value);
 bool equal(const Value& a, const Value& b, Meter& meter);
 // Returns a description for messages: "a number", "a list of 3".
 std::string describe(const Value& value);
-// Appends the text that str() and echo() print. Numbers have up to 15 digits. `quoted` is set for strings in lists.
-void append_text(std::string& text, const Value& value, bool quoted, Meter& meter);
-std::string number_text(double number);
+std::string number_text(double number);  // up to 15 digits
+// How a language writes numbers and functions.
+struct TextStyle {
+  std::string (*number)(double) = number_text;
+  std::string (*function)(const Closure&) = [](const Closure&) -> std::string { return "function"; };
+};
+// Appends the text that str() and echo() print. `quoted` is set for strings in lists.
+void append_text(std::string& text, const Value& value, bool quoted, Meter& meter, const TextStyle& style = {});
 
 bool is_number_list(const List& list);
 

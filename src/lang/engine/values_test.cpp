@@ -179,6 +179,8 @@ TEST(Values, MismatchesAreErrors) {
                   "\"each\" needs a range, a list or a string, found a number; a range is written [first : last] or "
                   "[first : step : last]"},
                  {"sin(\"a\")", "sin() needs a number, found a string"},
+                 {"pow(\"a\", true)", "pow() needs a number, found a string"},
+                 {"pow(1, true)", "pow() needs a number, found a boolean"},
                  {"sin()", "an argument is missing for sin(); write sin(degrees)"},
                  {"sin(1, 2)", "too many arguments for sin(); write sin(degrees)"},
                  {"sin(angle = 1)", "sin() has no parameter \"angle\"; write sin(degrees)"},

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 
-#include "base/text/text.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
@@ -14,15 +12,6 @@ namespace {
 using solids::Tree;
 
 const char* truth_text(bool value) { return value ? "true" : "false"; }
-
-std::string literal(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c == '\n' ? std::string("\\n") : std::string(1, c);
-  }
-  return result + '"';
-}
 
 template <class List, class Write>
 std::string list_text(const List& list, const Write& write) {
@@ -179,15 +168,12 @@ class Head {
   }
 
   std::string digits(double number, std::string (*six)(double)) const {
-    if (!is_exact_) return six(number);
-    if (std::isnan(number)) return "(0/0)";
-    if (std::isinf(number)) return number > 0 ? "(1/0)" : "(-1/0)";
-    return format_number(number);
+    return is_exact_ ? literal_of(number) : six(number);
   }
   std::string stream(double number) const { return digits(number, stream_text); }
   std::string number(double number) const { return digits(number, number_text); }
   // OpenSCAD writes texts without escaping quotes.
-  std::string quoted(const std::string& text) const { return is_exact_ ? literal(text) : '"' + text + '"'; }
+  std::string quoted(const std::string& text) const { return is_exact_ ? literal_of(text) : '"' + text + '"'; }
 
   template <class Sequence>
   std::string vector(const Sequence& numbers, const char* separator = ", ") const {

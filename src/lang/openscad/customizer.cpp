@@ -1,6 +1,7 @@
 #include "lang/openscad/customizer.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/text/json.h"
@@ -140,21 +141,9 @@ Parameter::Kind kind_of(const Data& value) {
   return value.list() ? Parameter::Kind::vector : Parameter::Kind::number;
 }
 
-const char* name_of(Parameter::Kind kind) {
-  switch (kind) {
-    case Parameter::Kind::number:
-      return "number";
-    case Parameter::Kind::boolean:
-      return "boolean";
-    case Parameter::Kind::text:
-      return "text";
-    case Parameter::Kind::vector:
-      return "vector";
-    case Parameter::Kind::choice:
-      break;
-  }
-  return "choice";
-}
+// They stand in the order of Parameter::Kind.
+constexpr std::array kind_names{"number", "boolean", "text", "vector", "choice"};
+static_assert(kind_names.size() == static_cast<size_t>(Parameter::Kind::choice) + 1);
 
 bool is_section(const Comment& comment) {
   return comment.is_block && comment.text.size() > 2 && comment.text.front() == '[' && comment.text.back() == ']';
@@ -202,7 +191,8 @@ std::vector<Parameter> parameters_of(const SourcePtr& source) {
 }
 
 Data to_data(const Parameter& parameter) {
-  DataMembers members{{"name", parameter.name}, {"kind", name_of(parameter.kind)}, {"value", parameter.value}};
+  DataMembers members{
+      {"name", parameter.name}, {"kind", kind_names[static_cast<size_t>(parameter.kind)]}, {"value", parameter.value}};
   if (!parameter.description.empty()) members.emplace_back("description", parameter.description);
   if (!parameter.section.empty()) members.emplace_back("section", parameter.section);
   if (parameter.least) members.emplace_back("least", *parameter.least);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "base/text/text.h"
 #include "lang/engine/lexer.h"
+#include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
 namespace {
@@ -17,25 +17,7 @@ bool is_variable(std::string_view name) {
          !std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c); });
 }
 
-std::string literal_of(double number) {
-  if (std::isnan(number)) return "(0/0)";
-  if (std::isinf(number)) return number > 0 ? "(1/0)" : "(-1/0)";
-  return format_number(number);
-}
-
-std::string literal_of(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (c == '\n')
-      quoted += "\\n";
-    else
-      quoted += c;
-  }
-  return quoted + '"';
-}
-
-std::optional<std::string> literal_of(const Data& value) {
+std::optional<std::string> literal_of_data(const Data& value) {
   if (value.is_null()) return "undef";
   if (const bool* truth = value.boolean()) return *truth ? "true" : "false";
   if (const double* number = value.number()) return literal_of(*number);
@@ -43,7 +25,7 @@ std::optional<std::string> literal_of(const Data& value) {
   if (!value.list()) return std::nullopt;
   std::vector<std::string> elements;
   for (const Data& element : *value.list()) {
-    auto own = literal_of(element);
+    auto own = literal_of_data(element);
     if (!own) return std::nullopt;
     elements.push_back(std::move(*own));
   }
@@ -54,7 +36,7 @@ std::optional<std::string> literal_of(const Data& value) {
 
 std::optional<std::string> definition_of(const std::string& name, const Data& value) {
   if (!is_variable(name)) return std::nullopt;
-  const auto text = literal_of(value);
+  const auto text = literal_of_data(value);
   return text ? std::optional(name + '=' + *text) : std::nullopt;
 }
 

@@ -34,10 +34,7 @@ Value dxf_dim(const FunctionCall& call) {
 Value dxf_cross(const FunctionCall& call) {
   const auto found = solids::crossing_of(choice_of(call));
   if (!found.value) return call.fail(found.warning);
-  ListBuilder result(call.meter);
-  result.push(found.value->x);
-  result.push(found.value->y);
-  return result.finish();
+  return make_list({found.value->x, found.value->y}, call.meter);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // Functions of numbers.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "base/math/math.h"
-#include "lang/engine/degrees.h"
+#include "base/math/vec.h"
 #include "lang/openscad/script_functions.h"
 #include "lang/openscad/value_text.h"
 
@@ -15,43 +13,10 @@ namespace {
 using Call = FunctionCall;
 
 double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-double absolute(double x) { return std::abs(x); }
-double rounded(double x) { return std::round(x); }
-double rounded_up(double x) { return std::ceil(x); }
-double rounded_down(double x) { return std::floor(x); }
-double root(double x) { return std::sqrt(x); }
-double exponential(double x) { return math::exp(x); }
-double natural_logarithm(double x) { return math::log(x); }
-
-template <double (*function)(double)>
-Value of_number(const Call& call) {
-  if (call.size() != 1) return call.wrong_count();
-  const double* x = call[0].number();
-  return x ? Value(function(*x)) : call.wrong_type();
-}
-
-template <double (*function)(double, double)>
-Value of_two(const Call& call) {
-  if (call.size() != 2) return call.wrong_count();
-  const double *x = call[0].number(), *y = call[1].number();
-  return x && y ? Value(function(*x, *y)) : call.wrong_type();
-}
-
-double power(double x, double y) { return math::pow(x, y); }
-
-// Returns the logarithm with base 10, or with the first of two arguments as base.
-Value logarithm(const Call& call) {
-  if (call.size() != 1 && call.size() != 2) return call.wrong_count();
-  const double *x = call[0].number(), *y = call.size() == 2 ? call[1].number() : x;
-  if (!x || !y) return call.wrong_type();
-  if (call.size() == 1) return std::log10(*x);
-  return math::log(*y) / math::log(*x);
-}
 
 // Returns the extreme of the elements of one vector, of any type, or of several numbers.
 template <bool is_greatest>
 Value extreme(const Call& call) {
-  if (call.size() == 0) return call.wrong_count();
   if (const List* list = call[0].list(); list && call.size() == 1) {
     if (list->items.empty()) return call.wrong_type();
     Value best = list->items.front();
@@ -59,7 +24,7 @@ Value extreme(const Call& call) {
     for (const Value& item : list->items) {
       const Value is_less = is_greatest ? binary(ast::Operator::less, best, item, call.meter, ignored)
                                         : binary(ast::Operator::less, item, best, call.meter, ignored);
-      if (truth(is_less)) best = item;
+      if (is_true(is_less)) best = item;
     }
     return best;
   }
@@ -73,7 +38,6 @@ Value extreme(const Call& call) {
 }
 
 Value norm(const Call& call) {
-  if (call.size() != 1) return call.wrong_count();
   const List* list = call[0].list();
   if (!list) return {};
   double sum = 0;
@@ -85,19 +49,17 @@ Value norm(const Call& call) {
 }
 
 Value cross_of_three(const Call& call) {
-  std::array<double, 3> a{}, b{};
-  for (size_t i = 0; i < 3; ++i) {
-    const double *x = call[0].list()->items[i].number(), *y = call[1].list()->items[i].number();
+  Vec3 a, b;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto n = static_cast<size_t>(axis);
+    const double *x = call[0].list()->items[n].number(), *y = call[1].list()->items[n].number();
     if (!x || !y) return call.fail("Invalid value in parameter vector for cross()");
     if (std::isnan(*x) || std::isnan(*y)) return call.fail("Invalid value (NaN) in parameter vector for cross()");
     if (std::isinf(*x) || std::isinf(*y)) return call.fail("Invalid value (INF) in parameter vector for cross()");
-    a[i] = *x, b[i] = *y;
+    a[axis] = *x, b[axis] = *y;
   }
-  ListBuilder result(call.meter);
-  result.push(a[1] * b[2] - a[2] * b[1]);
-  result.push(a[2] * b[0] - a[0] * b[2]);
-  result.push(a[0] * b[1] - a[1] * b[0]);
-  return result.finish();
+  const Vec3 normal = ombre::cross(a, b);
+  return make_list({normal.x, normal.y, normal.z}, call.meter);
 }
 
 Value cross(const Call& call) {
@@ -125,7 +87,6 @@ double finite_bound(const Call& call, double bound, const char* which, double ot
 }
 
 Value rands(const Call& call) {
-  if (call.size() != 3 && call.size() != 4) return call.wrong_count();
   const double *from = call[0].number(), *to = call[1].number(), *wanted = call[2].number();
   if (!from || !to || !wanted || (call.size() == 4 && !call[3].number())) return {};
   constexpr double most = std::numeric_limits<double>::max() / 2;
@@ -148,28 +109,13 @@ Value rands(const Call& call) {
 }  // namespace
 
 std::vector<NamedFunction> math_functions() {
-  return {{"abs", of_number<absolute>},
-          {"sign", of_number<sign_of>},
-          {"sin", of_number<degrees::sine>},
-          {"cos", of_number<degrees::cosine>},
-          {"tan", of_number<degrees::tangent>},
-          {"asin", of_number<degrees::arc_sine>},
-          {"acos", of_number<degrees::arc_cosine>},
-          {"atan", of_number<degrees::arc_tangent>},
-          {"atan2", of_two<degrees::arc_tangent2>},
-          {"round", of_number<rounded>},
-          {"ceil", of_number<rounded_up>},
-          {"floor", of_number<rounded_down>},
-          {"sqrt", of_number<root>},
-          {"exp", of_number<exponential>},
-          {"ln", of_number<natural_logarithm>},
-          {"log", logarithm},
-          {"pow", of_two<power>},
-          {"min", extreme<false>},
-          {"max", extreme<true>},
-          {"norm", norm},
+  return {{"sign", common::of_number<sign_of>, 1, 1},
+          {"log", common::logarithm, 1, 2},
+          {"min", extreme<false>, 1},
+          {"max", extreme<true>, 1},
+          {"norm", norm, 1, 1},
           {"cross", cross},
-          {"rands", rands}};
+          {"rands", rands, 3, 4}};
 }
 
 }  // namespace ombre::lang::openscad

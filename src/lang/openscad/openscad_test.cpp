@@ -27,7 +27,7 @@ std::string value_of(const std::string& expression) { return run_text("echo(" + 
 TEST(Openscad, ExactTreesAreReadAgainAsTheyWere) {
   const std::string script =
       "$fn = 7.5; difference(semantics = \"strict\") { rotate([0.1, 20, 1/3]) sphere(1/3);"
-      "linear_extrude(2/3, twist = 40, slices = 3, segments = 5, v = [0, 1, -1]) text(\"a\\\"b\\\\\");"
+      "linear_extrude(2/3, twist = 40, slices = 3, segments = 5, v = [0, 1, -1]) text(\"a\\\"b\\\\\\t\");"
       "import(\"x.svg\", id = \"one\", dpi = 96); color(alpha = 0.5) resize([1, 0, 2], auto = [false, true]) "
       "cube(1e-7); }";
   const auto exact = [](const std::string& text) {
@@ -40,7 +40,7 @@ TEST(Openscad, ExactTreesAreReadAgainAsTheyWere) {
   const std::string once = exact(script);
   EXPECT_EQ(exact(once), once);
   for (const char* part :
-       {"semantics = \"strict\"", "0.3333333333333333", "segments = 5", "a\\\"b\\\\", "id = \"one\""})
+       {"semantics = \"strict\"", "0.3333333333333333", "segments = 5", "a\\\"b\\\\\\t\"", "id = \"one\""})
     EXPECT_NE(once.find(part), std::string::npos) << part << " in\n" << once;
 }
 
@@ -78,6 +78,20 @@ TEST(Openscad, OperatorsWithoutMeaningGiveUndefAndAWarning) {
             "WARNING: undefined operation (number + string) in file t.scad, line 1\nECHO: undef\n");
   EXPECT_EQ(value_of("[1, 2] * [[1, 2, 3], [4, 5, 6]]"), "ECHO: [9, 12, 15]\n");
   EXPECT_EQ(value_of("[6 | 1, 6 & 3, 1 << 4, 16 >> 2, ~0, 0xFF]"), "ECHO: [7, 2, 16, 4, -1, 255]\n");
+}
+
+TEST(Openscad, FunctionsWithoutMeaningGiveUndefAndAWarning) {
+  const auto warned = [](const std::string& text) {
+    return "WARNING: " + text + " in file t.scad, line 1\nECHO: undef\n";
+  };
+  EXPECT_EQ(value_of("pow(2)"), warned("pow() number of parameters does not match"));
+  EXPECT_EQ(value_of("log(2, 3, 4)"), warned("log() number of parameters does not match"));
+  EXPECT_EQ(value_of("max()"), warned("max() number of parameters does not match"));
+  EXPECT_EQ(value_of("atan2(\"a\", 1)"), warned("atan2() parameter could not be converted"));
+  EXPECT_EQ(value_of("len(true)"), warned("len() parameter could not be converted"));
+  EXPECT_EQ(value_of("lookup(1, [[0 / 0, 2]])"), "ECHO: undef\n");  // there is no key
+  EXPECT_EQ(value_of("[[1, 2], [3]] * [1, 2]"), warned("Matrix must be rectangular. Problem at row 1"));
+  EXPECT_EQ(value_of("[[1, 2]] * [[1], [true]]"), warned("undefined operation (number * bool)"));
 }
 
 // Each result uses two numbers of std::mt19937.

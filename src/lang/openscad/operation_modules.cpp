@@ -49,8 +49,9 @@ TreePtr projection(ModuleCall& call) {
   return call.with_children(solids::Projection{call.flag("cut", false), whole(call.number("convexity", 0))});
 }
 
-// Extrudes the area in a file, which older scripts name instead of a child.
-TreePtr extruded_file(ModuleCall& call, solids::Operation operation) {
+// Extrudes the children, or the area in a file, which older scripts name instead of a child.
+TreePtr extruded(ModuleCall& call, solids::Operation operation) {
+  if (!call["file"].text()) return call.with_children(std::move(operation));
   const std::string name = call.name().starts_with("dxf_") ? call.name().substr(4) : call.name();
   call.deprecate("Support for reading files in " + name +
                  " will be removed in future releases. Use a child import() instead.");
@@ -84,8 +85,7 @@ TreePtr linear_extrude(ModuleCall& call) {
   if (const auto slices = call.number("slices"); slices && *slices >= 1) result.slices = whole(*slices);
   if (const auto segments = call.number("segments")) result.segments = std::max(0, whole(*segments));
   result.convexity = std::max(1, whole(call.number("convexity", 1)));
-  if (call["file"].text()) return extruded_file(call, result);
-  return call.with_children(result);
+  return extruded(call, result);
 }
 
 TreePtr rotate_extrude(ModuleCall& call) {
@@ -95,21 +95,15 @@ TreePtr rotate_extrude(ModuleCall& call) {
   if (std::isfinite(angle) && std::abs(angle) <= 360) result.angle = angle;
   result.start = call.number("start", 0);
   result.convexity = std::max(2, whole(call.number("convexity", 2)));
-  if (call["file"].text()) return extruded_file(call, result);
-  return call.with_children(result);
+  return extruded(call, result);
 }
 
-// Modules of old scripts.
-TreePtr dxf_linear_extrude(ModuleCall& call) {
-  call.deprecate_here(
-      "The dxf_linear_extrude() module will be removed in future releases. Use linear_extrude() instead.");
-  return linear_extrude(call);
-}
-
-TreePtr dxf_rotate_extrude(ModuleCall& call) {
-  call.deprecate_here(
-      "The dxf_rotate_extrude() module will be removed in future releases. Use rotate_extrude() instead.");
-  return rotate_extrude(call);
+// A module of old scripts, whose name has the prefix "dxf_".
+template <TreePtr (*extrude)(ModuleCall& call)>
+TreePtr old(ModuleCall& call) {
+  call.deprecate_here("The " + call.name() + "() module will be removed in future releases. Use " +
+                      call.name().substr(4) + "() instead.");
+  return extrude(call);
 }
 
 }  // namespace
@@ -133,9 +127,9 @@ std::vector<Module> operation_modules() {
           {"offset", {"r"}, {"delta", "chamfer"}, offset},
           {"projection", {"cut"}, {"convexity"}, projection},
           linear,
-          {"dxf_linear_extrude", linear.positional, linear.named, dxf_linear_extrude},
+          {"dxf_linear_extrude", linear.positional, linear.named, old<linear_extrude>},
           turned,
-          {"dxf_rotate_extrude", turned.positional, turned.named, dxf_rotate_extrude}};
+          {"dxf_rotate_extrude", turned.positional, turned.named, old<rotate_extrude>}};
 }
 
 }  // namespace ombre::lang::openscad

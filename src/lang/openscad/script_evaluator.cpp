@@ -13,6 +13,8 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
   intersection_for_name_ = symbol("intersection_for"), assign_name_ = symbol("assign");
   children_count_ = symbol("$children"), parent_modules_ = symbol("$parent_modules");
   fa_ = symbol("$fa"), fs_ = symbol("$fs"), semantics_ = symbol("$semantics");
+  for (const auto& [name, parameters, is_variadic, function] : common_functions<FunctionCall>())
+    functions_[symbol(name)] = {name, function, parameters.size(), is_variadic ? any_number : parameters.size()};
   for (const auto& table : {math_functions(), value_functions(), drawing_functions()})
     for (const NamedFunction& function : table) functions_[symbol(function.name)] = function;
   module_table_ = operation_modules();
@@ -27,9 +29,7 @@ Evaluator::Evaluator(const Program& program, const Options& options, Messages& m
     specials_.emplace_back(symbol(name), std::move(value));
   };
   const auto vector = [&](const std::array<double, 3>& numbers) {
-    ListBuilder list(meter_);
-    for (const double number : numbers) list.push(number);
-    return list.finish();
+    return make_list({numbers.begin(), numbers.end()}, meter_);
   };
   special("$fn", 0.0);
   special("$fa", 12.0);

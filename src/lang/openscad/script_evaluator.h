@@ -183,7 +183,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   Value eval_other_member(const ast::Member& member, const Value& base);
   [[noreturn]] void stop_without_part(const ast::Member& member, const Object& object, const std::string& known);
   [[noreturn]] void stop_at_choice(const ast::Span& where, const Value& yes, const Value& no);
-  bool is_chosen(const Value& condition, const ast::Span&) { return truth(condition); }
+  bool is_chosen(const Value& condition, const ast::Span&) { return is_true(condition); }
   Value unary(ast::Operator op, const ast::Span& where, const Value& operand);
   Value binary(ast::Operator op, const ast::Span& where, const Value& left, const Value& right) {
     if (left.number() && right.number()) {  // a shortcut for the most frequent operators

@@ -58,7 +58,8 @@ Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
   if (auto made = result_of_objects(found->second.name, arguments)) return *made;
   Problems problems;
   const FunctionCall made{found->second.name, std::move(arguments), meter_, problems, module_calls_, random_, call};
-  Value result = found->second.call(made);
+  const bool is_count_right = made.size() >= found->second.least && made.size() <= found->second.most;
+  Value result = is_count_right ? found->second.call(made) : made.wrong_count();
   warn_all(problems, call.span);
   return result;
 }
@@ -97,7 +98,7 @@ void Evaluator::assert_true(const std::vector<ast::Argument>& arguments, const a
     position += is_named ? 0 : 1;
   }
   if (!condition) warn("Ignoring unknown variable 'condition'", where);
-  if (condition && truth(eval(*condition, scope))) return;
+  if (condition && is_true(eval(*condition, scope))) return;
   std::string text = condition ? "Assertion '" + expression_text(*condition) + "' failed" : "Assertion failed";
   const Value note = message ? eval(*message, scope) : Value();
   if (!note.is_undef()) text += ": " + value_text(note, true, meter_);

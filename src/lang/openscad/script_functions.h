@@ -1,12 +1,13 @@
 // The builtin functions of OpenSCAD.
 #pragma once
 
+#include <limits>
 #include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "lang/engine/ast.h"
+#include "lang/engine/common_functions.h"
 #include "lang/openscad/script_operators.h"
 
 namespace ombre::lang::openscad {
@@ -23,6 +24,7 @@ struct FunctionCall {
 
   size_t size() const { return arguments.size(); }
   const Value& operator[](size_t i) const { return arguments[i]; }
+  const std::vector<Value>& all() const { return arguments; }
   // Adds a warning and returns undef.
   Value fail(std::string text) const {
     problems.push_back(std::move(text));
@@ -30,6 +32,7 @@ struct FunctionCall {
   }
   Value wrong_count() const { return fail(std::string(name) + "() number of parameters does not match"); }
   Value wrong_type() const { return fail(std::string(name) + "() parameter could not be converted"); }
+  Value expected(size_t, const char*) const { return wrong_type(); }  // OpenSCAD says nothing about what it expects
 };
 
 using Function = Value (*)(const FunctionCall& call);
@@ -37,9 +40,12 @@ using Function = Value (*)(const FunctionCall& call);
 // Returns the path that a script names, relative to the folder of the file in which it is written.
 std::string path_beside(const ast::Span& where, const std::string& path);
 
+inline constexpr size_t any_number = std::numeric_limits<size_t>::max();
+
 struct NamedFunction {
   const char* name;
   Function call;
+  size_t least = 0, most = any_number;  // numbers of arguments
 };
 
 std::vector<NamedFunction> math_functions();

@@ -5,28 +5,14 @@
 namespace ombre::lang::openscad {
 namespace {
 
-const char* prefix(Message::Kind kind) {
-  switch (kind) {
-    case Message::Kind::echo:
-      return "ECHO: ";
-    case Message::Kind::warning:
-      return "WARNING: ";
-    case Message::Kind::deprecated:
-      return "DEPRECATED: ";
-    case Message::Kind::error:
-      return "ERROR: ";
-    case Message::Kind::trace:
-      return "TRACE: ";
-    case Message::Kind::note:
-      break;
-  }
-  return "";
-}
+// They stand in the order of Message::Kind.
+constexpr std::array prefixes{"ECHO: ", "WARNING: ", "DEPRECATED: ", "ERROR: ", "TRACE: ", ""};
+static_assert(prefixes.size() == static_cast<size_t>(Message::Kind::note) + 1);
 
 }  // namespace
 
 std::string to_line(const Message& message) {
-  std::string line = prefix(message.kind) + message.text;
+  std::string line = prefixes[static_cast<size_t>(message.kind)] + message.text;
   if (!message.file.empty()) line += " in file " + message.file + ", line " + std::to_string(message.line);
   return line;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/math/math.h"
+#include "lang/engine/operators.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
@@ -19,26 +19,15 @@ class Computation {
 
   Value binary(Operator op, const Value& left, const Value& right) {
     meter_.spend();
-    switch (op) {
-      case Operator::equal:
-        return equal(left, right, meter_);
-      case Operator::not_equal:
-        return !equal(left, right, meter_);
-      case Operator::less:
-      case Operator::less_equal:
-      case Operator::greater:
-      case Operator::greater_equal:
-        return comparison(op, left, right);
-      case Operator::multiply:
-        return product(left, right);
-      default:
-        return arithmetic(op, left, right);
-    }
+    if (op == Operator::equal) return equal(left, right, meter_);
+    if (op == Operator::not_equal) return !equal(left, right, meter_);
+    if (is_order(op)) return comparison(op, left, right);
+    return op == Operator::multiply ? product(left, right) : arithmetic(op, left, right);
   }
 
   Value unary(Operator op, const Value& operand) {
     meter_.spend();
-    if (op == Operator::logical_not) return !truth(operand);
+    if (op == Operator::logical_not) return !is_true(operand);
     if (op == Operator::plus) return operand;
     if (const double* n = operand.number()) return op == Operator::negate ? -*n : static_cast<double>(~to_integer(*n));
     if (const List* list = operand.list(); list && op == Operator::negate)
@@ -57,17 +46,16 @@ class Computation {
     return {};
   }
 
-  // Applies `f` to each element. Undefined results become undef without a warning.
+  // Removes the warnings of an element, whose undefined result becomes undef.
+  Value quietly(Value result, size_t reported) {
+    problems_.resize(reported);
+    return result;
+  }
+
   template <class F>
   Value of_each(const List& list, const F& f) {
-    ListBuilder result(meter_);
-    result.reserve(list.items.size());
     const size_t reported = problems_.size();
-    for (const Value& item : list.items) {
-      result.push(f(item));
-      problems_.resize(reported);
-    }
-    return result.finish();
+    return lang::of_each(list, meter_, [&](const Value& item) { return quietly(f(item), reported); });
   }
 
   static int64_t to_integer(double n) {
@@ -86,20 +74,9 @@ class Computation {
   }
 
   static Value of_numbers(Operator op, double a, double b) {
-    switch (op) {
-      case Operator::add:
-        return a + b;
-      case Operator::subtract:
-        return a - b;
-      case Operator::divide:
-        return a / b;
-      case Operator::modulo:
-        return std::fmod(a, b);
-      case Operator::power:
-        return math::pow(a, b);
-      default:
-        return bits(op, a, b);
-    }
+    const bool has_bits =
+        op == Operator::bit_or || op == Operator::bit_and || op == Operator::shift_left || op == Operator::shift_right;
+    return has_bits ? bits(op, a, b) : Value(number_of(op, a, b));
   }
 
   Value arithmetic(Operator op, const Value& left, const Value& right) {
@@ -114,15 +91,8 @@ class Computation {
   }
 
   Value zip(Operator op, const List& a, const List& b) {
-    ListBuilder result(meter_);
-    const size_t size = std::min(a.items.size(), b.items.size());
-    result.reserve(size);
     const size_t reported = problems_.size();
-    for (size_t i = 0; i < size; ++i) {
-      result.push(binary(op, a.items[i], b.items[i]));
-      problems_.resize(reported);
-    }
-    return result.finish();
+    return of_pairs(a, b, meter_, [&](const Value& x, const Value& y) { return quietly(binary(op, x, y), reported); });
   }
 
   Value product(const Value& left, const Value& right) {
@@ -138,13 +108,20 @@ class Computation {
     if (a.items.empty() || b.items.empty()) return fail("Multiplication is undefined on empty vectors");
     const Value &first = a.items.front(), &other = b.items.front();
     if (first.number() && other.number()) return vector_by_vector(a, b);
-    if (first.list() && other.number()) return matrix_by_vector(a, b);
+    if (first.list() && other.number())
+      return rows_by(&Computation::vector_by_vector, a, b,
+                     "matrix*vector requires matrix column count to match vector length");
     if (first.number() && other.list()) return vector_by_matrix(a, b);
-    if (first.list() && other.list()) return matrix_by_matrix(a, b);
+    if (first.list() && other.list())
+      return rows_by(&Computation::vector_by_matrix, a, b,
+                     "matrix*matrix requires left operand column count to match right operand row count");
     return fail(std::string("undefined vector*vector multiplication where first elements are types ") +
                 type_name(first) + " and " + type_name(other));
   }
 
+  Value not_rectangular(size_t row) {
+    return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
+  }
   static std::string sizes(size_t a, size_t b) { return " (" + std::to_string(a) + " != " + std::to_string(b) + ")"; }
 
   Value vector_by_vector(const List& a, const List& b) {
@@ -160,18 +137,18 @@ class Computation {
     return sum;
   }
 
-  Value matrix_by_vector(const List& a, const List& b) {
+  // Multiplies each row of a matrix with a vector or matrix, from the left.
+  Value rows_by(Value (Computation::*times)(const List&, const List&), const List& a, const List& b,
+                const char* requirement) {
     const size_t columns = a.items.front().list()->items.size();
-    if (columns != b.items.size())
-      return fail("matrix*vector requires matrix column count to match vector length" + sizes(columns, b.items.size()));
+    if (columns != b.items.size()) return fail(requirement + sizes(columns, b.items.size()));
     ListBuilder result(meter_);
     for (size_t row = 0; row < a.items.size(); ++row) {
       const List* line = a.items[row].list();
-      if (!line || line->items.size() != columns)
-        return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
-      Value sum = vector_by_vector(*line, b);
-      if (!sum.number()) return {};
-      result.push(std::move(sum));
+      if (!line || line->items.size() != columns) return not_rectangular(row);
+      Value product = (this->*times)(*line, b);
+      if (product.is_undef()) return {};
+      result.push(std::move(product));
     }
     return result.finish();
   }
@@ -187,8 +164,7 @@ class Computation {
       for (size_t row = 0; row < b.items.size(); ++row) {
         meter_.spend();
         const List* line = b.items[row].list();
-        if (!line || line->items.size() != columns)
-          return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
+        if (!line || line->items.size() != columns) return not_rectangular(row);
         const double *x = a.items[row].number(), *y = line->items[column].number();
         if (!x || !y) return undefined(Operator::multiply, a.items[row], line->items[column]);
         sum += *x * *y;
@@ -198,35 +174,8 @@ class Computation {
     return result.finish();
   }
 
-  Value matrix_by_matrix(const List& a, const List& b) {
-    const size_t columns = a.items.front().list()->items.size();
-    if (columns != b.items.size())
-      return fail("matrix*matrix requires left operand column count to match right operand row count" +
-                  sizes(columns, b.items.size()));
-    ListBuilder result(meter_);
-    for (size_t row = 0; row < a.items.size(); ++row) {
-      const List* line = a.items[row].list();
-      if (!line || line->items.size() != columns)
-        return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
-      Value product = vector_by_matrix(*line, b);
-      if (!product.list()) return {};
-      result.push(std::move(product));
-    }
-    return result.finish();
-  }
-
-  template <class T>
-  static bool ordered(Operator op, const T& a, const T& b) {
-    if (op == Operator::less) return a < b;
-    if (op == Operator::less_equal) return a <= b;
-    if (op == Operator::greater) return a > b;
-    return a >= b;
-  }
-
   Value comparison(Operator op, const Value& left, const Value& right) {
-    if (left.number() && right.number()) return ordered(op, *left.number(), *right.number());
-    if (left.text() && right.text()) return ordered(op, left.text()->text, right.text()->text);
-    if (left.boolean() && right.boolean()) return ordered<int>(op, *left.boolean(), *right.boolean());
+    if (const auto is_ordered = ordered_values(op, left, right)) return *is_ordered;
     if (left.list() && right.list()) return of_vectors(op, *left.list(), *right.list());
     if (const Range* a = left.range(), *b = right.range(); a && b) {
       const std::array<double, 3> x{a->begin, a->step, a->end}, y{b->begin, b->step, b->end};
@@ -248,7 +197,7 @@ class Computation {
           problems_.back() += "\n\tin vector comparison at index " + std::to_string(i);
           return {};
         }
-        if (!truth(is_less)) continue;
+        if (!is_true(is_less)) continue;
         const bool is_first = !is_swapped, is_less_wanted = op == Operator::less || op == Operator::less_equal;
         return is_first == is_less_wanted;
       }
@@ -269,7 +218,5 @@ Value binary(Operator op, const Value& left, const Value& right, Meter& meter, P
 Value unary(Operator op, const Value& operand, Meter& meter, Problems& problems) {
   return Computation(meter, problems).unary(op, operand);
 }
-
-bool truth(const Value& value) { return is_true(value); }
 
 }  // namespace ombre::lang::openscad

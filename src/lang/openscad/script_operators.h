@@ -13,6 +13,5 @@ using Problems = std::vector<std::string>;  // texts of warnings; the caller add
 // Applies any operator except "&&" and "||", which do not evaluate both sides.
 Value binary(ast::Operator op, const Value& left, const Value& right, Meter& meter, Problems& problems);
 Value unary(ast::Operator op, const Value& operand, Meter& meter, Problems& problems);
-bool truth(const Value& value);
 
 }  // namespace ombre::lang::openscad

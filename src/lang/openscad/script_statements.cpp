@@ -24,13 +24,8 @@ void Evaluator::run_actions(const ast::Plan& plan, const ScopePtr& scope, Trees&
 
 // Makes one tree at most.
 void Evaluator::run_statement(const Statement& statement, const ScopePtr& scope, Trees& out) {
-  struct Nested {
-    int& depth;
-    ~Nested() { --depth; }
-  };
-  ++nested_statements_;
-  const Nested nested{nested_statements_};
-  const Level level(*this, statement.span);
+  const Temporary nested(nested_statements_, nested_statements_ + 1);
+  const auto level = deeper(statement.span);
   const size_t before = out.size();
   dispatch(statement, scope, out);
   if (out.size() == before || statement.modifiers.empty() || out.back()->where != statement.span.range()) return;

@@ -68,22 +68,26 @@ std::vector<std::vector<size_t>> index_lists(const Value& value) {
   return lists;
 }
 
+// Reads points of two or three coordinates. Those of other kinds become the origin, with a warning.
+std::vector<Vec3> points_of(const ModuleCall& call, const std::string& kind) {
+  std::vector<Vec3> points;
+  if (!call["points"].list()) return points;
+  for (const Value& item : call["points"].list()->items) {
+    const auto point = vector3(item, 0);
+    if (!point) call.warn("Unable to convert " + call.name() + "(points=...) element to a " + kind + " of numbers");
+    points.push_back(point.value_or(Vec3{}));
+  }
+  return points;
+}
+
 TreePtr polyhedron(ModuleCall& call) {
   solids::Polyhedron result;
   (void)call.checked_fragments();
-  if (call["points"].list()) {
-    for (const Value& item : call["points"].list()->items) {
-      const auto point = vector3(item, 0);
-      if (!point) call.warn("Unable to convert polyhedron(points=...) element to a vec3 of numbers");
-      result.points.push_back(point.value_or(Vec3{}));
-    }
-  }
-  if (call.has("triangles") && !call.has("faces")) {
+  result.points = points_of(call, "vec3");
+  const bool is_old = call.has("triangles") && !call.has("faces");
+  if (is_old)
     call.deprecate("polyhedron(triangles=[]) will be removed in future releases. Use polyhedron(faces=[]) instead.");
-    result.faces = index_lists(call["triangles"]);
-  } else {
-    result.faces = index_lists(call["faces"]);
-  }
+  result.faces = index_lists(call[is_old ? "triangles" : "faces"]);
   result.convexity = whole(call.number("convexity", 1));
   return call.node(std::move(result));
 }
@@ -108,13 +112,7 @@ TreePtr square(ModuleCall& call) {
 TreePtr polygon(ModuleCall& call) {
   solids::Polygon result;
   (void)call.checked_fragments();
-  if (call["points"].list()) {
-    for (const Value& item : call["points"].list()->items) {
-      const auto point = vector3(item, 0);
-      if (!point) call.warn("Unable to convert polygon(points=...) element to a vec2 of numbers");
-      result.points.push_back(point ? Vec2{point->x, point->y} : Vec2{});
-    }
-  }
+  for (const Vec3 point : points_of(call, "vec2")) result.points.push_back({point.x, point.y});
   result.paths = index_lists(call["paths"]);
   result.convexity = whole(call.number("convexity", 1));
   return call.node(std::move(result));

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "lang/engine/degrees.h"
+#include "base/math/degrees.h"
 #include "lang/openscad/colours.h"
 #include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"

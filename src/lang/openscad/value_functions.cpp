@@ -12,38 +12,22 @@ namespace {
 
 using Call = FunctionCall;
 
-Value len(const Call& call) {
-  if (call.size() != 1) return call.wrong_count();
-  if (const List* list = call[0].list()) return static_cast<double>(list->items.size());
-  const Text* text = call[0].text();
-  if (!text) return call.wrong_type();
-  call.meter.spend(text->text.size() / 16);
-  return static_cast<double>(count_code_points(text->text));
-}
-
 Value str(const Call& call) {
   std::string text;
   for (const Value& argument : call.arguments) append_value(text, argument, false, call.meter);
   return make_text(std::move(text), call.meter);
 }
 
-void append_character(std::string& text, double code, const Call& call) {
-  call.meter.spend();
-  call.meter.check_text(text.size());
-  const double whole = std::trunc(code);
-  if (whole > 0 && is_code_point(whole)) append_code_point(text, static_cast<uint32_t>(whole));
-}
-
 Value chr(const Call& call) {
   std::string text;
   for (const Value& argument : call.arguments) {
-    if (const double* code = argument.number()) append_character(text, *code, call);
+    if (const double* code = argument.number()) common::append_character(text, *code, call.meter);
     if (const List* list = argument.list())
       for (const Value& item : list->items)
-        if (item.number()) append_character(text, *item.number(), call);
+        if (item.number()) common::append_character(text, *item.number(), call.meter);
     const Range* range = argument.range();
     if (!range || element_count(*range) >= most_range_elements) continue;
-    for (double i = 0; i < element_count(*range); ++i) append_character(text, range->at(i), call);
+    for (double i = 0; i < element_count(*range); ++i) common::append_character(text, range->at(i), call.meter);
   }
   return make_text(std::move(text), call.meter);
 }
@@ -58,45 +42,19 @@ Value ord(const Call& call) {
   return static_cast<double>(code_point(text->text, 0));
 }
 
-Value concat(const Call& call) {
-  ListBuilder result(call.meter);
-  for (const Value& argument : call.arguments) {
-    const List* list = argument.list();
-    if (!list) {
-      result.push(argument);
-      continue;
-    }
-    call.meter.spend(list->items.size());
-    for (const Value& item : list->items) result.push(item);
-  }
-  return result.finish();
-}
-
-// Interpolates linearly between the keys; constant beyond them. Rows that are not pairs of numbers are left out.
+// Rows that are not pairs of numbers are left out.
 Value lookup(const Call& call) {
-  if (call.size() != 2) return call.wrong_count();
   const double* key = call[0].number();
   if (!key || !std::isfinite(*key))
     return call.fail("lookup(" + value_text(call[0], true, call.meter) + ", ...) first argument is not a number");
-  const List* table = call[1].list();
-  const auto pair = [&](size_t row) -> const List* {
-    const List* list = table->items[row].list();
+  const auto pair = [&](const Value& row) -> const List* {
+    call.meter.spend();
+    const List* list = row.list();
     return list && list->items.size() == 2 && is_number_list(*list) ? list : nullptr;
   };
-  if (!table || table->items.empty() || !pair(0)) return {};
-  const List *below = nullptr, *above = nullptr;
-  const auto at = [](const List* row) { return *row->items[0].number(); };
-  for (size_t row = 0; row < table->items.size(); ++row) {
-    call.meter.spend();
-    const List* next = pair(row);
-    if (!next) continue;
-    if (at(next) <= *key && (!below || at(next) > at(below))) below = next;
-    if (at(next) >= *key && (!above || at(next) < at(above))) above = next;
-  }
-  if (!below) return above->items[1];
-  if (!above || at(above) == at(below)) return below->items[1];
-  const double part = (*key - at(below)) / (at(above) - at(below));
-  return *below->items[1].number() * (1 - part) + *above->items[1].number() * part;
+  const List* table = call[1].list();
+  if (!table || table->items.empty() || !pair(table->items.front())) return {};
+  return common::lookup(*key, *table, pair);
 }
 
 // Finds the positions of values in a vector or string.
@@ -139,13 +97,8 @@ class Search {
     return has_it ? &list->items[static_cast<size_t>(column_)] : nullptr;
   }
 
-  // Adds one position as a number, several as a vector.
-  void push(const std::vector<double>& places, bool is_empty_kept, ListBuilder& result) const {
-    if (most_ == 1 && !places.empty()) return result.push(places.front());
-    if (most_ == 1 && !is_empty_kept) return;
-    ListBuilder all(call_.meter);
-    for (const double place : places) all.push(place);
-    result.push(all.finish());
+  void push(const std::vector<double>& places, bool keeps_empty, ListBuilder& result) const {
+    common::push_places(places, most_ == 1, keeps_empty, result, call_.meter);
   }
 
   std::vector<double> places_of(const Value& wanted, bool takes_columns_only) const {
@@ -160,11 +113,7 @@ class Search {
     return places;
   }
 
-  Value of_value(const Value& wanted) const {
-    ListBuilder result(call_.meter);
-    for (const double place : places_of(wanted, false)) result.push(place);
-    return result.finish();
-  }
+  Value of_value(const Value& wanted) const { return make_list(places_of(wanted, false), call_.meter); }
 
   Value of_values(const List& wanted) const {
     ListBuilder result(call_.meter);
@@ -216,43 +165,12 @@ class Search {
   double most_, column_;
 };
 
-Value search(const Call& call) {
-  if (call.size() < 2 || call.size() > 4) return call.fail("search() number of parameters does not match");
-  return Search(call).run();
-}
-
-template <class Test>
-Value test_of(const Call& call, const Test& test) {
-  return call.size() == 1 ? Value(test(call[0])) : call.wrong_count();
-}
-
-Value is_undef(const Call& call) {
-  return test_of(call, [](const Value& value) { return value.is_undef(); });
-}
-Value is_bool(const Call& call) {
-  return test_of(call, [](const Value& value) { return value.boolean() != nullptr; });
-}
-Value is_num(const Call& call) {
-  return test_of(call, [](const Value& value) { return value.number() && !std::isnan(*value.number()); });
-}
-Value is_string(const Call& call) {
-  return test_of(call, [](const Value& value) { return value.text() != nullptr; });
-}
-Value is_list(const Call& call) {
-  return test_of(call, [](const Value& value) { return value.list() != nullptr; });
-}
-Value is_function(const Call& call) {
-  return test_of(call, [](const Value& value) { return value.closure() != nullptr; });
-}
+Value search(const Call& call) { return Search(call).run(); }
 
 // The version of OpenSCAD whose language is implemented.
 constexpr std::array<double, 3> release{2021, 1, 0};
 
-Value version(const Call& call) {
-  ListBuilder result(call.meter);
-  for (const double part : release) result.push(part);
-  return result.finish();
-}
+Value version(const Call& call) { return make_list({release.begin(), release.end()}, call.meter); }
 
 // Returns for example 20190500 for [2019, 5].
 Value version_num(const Call& call) {
@@ -268,7 +186,6 @@ Value version_num(const Call& call) {
 
 Value parent_module(const Call& call) {
   double index = 1;
-  if (call.size() > 1) return call.wrong_count();
   if (call.size() == 1) {
     if (!call[0].number()) return {};
     index = std::trunc(*call[0].number());
@@ -283,22 +200,14 @@ Value parent_module(const Call& call) {
 }  // namespace
 
 std::vector<NamedFunction> value_functions() {
-  return {{"len", len},
-          {"str", str},
+  return {{"str", str},
           {"chr", chr},
           {"ord", ord},
-          {"concat", concat},
-          {"lookup", lookup},
-          {"search", search},
-          {"is_undef", is_undef},
-          {"is_bool", is_bool},
-          {"is_num", is_num},
-          {"is_string", is_string},
-          {"is_list", is_list},
-          {"is_function", is_function},
+          {"lookup", lookup, 2, 2},
+          {"search", search, 2, 4},
           {"version", version},
           {"version_num", version_num},
-          {"parent_module", parent_module}};
+          {"parent_module", parent_module, 0, 1}};
 }
 
 }  // namespace ombre::lang::openscad

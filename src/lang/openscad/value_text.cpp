@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/text/text.h"
 #include "lang/engine/scope.h"
 
 namespace ombre::lang::openscad {
@@ -54,15 +55,6 @@ std::string positive_text(double number) {
   return digits.substr(0, whole) + '.' + digits.substr(whole);
 }
 
-void append_vector(std::string& text, const List& list, Meter& meter) {
-  text += '[';
-  for (size_t i = 0; i < list.items.size(); ++i) {
-    if (i > 0) text += ", ";
-    append_value(text, list.items[i], true, meter);
-  }
-  text += ']';
-}
-
 }  // namespace
 
 std::string number_text(double number) {
@@ -80,27 +72,32 @@ std::string stream_text(double number) {
   return buffer.data();
 }
 
-void append_value(std::string& text, const Value& value, bool quoted, Meter& meter) {
-  meter.spend();
-  meter.check_text(text.size());
-  if (const bool* b = value.boolean()) {
-    text += *b ? "true" : "false";
-  } else if (const double* n = value.number()) {
-    text += number_text(*n);
-  } else if (const Text* t = value.text()) {
-    meter.check_text(text.size() + t->text.size());
-    text += quoted ? '"' + t->text + '"' : t->text;
-  } else if (const List* list = value.list()) {
-    append_vector(text, *list, meter);
-  } else if (const Range* range = value.range()) {
-    text += '[' + number_text(range->begin) + " : " + number_text(range->step) + " : " + number_text(range->end) + ']';
-  } else if (const Closure* closure = value.closure()) {
-    text += expression_text(*closure->function);
-  } else if (const Object* object = value.object()) {
-    text += object->text();
-  } else {
-    text += "undef";
+std::string literal_of(double number) {
+  if (std::isnan(number)) return "(0/0)";
+  if (std::isinf(number)) return number > 0 ? "(1/0)" : "(-1/0)";
+  return format_number(number);
+}
+
+std::string literal_of(const std::string& text) {
+  std::string literal = "\"";
+  for (const char c : text) {
+    if (c == '\n')
+      literal += "\\n";
+    else if (c == '\t')
+      literal += "\\t";
+    else if (c == '\r')
+      literal += "\\r";
+    else if (c == '"' || c == '\\')
+      literal += std::string("\\") + c;
+    else
+      literal += c;
   }
+  return literal + '"';
+}
+
+void append_value(std::string& text, const Value& value, bool quoted, Meter& meter) {
+  const auto function = [](const Closure& closure) { return expression_text(*closure.function); };
+  append_text(text, value, quoted, meter, {number_text, function});
 }
 
 std::string value_text(const Value& value, bool quoted, Meter& meter) {

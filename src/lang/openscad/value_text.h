@@ -11,6 +11,9 @@ namespace ombre::lang::openscad {
 std::string number_text(double number);
 // Returns six digits in the format of C++ streams (1e+06, 1e-07), which nodes in .csg files have.
 std::string stream_text(double number);
+// Returns literals that scripts read as the same value.
+std::string literal_of(double number);
+std::string literal_of(const std::string& text);
 // Appends the text that str() and echo() print. `quoted` is set for strings in vectors, and for echo.
 void append_value(std::string& text, const Value& value, bool quoted, Meter& meter);
 std::string value_text(const Value& value, bool quoted, Meter& meter);

@@ -1,7 +1,7 @@
 // Trigonometric functions in degrees, exact where the result is a simple fraction: sine(30) is 0.5.
 #pragma once
 
-namespace ombre::lang::degrees {
+namespace ombre::degrees {
 
 // All return NaN for arguments that are not finite.
 double sine(double angle);
@@ -12,4 +12,4 @@ double arc_cosine(double x);
 double arc_tangent(double x);
 double arc_tangent2(double y, double x);
 
-}  // namespace ombre::lang::degrees
+}  // namespace ombre::degrees

@@ -1,11 +1,11 @@
-#include "lang/engine/degrees.h"
+#include "base/math/degrees.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "base/math/math.h"
 
-namespace ombre::lang::degrees {
+namespace ombre::degrees {
 namespace {
 
 constexpr double per_radian = 180 / std::numbers::pi;
@@ -65,4 +65,4 @@ double arc_tangent2(double y, double x) {
   return std::abs(angle - eighth) < 1e-12 ? eighth : angle;
 }
 
-}  // namespace ombre::lang::degrees
+}  // namespace ombre::degrees
