@@ -1,9 +1,13 @@
 """What the runners share: how the program is called, and how checks run side by side."""
+import argparse
 import concurrent.futures
+import functools
+import json
 import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 TESTS = pathlib.Path(__file__).resolve().parent
 SOURCE = TESTS.parent
@@ -43,6 +47,36 @@ def near(got, wanted, tolerance, what):
     expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
 
 
+class Folder:
+    """A folder that one check has for itself, and the program in it."""
+
+    def __init__(self, ombre, scratch):
+        self.ombre, self.path = ombre, pathlib.Path(scratch)
+
+    def write(self, name, content):
+        """Writes a text, or what is no text as JSON; returns the file's path."""
+        path = self.path / name
+        path.write_text(content if isinstance(content, str) else json.dumps(content), encoding="utf-8")
+        return path
+
+    def read(self, name):
+        return (self.path / name).read_text(encoding="utf-8")
+
+    def names(self):
+        return sorted(path.name for path in self.path.iterdir())
+
+    def command(self, *arguments):
+        return [str(self.ombre), *(str(a) for a in arguments)]
+
+    def run(self, *arguments, status=0, **options):
+        result = run([self.ombre, *arguments], cwd=self.path, **options)
+        expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
+        return result
+
+    def events(self, *arguments, **options):
+        return [json.loads(line) for line in self.run(*arguments, "--json", **options).stdout.splitlines()]
+
+
 def check_all(checks, threads=None):
     """Runs (name, function) pairs side by side. A function returns what is wrong, "" if nothing is, or
     "skipped: why". Prints the failures and a summary; returns the exit status."""
@@ -67,3 +101,27 @@ def check_all(checks, threads=None):
             sys.stdout.flush()
     print(f"{len(checks) - failed - skipped} of {len(checks)} passed" + (f", {skipped} skipped" if skipped else ""))
     return 1 if failed else 0
+
+
+def check_in_folders(folder, ombre, checks):
+    """Runs checks, {name: function}, side by side, each with folder(ombre, scratch) of a temporary folder."""
+    def in_scratch(check):
+        with tempfile.TemporaryDirectory() as scratch:
+            return check(folder(ombre, scratch))
+    return check_all([(name, functools.partial(in_scratch, check)) for name, check in checks.items()])
+
+
+def named(functions):
+    return {function.__name__: function for function in functions}
+
+
+def main(folder, checks):
+    """Runs the checks, {name: function of a folder}, or those that are named on the command line."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("ombre", type=pathlib.Path, help="the program")
+    parser.add_argument("names", nargs="*", help="only these")
+    given = parser.parse_args()
+    if given.names:
+        checks = {name: check for name, check in checks.items()
+                  if name in given.names or not set(given.names).isdisjoint(name.split())}
+    return check_in_folders(folder, given.ombre.resolve(), checks)

@@ -3,17 +3,13 @@
 
     python3 tests/run_contours.py build/dev/apps/ombre/ombre
 """
-import argparse
-import functools
 import json
 import math
 import os
-import pathlib
 import re
 import shutil
 import signal
 import subprocess
-import tempfile
 import xml.etree.ElementTree as ElementTree
 
 import processes
@@ -25,27 +21,19 @@ HALVES = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) rectprism(20, 10
 RING = "difference() { cylinder(10, 4); cylinder(5, 6); }"
 
 
-class Drawing:
-    """A folder for one check, with designs in it."""
+class Drawing(program.Folder):
+    """A folder with designs in it."""
 
     def __init__(self, ombre, scratch):
-        self.ombre, self.folder = ombre, pathlib.Path(scratch)
-        (self.folder / "halves.vcad").write_text(HALVES, encoding="utf-8")
-        (self.folder / "ring.vcad").write_text(RING, encoding="utf-8")
-
-    def command(self, *arguments):
-        return [str(self.ombre), *(str(a) for a in arguments)]
-
-    def run(self, *arguments, status=0, **options):
-        result = program.run(self.command(*arguments), cwd=self.folder, **options)
-        expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
-        return result
+        super().__init__(ombre, scratch)
+        self.write("halves.vcad", HALVES)
+        self.write("ring.vcad", RING)
 
     def contours(self, design, out, *arguments, **options):
         return self.run("contours", design, "-o", out, *arguments, **options)
 
     def names(self):
-        return sorted(path.name for path in self.folder.iterdir() if path.suffix != ".vcad")
+        return [name for name in super().names() if not name.endswith(".vcad")]
 
 
 def area(polygon):
@@ -91,7 +79,7 @@ def cli(path):
 
 def rings_are_in_millimetres(drawing):
     drawing.contours("ring.vcad", "ring.svg", "--z", "0", "--tolerance", "0.01")
-    regions, root = svg_regions(drawing.folder / "ring.svg")
+    regions, root = svg_regions(drawing.path / "ring.svg")
     expect((root.get("width"), root.get("height")) == ("20mm", "20mm"), str(root.attrib))
     expect(root.get("viewBox") == "-10 -10 20 20", str(root.attrib))
     ((outer, inner),) = regions.values()
@@ -100,10 +88,10 @@ def rings_are_in_millimetres(drawing):
 
 def commands_are_those_of_the_interface(drawing):
     drawing.contours("ring.vcad", "ring.cli", "--layer-height", "0.5")
-    lines = (drawing.folder / "ring.cli").read_text().splitlines()
+    lines = (drawing.path / "ring.cli").read_text().splitlines()
     expect(lines[:4] == ["$$HEADERSTART", "$$ASCII", "$$UNITS/1", "$$VERSION/200"], str(lines[:4]))
     expect(lines[-1] == "$$GEOMETRYEND" and lines.index("$$HEADEREND") + 1 == lines.index("$$GEOMETRYSTART"), "order")
-    labels, fields, layers = cli(drawing.folder / "ring.cli")
+    labels, fields, layers = cli(drawing.path / "ring.cli")
     expect(fields["LAYERS"] == "9" and fields["DIMENSION"] == "-10,-10,-2,10,10,2", str(fields))
     expect([z for z, _ in layers] == [-2 + 0.5 * n for n in range(9)], "wrong heights")
     expect(layers[0][1] == [], "the lowest face has no polygons")
@@ -115,9 +103,9 @@ def commands_are_those_of_the_interface(drawing):
 
 def halves_share_points(drawing):
     drawing.contours("halves.vcad", "halves", "--by", "materials", "--layer-height", "0.5")
-    files = sorted(path.name for path in (drawing.folder / "halves").iterdir())
+    files = sorted(path.name for path in (drawing.path / "halves").iterdir())
     expect(files == [f"layer_{n:04}.svg" for n in range(4)], str(files))
-    regions, root = svg_regions(drawing.folder / "halves/layer_0000.svg")
+    regions, root = svg_regions(drawing.path / "halves/layer_0000.svg")
     expect({p.get("fill") for p in root.iter(SVG + "path")} != {None} and set(regions) == {"red", "blue"}, str(regions))
     (red,), (blue,) = regions["red"], regions["blue"]
     expect(abs(area(red) - 100) < 1e-9 and abs(area(blue) - 100) < 1e-9, f"{area(red)} {area(blue)}")
@@ -127,14 +115,14 @@ def halves_share_points(drawing):
 def expect_areas_of_voxels(drawing, example, by):
     """Layer by layer; a voxel at the border is wrong by at most half of itself, on average by less."""
     drawing.contours(example, "probe.cli", "--layer-height", "1000")
-    lo_x, lo_y, lo_z, hi_x, hi_y, hi_z = map(float, cli(drawing.folder / "probe.cli")[1]["DIMENSION"].split(","))
+    lo_x, lo_y, lo_z, hi_x, hi_y, hi_z = map(float, cli(drawing.path / "probe.cli")[1]["DIMENSION"].split(","))
     pitch, height = max(hi_x - lo_x, hi_y - lo_y) / 200, (hi_z - lo_z) / 7.7
     pitch, height = f"{pitch:.4f}", f"{height:.4f}"
     drawing.contours(example, "part.cli", "--layer-height", height, "--force", *by)
     drawing.run("voxels", example, "-o", "part.raw", "--voxel", f"{pitch},{pitch},{height}")
-    nx, ny, nz = json.loads((drawing.folder / "part.raw.json").read_text())["dimensions"]
-    data = (drawing.folder / "part.raw").read_bytes()
-    layers = cli(drawing.folder / "part.cli")[2][1:]
+    nx, ny, nz = json.loads((drawing.path / "part.raw.json").read_text())["dimensions"]
+    data = (drawing.path / "part.raw").read_bytes()
+    layers = cli(drawing.path / "part.cli")[2][1:]
     expect(len(layers) == nz, f"{len(layers)} layers, voxels have {nz}")
     for n, (_, polylines) in enumerate(layers):
         found = sum(area(points) for _, _, points in polylines)
@@ -145,18 +133,18 @@ def expect_areas_of_voxels(drawing, example, by):
 
 
 def examples_have_the_areas_of_their_voxels(drawing):
-    shutil.copytree(program.SOURCE / "examples", drawing.folder / "examples")
+    shutil.copytree(program.SOURCE / "examples", drawing.path / "examples")
     for path in program.examples(drawing.ombre):
         expect_areas_of_voxels(drawing, f"examples/{path.name}", [])
         for name in ["probe.cli", "part.cli", "part.raw", "part.raw.json"]:
-            (drawing.folder / name).unlink()
+            (drawing.path / name).unlink()
 
 
 def threads_change_no_byte(drawing):
     made = set()
     for threads in ["1", "2"]:
         drawing.contours("halves.vcad", "h.cli", "--bands", "3", "--threads", threads, "--force")
-        made.add((drawing.folder / "h.cli").read_bytes())
+        made.add((drawing.path / "h.cli").read_bytes())
     expect(len(made) == 1, "bytes depend on threads")
 
 
@@ -178,11 +166,11 @@ def files_are_kept(drawing):
     expect("ring.cli exists already" in error, error)
     drawing.contours("ring.vcad", "ring.cli", "--layer-height", "1", "--force")
     drawing.contours("ring.vcad", "ring", "--layer-height", "0.5")
-    (drawing.folder / "ring/mine.svg").write_text("mine")
+    (drawing.path / "ring/mine.svg").write_text("mine")
     error = drawing.contours("ring.vcad", "ring", status=2).stderr
     expect("has layers already" in error and "--force" in error, error)
     drawing.contours("ring.vcad", "ring", "--layer-height", "2", "--force")
-    names = sorted(path.name for path in (drawing.folder / "ring").iterdir())
+    names = sorted(path.name for path in (drawing.path / "ring").iterdir())
     expect(names == ["layer_0000.svg", "layer_0001.svg", "mine.svg"], str(names))
     error = drawing.contours("ring.vcad", "missing/ring.cli", status=2).stderr
     expect("the folder is missing" in error, error)
@@ -193,7 +181,7 @@ def files_are_kept(drawing):
 def unwritable_folders_are_reported(drawing):
     if os.geteuid() == 0:
         return "skipped: root may write everywhere"
-    locked = drawing.folder / "locked"
+    locked = drawing.path / "locked"
     locked.mkdir(mode=0o500)
     for out in ["locked/ring.cli", "locked/ring"]:
         error = drawing.contours("ring.vcad", out, status=2).stderr
@@ -205,11 +193,11 @@ def full_disks_leave_nothing(drawing):
     if not os.access("/dev/full", os.W_OK):
         return "skipped: no /dev/full"
     for out, part in [("r.cli", "r.cli.part"), ("rings", "rings/layer_0000.svg.part")]:
-        (drawing.folder / part).parent.mkdir(exist_ok=True)
-        (drawing.folder / part).symlink_to("/dev/full")
+        (drawing.path / part).parent.mkdir(exist_ok=True)
+        (drawing.path / part).symlink_to("/dev/full")
         error = drawing.contours("ring.vcad", out, status=2).stderr
         expect("No space left on device" in error and "free some space" in error, error)
-    expect(drawing.names() == ["rings"] and not list((drawing.folder / "rings").iterdir()), str(drawing.names()))
+    expect(drawing.names() == ["rings"] and not list((drawing.path / "rings").iterdir()), str(drawing.names()))
     return ""
 
 
@@ -217,9 +205,9 @@ def interrupts_leave_nothing(drawing):
     for out, part in [("ring.cli", "ring.cli.part"), ("rings", "rings/layer_0000.svg.part")]:
         job = subprocess.Popen(drawing.command("contours", "ring.vcad", "-o", out, "--tolerance", "0.001",
                                                "--layer-height", "0.0005", "--threads", "1"),
-                               cwd=drawing.folder, env=program.environment(), stdin=subprocess.DEVNULL,
+                               cwd=drawing.path, env=program.environment(), stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        processes.wait_until(lambda: job.poll() is not None or (drawing.folder / part).exists(), f"{out} is begun")
+        processes.wait_until(lambda: job.poll() is not None or (drawing.path / part).exists(), f"{out} is begun")
         job.send_signal(signal.SIGINT)
         error = job.communicate(timeout=processes.PATIENCE_S)[1]
         expect(job.returncode == 130, f"status {job.returncode}: {error}")
@@ -231,17 +219,5 @@ CHECKS = [rings_are_in_millimetres, commands_are_those_of_the_interface, halves_
           unwritable_folders_are_reported, full_disks_leave_nothing, interrupts_leave_nothing]
 
 
-def in_a_folder(ombre, check):
-    with tempfile.TemporaryDirectory() as scratch:
-        return check(Drawing(ombre, scratch))
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("ombre", type=pathlib.Path)
-    ombre = parser.parse_args().ombre.resolve()
-    return program.check_all([(check.__name__, functools.partial(in_a_folder, ombre, check)) for check in CHECKS])
-
-
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program.main(Drawing, program.named(CHECKS)))

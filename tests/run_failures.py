@@ -11,7 +11,6 @@ import argparse
 import functools
 import os
 import pathlib
-import shutil
 import struct
 import subprocess
 import tempfile

@@ -14,7 +14,7 @@ import tempfile
 
 import processes
 import program
-from fea_jobs import CUBE, PULL, RED, Folder, check_all, has_tetrahedra
+from fea_jobs import CUBE, PULL, RED, Folder, has_tetrahedra
 from program import expect, near
 
 def bars_stretch_by_hookes_law(folder):
@@ -37,7 +37,7 @@ def plates_are_as_thick_as_they_are(folder):
     """80 mm3, and 8.012 mm of deflection by Timoshenko's beam (8 by Euler and Bernoulli's), whatever the bricks; those
     that are whole make the plate 0.8 mm thick, or 1.6."""
     folder.write("plate.vcad", PLATE)
-    folder.write("strip.json", json.dumps(STRIP))
+    folder.write("strip.json", STRIP)
     job = ["plate.vcad", "--study", "strip.json", "--solve", "--tolerance", "1e-9"]
     for cell in "2", "0.8", "0.5":
         events = folder.events(*job, "--cell", cell)
@@ -65,7 +65,7 @@ def thin_plates_are_solved(folder):
     0.432 mm of deflection, without Poisson's effect; by all ways to solve it. Bricks of 1.5 mm have parts of 0.375 mm, of which the
     third layer is filled by two thirds: the moment of area is 0.0974 mm3 of width instead of 1/12."""
     folder.write("plate.vcad", "translate(30, 10, 0.5) rectprism((60, 20, 1), red);")
-    folder.write("strip.json", json.dumps({**STRIP, "loads": [{"on": "xmax", "force_n": [0, 0, -0.01]}]}))
+    folder.write("strip.json", {**STRIP, "loads": [{"on": "xmax", "force_n": [0, 0, -0.01]}]})
     job = ["plate.vcad", "--study", "strip.json", "--solve"]
     for cell in "0.5", "1", "1.5":
         for solver in ("auto", "multigrid")[:1 if cell == "0.5" else 2]:
@@ -81,7 +81,7 @@ def cut_bricks_weigh_and_hold_what_they_are(folder):
     study = {**STRIP, "supports": [{"on": {"where": "z < -3"}, "fix": "xyz"}], "loads": [],
              "gravity_mm_s2": [0, 0, -9810]}
     for cell, fill, within in ("1.1", "exact", 0.01), ("0.7", "exact", 0.01):
-        folder.write("weight.json", json.dumps(study))
+        folder.write("weight.json", study)
         events = folder.events("ball.vcad", "--study", "weight.json", "--cell", cell, "--fill", fill, "--solve")
         near(events["model"]["volume_mm3"], 523.6, within * 523.6, "the volume")
         near(events["solution"]["reaction_n"][2], 5.137e-3, within * 5.137e-3, "the weight")
@@ -93,7 +93,7 @@ def cut_bricks_weigh_and_hold_what_they_are(folder):
 
 def decks_have_cut_bricks_as_sections(folder):
     folder.write("plate.vcad", PLATE)
-    folder.write("strip.json", json.dumps(STRIP))
+    folder.write("strip.json", STRIP)
     folder.run("plate.vcad", "--study", "strip.json", "--cell", "2", "-o", "plate.inp")
     deck = folder.read("plate.inp")
     expect("*MATERIAL, NAME=RED_FILLED_32_OF_64\n*ELASTIC\n500, 0\n" in deck, deck[-1500:])
@@ -173,7 +173,7 @@ def mixtures_that_are_no_numbers_are_reported(folder):
 def moduli_come_from_attributes(folder):
     """A bar whose modulus grows along z: its ends part by the integral of stress / modulus."""
     folder.write("graded.vcad", 'attribute("stiffness", "100 * exp(z/10)", unit="MPa") ' + CUBE)
-    folder.write("slim.json", json.dumps({**PULL, "materials": {"red": {"modulus_mpa": 1, "poissons_ratio": 0}}}))
+    folder.write("slim.json", {**PULL, "materials": {"red": {"modulus_mpa": 1, "poissons_ratio": 0}}})
     events = folder.events("graded.vcad", "--study", "slim.json", "--cell", "10,10,0.25", "--solve",
                            "--modulus", "stiffness", "--sections", "1000", "-o", "graded.vtu")
     expect(len(events["model"]["sections"]) == 40, "each layer has its modulus")
@@ -225,8 +225,8 @@ CALCULIX_FILE = program.SOURCE / "tests" / "fixtures" / "calculix.json"
 
 def write_studies(folder):
     folder.write("holed.vcad", HOLED)
-    folder.write("heat.json", json.dumps(HEAT))
-    folder.write("bend.json", json.dumps(BEND))
+    folder.write("heat.json", HEAT)
+    folder.write("bend.json", BEND)
 
 
 def solve_case(folder, name, solver):
@@ -300,7 +300,7 @@ def write_calculix(ombre):
 def walls_conduct(folder):
     """Through 10 mm of 0.5 W/(m K) and 100 mm2 with 10 degrees between: 50 mW; graded by an attribute, by its integral."""
     study = {**HEAT, "supports": [{"on": "zmin", "temperature_c": 20}, {"on": "zmax", "temperature_c": 30}], "loads": []}
-    folder.write("wall.json", json.dumps(study))
+    folder.write("wall.json", study)
     solution = folder.events("cube.vcad", "--study", "wall.json", "--cell", "2.5", "--solve", "-o", "w.vtu")["solution"]
     near(solution["enters_w"], 0.05, 1e-9, "the heat")
     near(max(folder.array("w.vtu", "temperature [C]")), 30, 1e-5, "the temperature")
@@ -317,18 +317,18 @@ def selections_ask_the_design(folder):
                              'part("body") translate(0, 0, 1) rectprism((10, 10, 8), blue);')
     study = {**PULL, "supports": [{"on": {"part": "foot"}, "fix": "xyz"}],
              "loads": [{"on": {"where": "z > 4.9 && x > 0"}, "force_n": [0, 0, 7]}]}
-    folder.write("two.json", json.dumps(study))
+    folder.write("two.json", study)
     solution = folder.events("two.vcad", "--study", "two.json", "--cell", "1", "--solve", "-o", "two.vtu")["solution"]
     near(solution["reaction_n"][2], -7, 1e-5, "the reaction")
     moves = folder.array("two.vtu", "displacement [mm]")
     held = 11 * 11 * 3
     expect(all(value == 0 for value in moves[:3 * held]) and moves[3 * held + 2] != 0, "what is held")
     study["supports"][0]["on"] = {"part": "fot"}
-    folder.write("two.json", json.dumps(study))
+    folder.write("two.json", study)
     error = folder.run("two.vcad", "--study", "two.json", "--cell", "1", "--solve", status=1).stderr
     expect('did you mean "foot"?' in error, error)
     study["supports"][0]["on"] = {"where": "q > 1"}
-    folder.write("two.json", json.dumps(study))
+    folder.write("two.json", study)
     error = folder.run("two.vcad", "--study", "two.json", "--cell", "1", "--solve", status=1).stderr
     expect('"q"' in error and "two.json:1:" in error, error)
 
@@ -354,7 +354,7 @@ def a_mug_cools(folder):
 def materials_that_are_nowhere_need_no_properties(folder):
     """Shares that vary make the block's own material, red, possible, but no brick has any of it."""
     folder.write("possible.vcad", "s = noise(size=3).value; fgrade([1 - s, s], [magenta, gray]) rectprism((4, 4, 4), red);")
-    folder.write("two.json", json.dumps({**PULL, "materials": {"magenta": RED, "gray": RED}}))
+    folder.write("two.json", {**PULL, "materials": {"magenta": RED, "gray": RED}})
     solution = folder.events("possible.vcad", "--study", "two.json", "--cell", "2", "--solve", "--assign", "mix")["solution"]
     near(solution["greatest_displacement_mm"][2], 4 * 100 / 2850, 1e-6, "the stretch")
 
@@ -477,11 +477,11 @@ def wrong_use_is_reported(folder):
     cube = ("cube.vcad", "--cell", "2.5")
     expect("nothing to do" in error(*cube, "--study", "pull.json"), "nothing to do")
     expect(".inp, .vtu or .xdmf" in error(*cube, "--study", "pull.json", "-o", "x.stl"), "ending")
-    folder.write("bare.json", json.dumps({"supports": PULL["supports"]}))
+    folder.write("bare.json", {"supports": PULL["supports"]})
     expect('no elastic properties of "red"' in error(*cube, "--study", "bare.json", "--solve"), "properties")
-    folder.write("loose.json", json.dumps({"materials": PULL["materials"], "loads": PULL["loads"]}))
+    folder.write("loose.json", {"materials": PULL["materials"], "loads": PULL["loads"]})
     expect("free to move or turn" in error(*cube, "--study", "loose.json", "--solve"), "supports")
-    folder.write("odd.json", json.dumps({**PULL, "materials": {"rde": RED}}))
+    folder.write("odd.json", {**PULL, "materials": {"rde": RED}})
     expect('did you mean "red"?' in error(*cube, "--study", "odd.json", "--solve"), "names")
     folder.write("broken.json", '{"supports": [')
     expect("broken.json:1:" in error(*cube, "--study", "broken.json", "--solve"), "JSON")
@@ -501,7 +501,7 @@ def wrong_use_is_reported(folder):
         expect("tetrahedra take about" in message and "larger --size" in message, message)
         message = error(*solve, "--elements", "tet4", "--size-by", "min_cel", "--min-cell", "1", "--max-cell", "2")
         expect("min_cell" in message, message)
-        folder.write("soft.json", json.dumps({**PULL, "materials": {"red": {**RED, "poissons_ratio": 0.5}}}))
+        folder.write("soft.json", {**PULL, "materials": {"red": {**RED, "poissons_ratio": 0.5}}})
         message = folder.run("cube.vcad", "--study", "soft.json", "--elements", "tet4", "--size", "5", "--solve").stderr
         expect("is taken for 0.49" in message and "tet4 is far too stiff" in message, message)
     folder.run(*cube, "--study", "pull.json", "-o", "there.inp")
@@ -519,6 +519,15 @@ def ctrl_c_ends_it(folder):
     expect(not list(folder.path.glob("never*")), "a file is left")
 
 
+CHECKS = [bars_stretch_by_hookes_law, plates_are_as_thick_as_they_are, thin_plates_are_solved, cut_bricks_weigh_and_hold_what_they_are,
+          decks_have_cut_bricks_as_sections, results_are_in_the_grid, vectors_are_one_field,
+          mixtures_are_drawn_or_mixed, mixtures_that_are_no_numbers_are_reported, moduli_come_from_attributes,
+          decks_are_complete, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
+          solvers_agree, a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties,
+          results_are_in_xdmf, rounds_follow_their_results, wrong_use_of_rounds_is_reported, wrong_use_is_reported,
+          ctrl_c_ends_it]
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("ombre", type=pathlib.Path)
@@ -527,14 +536,7 @@ def main():
     ombre = arguments.ombre.resolve()
     if arguments.write_calculix:
         return write_calculix(ombre)
-
-    return check_all(ombre, [bars_stretch_by_hookes_law, plates_are_as_thick_as_they_are, thin_plates_are_solved, cut_bricks_weigh_and_hold_what_they_are,
-                             decks_have_cut_bricks_as_sections, results_are_in_the_grid, vectors_are_one_field,
-                             mixtures_are_drawn_or_mixed, mixtures_that_are_no_numbers_are_reported, moduli_come_from_attributes,
-                             decks_are_complete, walls_conduct, selections_ask_the_design, solutions_agree_with_calculix,
-                             solvers_agree, a_hook_holds_its_coat, a_mug_cools, materials_that_are_nowhere_need_no_properties,
-                             results_are_in_xdmf, rounds_follow_their_results, wrong_use_of_rounds_is_reported, wrong_use_is_reported,
-                             ctrl_c_ends_it])
+    return program.check_in_folders(Folder, ombre, program.named(CHECKS))
 
 
 if __name__ == "__main__":

@@ -5,12 +5,10 @@
 """
 import json
 import math
-import pathlib
 import shutil
-import sys
 
 import program
-from fea_jobs import PULL, RED, check_all, has_tetrahedra
+from fea_jobs import PULL, RED, Folder, has_tetrahedra
 from program import expect, near
 
 
@@ -20,7 +18,7 @@ def tetrahedra_reach_the_surface(folder):
         return
     folder.write("rod.vcad", "cylinder(3, 12, red);")
     study = {**PULL, "supports": [{"on": "zmin", "fix": "xyz", "name": "foot"}]}
-    folder.write("rod.json", json.dumps(study))
+    folder.write("rod.json", study)
     command = ("rod.vcad", "--study", "rod.json", "--elements", "tet10", "--size", "1.2")
     events = folder.events(*command, "-o", "rod.inp", "-o", "rod.vtu")
     near(events["model"]["volume_mm3"], math.pi * 9 * 12, 0.03 * math.pi * 9 * 12, "the volume")
@@ -39,7 +37,7 @@ def tetrahedra_of_any_size_come_to_an_end(folder):
         return
     folder.write("balls.vcad", "union() { sphere(2, red); translate(2.5, 0, 0) sphere(2, red); }")
     folder.write("slab.vcad", "rectprism((20, 5, 2), red);")
-    folder.write("held.json", json.dumps({**PULL, "supports": [{"on": {"where": "1"}, "fix": "xyz"}], "loads": []}))
+    folder.write("held.json", {**PULL, "supports": [{"on": {"where": "1"}, "fix": "xyz"}], "loads": []})
 
     def mesh(design, size):
         events = folder.events(design, "--study", "held.json", "--elements", "tet4", "--size", size, "-o", "held.inp", "--force")
@@ -58,7 +56,7 @@ def wide_plates_keep_their_edges(folder):
     if not has_tetrahedra(folder):
         return
     folder.write("plate.vcad", "rectprism((50, 50, 1), red);")
-    folder.write("held.json", json.dumps({**PULL, "supports": [{"on": "xmin", "fix": "xyz"}], "loads": []}))
+    folder.write("held.json", {**PULL, "supports": [{"on": "xmin", "fix": "xyz"}], "loads": []})
     job = ("plate.vcad", "--study", "held.json", "--elements", "tet4", "--size", "2", "-o", "held.inp")
     done = folder.run(*job)
     expect("elements are down to 1 mm small beside sharp edges" in done.stderr and "cut off" not in done.stderr, done.stderr)
@@ -155,7 +153,9 @@ def adaptive_meshes_cost_less(folder):
     expect(coarse < 0.5 * adaptive and adaptive < 0.5 * fine, f"{coarse}, {adaptive} and {fine} nodes")
 
 
+CHECKS = [tetrahedra_reach_the_surface, tetrahedra_of_any_size_come_to_an_end, wide_plates_keep_their_edges,
+          cells_that_repeat_fit_their_copies, designs_with_rough_edges_come_to_an_end, adaptive_meshes_cost_less]
+
+
 if __name__ == "__main__":
-    raise SystemExit(check_all(pathlib.Path(sys.argv[1]).resolve(), [
-        tetrahedra_reach_the_surface, tetrahedra_of_any_size_come_to_an_end, wide_plates_keep_their_edges,
-        cells_that_repeat_fit_their_copies, designs_with_rough_edges_come_to_an_end, adaptive_meshes_cost_less]))
+    raise SystemExit(program.main(Folder, program.named(CHECKS)))

@@ -12,7 +12,7 @@ import subprocess
 
 import png
 import program
-from slice_jobs import SMALL, expect, expect_same, files, layers, main, ombre_layer
+from slice_jobs import SMALL, Job, expect, expect_same, files, layers, ombre_layer
 
 EXAMPLES = program.SOURCE / "examples"
 
@@ -23,13 +23,13 @@ EXAMPLES = program.SOURCE / "examples"
 def threads_do_not_change_bytes(job):
     job.slice("one", *SMALL, "--threads", "1")
     job.slice("two", *SMALL, "--threads", "2")
-    expect_same(job.folder / "one", job.folder / "two")
+    expect_same(job.path / "one", job.path / "two")
 
 
 def memory_does_not_change_bytes(job):
     job.slice("plenty", *SMALL)
     job.slice("little", *SMALL, "--memory", "1M")
-    expect_same(job.folder / "plenty", job.folder / "little")
+    expect_same(job.path / "plenty", job.path / "little")
 
 
 def pieces_make_the_whole(job):
@@ -38,21 +38,21 @@ def pieces_make_the_whole(job):
     job.slice("pieces", *SMALL, "--layers", ":17", "--resume")
     job.slice("pieces", *SMALL, "--layers=-10:", "--resume")
     job.slice("pieces", *SMALL, "--resume")
-    expect_same(job.folder / "whole", job.folder / "pieces")
+    expect_same(job.path / "whole", job.path / "pieces")
 
 
 def a_piece_has_the_names_and_bytes_of_the_whole(job):
     job.slice("whole", *SMALL)
     job.slice("piece", *SMALL, "--layers", "30:33")
-    names = [p.name for p in layers(job.folder / "piece")]
+    names = [p.name for p in layers(job.path / "piece")]
     expect(names == ["slice_00030.png", "slice_00031.png", "slice_00032.png"], str(names))
-    expect_same(job.folder / "whole", job.folder / "piece", lambda name: name in names)
+    expect_same(job.path / "whole", job.path / "piece", lambda name: name in names)
 
 
 def seeds_change_the_mixture_only(job):
     job.slice("a", *SMALL, "--seed", "1")
     job.slice("b", *SMALL, "--seed", "2")
-    expect(files(job.folder / "a") != files(job.folder / "b"), "the same files for two seeds")
+    expect(files(job.path / "a") != files(job.path / "b"), "the same files for two seeds")
     inside = [[[pixel[3] > 0 for row in image.rows for pixel in row] for image in job.images(out)[40:44]]
               for out in "ab"]
     expect(inside[0] == inside[1], "the seed moved the surface")
@@ -67,10 +67,10 @@ def printed_designs_are_the_same_job(job):
         printed = program.run([job.ombre, "slice", script, "--emit", "json"]).stdout
         job.slice(name, *SMALL, design=script)
         job.slice(name + "_json", *SMALL, design=job.write(name + ".json", printed))
-        hashes = [json.loads((job.folder / out / "job.json").read_text())["design_hash"] for out in (name, name + "_json")]
+        hashes = [json.loads((job.path / out / "job.json").read_text())["design_hash"] for out in (name, name + "_json")]
         expect(hashes[0] == hashes[1], f"{name}: design hashes {hashes}")
-        expect_same(job.folder / name, job.folder / (name + "_json"), lambda file: file.startswith("slice_"))
-    expect_same(job.folder / "parts", job.folder / "parts_json")
+        expect_same(job.path / name, job.path / (name + "_json"), lambda file: file.startswith("slice_"))
+    expect_same(job.path / "parts", job.path / "parts_json")
 
 
 def roundabout_rotations_keep_the_voxels(job):
@@ -146,11 +146,11 @@ def materials_have_masks_of_their_own(job):
     """The vat profile: one image for each material, white where rgba images show its colour."""
     job.slice("rgba", *SMALL, "--format", "rgba", "--layers", "40:44")
     job.slice("vat", "--printer", "vat-50um", *SMALL, "--layers", "40:44")
-    names = sorted(p.name for p in layers(job.folder / "vat"))
+    names = sorted(p.name for p in layers(job.path / "vat"))
     expect(names == [f"slice_{n:05}_{m}.png" for n in range(40, 44) for m in ("blue", "red")], str(names))
     for n, whole in zip(range(40, 44), job.images("rgba")):
         for name, colour in (("red", (255, 0, 0, 255)), ("blue", (0, 80, 255, 255))):
-            mask = png.read(job.folder / "vat" / f"slice_{n:05}_{name}.png")
+            mask = png.read(job.path / "vat" / f"slice_{n:05}_{name}.png")
             expect(mask.depth == 1, f"{mask.depth} bits")
             wanted = [[255 if pixel == colour else 0 for pixel in row] for row in whole.rows]
             expect([[bright(pixel) for pixel in row] for row in mask.rows] == wanted, f"layer {n}: the mask of {name}")
@@ -195,12 +195,12 @@ def images_of_values_have_channels(job):
 def masks_resume_and_are_replaced(job):
     job.slice("whole", *SMALL, "--format", "mask")
     job.slice("out", *SMALL, "--format", "mask", "--layers", "0:60")
-    layers(job.folder / "out")[33].unlink()
+    layers(job.path / "out")[33].unlink()
     job.slice("out", *SMALL, "--format", "mask", "--resume")
-    expect_same(job.folder / "whole", job.folder / "out")
+    expect_same(job.path / "whole", job.path / "out")
     job.slice("out", *SMALL, "--force")
     job.slice("fresh", *SMALL)
-    expect_same(job.folder / "out", job.folder / "fresh")
+    expect_same(job.path / "out", job.path / "fresh")
 
 
 # ---- single layers
@@ -214,7 +214,7 @@ def layers_are_those_of_the_job(job):
         for number, arguments in ((0, ["--index", "0"]), (57, ["--index=57"]), (99, ["--index=-1"]), (57, ["--z", "0.7"]),
                                   (56, ["--z", "0.69999"]), (99, ["--z", "5"]), (0, ["--z=-5"])):
             ombre_layer(job, *options, *arguments, "-o", "one.png", "--force")
-            expect((job.folder / "one.png").read_bytes() == layers(job.folder / form)[number].read_bytes(),
+            expect((job.path / "one.png").read_bytes() == layers(job.path / form)[number].read_bytes(),
                    f"{form}, {arguments}: other bytes than layer {number}")
 
 
@@ -224,20 +224,20 @@ def layers_of_masks_have_several_files(job):
     ombre_layer(job, *options, "--index", "40")
     ombre_layer(job, *options, "--index", "40", "-o", "mine.png")
     for name in ("red", "blue"):
-        wanted = (job.folder / "out" / f"slice_00040_{name}.png").read_bytes()
+        wanted = (job.path / "out" / f"slice_00040_{name}.png").read_bytes()
         for found in (f"ball_slice_00040_{name}.png", f"mine_{name}.png"):
-            expect((job.folder / found).read_bytes() == wanted, f"{found}: other bytes")
+            expect((job.path / found).read_bytes() == wanted, f"{found}: other bytes")
     result = ombre_layer(job, *options, "--index", "40", "-o", "-", status=1)
     expect("each material has an image" in result.stderr, result.stderr)
 
 
 def boxes_cut_layers(job):
     ombre_layer(job, *SMALL, "--z", "0.25", "-o", "whole.png")
-    whole = png.read(job.folder / "whole.png")
+    whole = png.read(job.path / "whole.png")
     for form, colour_type in (("indexed", png.INDEXED), ("rgba", png.RGBA)):
         # x from -1 to 2.5 mm and y from -3 to 4 mm of a part that begins at -5 mm
         ombre_layer(job, *SMALL, "--z", "0.25", "--box=-1,-3,2.5,4", "-o", form + ".png", "--format", form)
-        part = png.read(job.folder / (form + ".png"))
+        part = png.read(job.path / (form + ".png"))
         expect(part.colour_type == colour_type, f"colour type {part.colour_type}")
         wanted = [row[40:75] for row in whole.rows[10:80]]
         expect(part.rows == wanted, f"{form}: {part.width} x {part.height} other pixels")
@@ -251,20 +251,20 @@ def boxes_cut_jobs(job):
         options = [*SMALL, "--dither", dither, "--seed", "2"]
         job.slice("whole " + dither, *options, "--layers", "59:62")
         job.slice(dither, *options, box)
-        names = [p.name for p in layers(job.folder / dither)]
+        names = [p.name for p in layers(job.path / dither)]
         expect(names == ["slice_00059.png", "slice_00060.png", "slice_00061.png"], f"{dither}: {names}")
         for name in names:
-            whole, part = (png.read(job.folder / folder / name) for folder in ("whole " + dither, dither))
+            whole, part = (png.read(job.path / folder / name) for folder in ("whole " + dither, dither))
             expect(part.rows == [row[40:75] for row in whole.rows[10:80]], f"{dither}: other pixels in {name}")
-    about = json.loads((job.folder / "stochastic" / "job.json").read_text(encoding="utf-8"))
+    about = json.loads((job.path / "stochastic" / "job.json").read_text(encoding="utf-8"))
     sampling = about["sampling"]
     expect(sampling["voxels"] == [35, 70, 3] and sampling["part_of"] == {"first_voxel": [40, 20, 59],
                                                                          "voxels": [100, 100, 100]}, str(sampling))
     expect([round(c, 9) for c in sampling["origin_mm"]] == [-1, -3, 0.9], str(sampling))
     expect(about["status"] == "complete" and about["images"]["first_index"] == 59, str(about))
-    before = files(job.folder / "stochastic")
+    before = files(job.path / "stochastic")
     job.slice("stochastic", *SMALL, "--seed", "2", box, "--resume")
-    expect(files(job.folder / "stochastic") == before, "--resume changed it")
+    expect(files(job.path / "stochastic") == before, "--resume changed it")
     result = job.slice("stochastic", *SMALL, "--seed", "2", "--box=-1,-3,0.95,2.5,4,1.3", "--resume", status=2)
     expect("another job" in result.stderr, result.stderr)
     for arguments, part in (([box, "--layers", "0:3"], "--layers"), (["--box", "1,2,3"], "x0,y0,z0,x1,y1,z1"),
@@ -279,12 +279,12 @@ def boxes_cut_jobs(job):
 
 def layers_have_names_and_are_not_overwritten(job):
     ombre_layer(job, *SMALL, "--index", "7")
-    name = job.folder / "ball_slice_00007.png"
+    name = job.path / "ball_slice_00007.png"
     before = name.read_bytes()
     result = ombre_layer(job, "--voxel", "0.5", "--index", "7", status=2)
     expect("--force" in result.stderr and name.read_bytes() == before, f"it wrote, or does not say how: {result.stderr}")
     command = [str(a) for a in (job.ombre, "layer", job.design, *SMALL, "--index", "7", "-o", "-")]
-    piped = subprocess.run(command, cwd=job.folder, env=program.environment(), capture_output=True, check=True).stdout
+    piped = subprocess.run(command, cwd=job.path, env=program.environment(), capture_output=True, check=True).stdout
     expect(piped == before, "other bytes on stdout")
     reported = json.loads(ombre_layer(job, *SMALL, "--index", "7", "--force", "--json").stdout.splitlines()[-1])
     expect(reported["event"] == "done" and reported["files"] == [name.name] and reported["layer"] == 7, str(reported))
@@ -299,15 +299,15 @@ def wrong_layers_are_explained(job):
                             (["--z", "0", "--index", "0"], "do not go together")):
         result = ombre_layer(job, *SMALL, *arguments, status=1)
         expect(part in result.stderr, f"{arguments}: {result.stderr}")
-    expect(not list(job.folder.glob("*.png")), "it wrote all the same")
+    expect(not list(job.path.glob("*.png")), "it wrote all the same")
 
 
 # ---- what the repository promises
 
 
 def example_slices(job, example):
-    command = [job.ombre, "slice", example, "-o", job.folder / "out", "--voxel", "0.5", "--json"]
-    result = program.run(command, cwd=job.folder)
+    command = [job.ombre, "slice", example, "-o", job.path / "out", "--voxel", "0.5", "--json"]
+    result = program.run(command, cwd=job.path)
     reported = [e["message"] for e in map(json.loads, result.stdout.splitlines()) if e["event"] == "message"]
     expect(result.returncode == 0, f"status {result.returncode}: {reported} {result.stderr}")
     expect(not reported, f"it warned: {reported}")
@@ -320,7 +320,7 @@ def suggestions_of_examples_work(job):
     for example in program.examples(job.ombre):
         head = " ".join(line[2:].strip() for line in example.read_text().splitlines() if line.startswith("//"))
         for group in re.findall(f"{option}(?: {option})*", head.partition("Try:")[2]):
-            result = program.run(job.command("tried", "--dry-run", "--voxel", "0.5", *shlex.split(group), design=example))
+            result = program.run(job.slicing("tried", "--dry-run", "--voxel", "0.5", *shlex.split(group), design=example))
             good = result.returncode == 0 and "warning: " not in result.stderr
             expect(good, f"{example.name} {group}: {result.stderr}")
 
@@ -349,32 +349,32 @@ def designs_of_openscad_are_explained(job):
     }
     ball = job.write("ball.vcad", "sphere(5);")
     for command, made in (("mesh", "part.stl"), ("render", "picture.png")):
-        program.run([job.ombre, command, ball, "-o", job.folder / made, "-q"])
+        program.run([job.ombre, command, ball, "-o", job.path / made, "-q"])
     for theirs, ours in instead.items():
-        reported = program.run(job.command("told", "--dry-run", design=job.write("theirs.vcad", theirs)))
+        reported = program.run(job.slicing("told", "--dry-run", design=job.write("theirs.vcad", theirs)))
         expect(reported.returncode == 1 and ours.partition("(")[0] in reported.stderr, f"{theirs}: {reported.stderr}")
-        made = program.run(job.command("made", "--dry-run", "--voxel", "0.5", design=job.write("ours.vcad", ours)))
+        made = program.run(job.slicing("made", "--dry-run", "--voxel", "0.5", design=job.write("ours.vcad", ours)))
         expect(made.returncode == 0, f"{ours}: {made.stderr}")
 
 
 def links_lead_to_what_lies_beside_them(job):
     """Files are looked for beside a link first, then beside what it links to, in one step or more."""
     for folder in ("real", "mid", "near"):
-        (job.folder / folder).mkdir()
+        (job.path / folder).mkdir()
     job.write("real/part.vcad", "include <sizes.vcad>\nuse <bump.vcad>\nrectprism((side, 1, 1), red);\nbump();\n")
     job.write("real/sizes.vcad", "side = 10;\n")
     job.write("real/bump.vcad", "module bump() translate(0, 5, 0) cube(1, red);\n")
     job.write("mid/sizes.vcad", "side = 6;\n")
     job.write("near/sizes.vcad", "side = 3;\n")
-    (job.folder / "far.vcad").symlink_to("real/part.vcad")
-    (job.folder / "mid/part.vcad").symlink_to("../real/part.vcad")
-    (job.folder / "near/part.vcad").symlink_to(job.folder / "mid/part.vcad")
-    (job.folder / "two_steps.vcad").symlink_to("mid/part.vcad")
+    (job.path / "far.vcad").symlink_to("real/part.vcad")
+    (job.path / "mid/part.vcad").symlink_to("../real/part.vcad")
+    (job.path / "near/part.vcad").symlink_to(job.path / "mid/part.vcad")
+    (job.path / "two_steps.vcad").symlink_to("mid/part.vcad")
     for name, side in (("far", 10), ("mid/part", 6), ("near/part", 3), ("two_steps", 6)):
-        reported = job.slice("out", "--voxel", "1", "--dry-run", design=job.folder / f"{name}.vcad")
+        reported = job.slice("out", "--voxel", "1", "--dry-run", design=job.path / f"{name}.vcad")
         expect(f"box {side} x " in reported.stderr + reported.stdout, f"{name}: {reported.stderr}")
-    (job.folder / "real/lost.vcad").write_text("include <lost_sizes.vcad>\n")
-    (job.folder / "lost.vcad").symlink_to("real/lost.vcad")
+    (job.path / "real/lost.vcad").write_text("include <lost_sizes.vcad>\n")
+    (job.path / "lost.vcad").symlink_to("real/lost.vcad")
     reported = job.slice("out", "--dry-run", design="lost.vcad", status=1).stderr
     expect("looked for lost_sizes.vcad and real/lost_sizes.vcad" in reported, reported)
 
@@ -382,21 +382,21 @@ def links_lead_to_what_lies_beside_them(job):
 def bundles_slice_as_their_designs_do(job):
     """A mesh in a folder beside the design goes with it, and is found from anywhere; turned, both are turned."""
     options = ["--voxel", "0.5", "--rotate", "90,0,0"]
-    made = program.run([job.ombre, "bundle", EXAMPLES / "gear.vcad"], cwd=job.folder)
+    made = program.run([job.ombre, "bundle", EXAMPLES / "gear.vcad"], cwd=job.path)
     if "OMBRE_3MF" in made.stderr:
         return "skipped: built without zip archives"
     expect(made.returncode == 0, made.stderr[-1500:])
     job.slice("design", *options, design=EXAMPLES / "gear.vcad")
-    job.slice("bundle", *options, design=job.folder / "gear.ombre")
-    expect_same(job.folder / "design", job.folder / "bundle")
+    job.slice("bundle", *options, design=job.path / "gear.ombre")
+    expect_same(job.path / "design", job.path / "bundle")
     written = job.write("turned.vcad", f'rotate((90, 0, 0), order="xyz") mesh("{EXAMPLES}/models/gear.stl", green);')
     plain = job.write("plain.vcad", f'mesh("{EXAMPLES}/models/gear.stl", green);')
     job.slice("written", "--voxel", "0.5", design=written)
     job.slice("turned", *options, design=plain)
-    expect_same(job.folder / "written", job.folder / "turned")
+    expect_same(job.path / "written", job.path / "turned")
     job.write("broken.ombre", "no archive")
-    expect("this is no bundle" in job.slice("broken", design=job.folder / "broken.ombre", status=1).stderr, "broken")
-    expect(not (job.folder / "broken").exists(), "a folder of a broken bundle")
+    expect("this is no bundle" in job.slice("broken", design=job.path / "broken.ombre", status=1).stderr, "broken")
+    expect(not (job.path / "broken").exists(), "a folder of a broken bundle")
     return ""
 
 
@@ -413,7 +413,7 @@ def examples_of_nodes_slice(job):
     listed = program.run([job.ombre, "nodes", "--json"]).stdout
     for node in map(json.loads, listed.splitlines()):
         design = job.write(node["name"] + ".vcad", node["example"])
-        result = program.run(job.command(node["name"], "--voxel", "0.5", design=design), cwd=EXAMPLES)
+        result = program.run(job.slicing(node["name"], "--voxel", "0.5", design=design), cwd=EXAMPLES)
         if program.WITHOUT_CAD in result.stderr:
             continue
         expect(result.returncode == 0, f"{node['name']}: {node['example']}\n{result.stderr}")
@@ -432,4 +432,4 @@ CHECKS = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make
 if __name__ == "__main__":
     EXAMPLE_CHECKS = {f"example {example.stem}": functools.partial(example_slices, example=example)
                       for example in sorted(EXAMPLES.glob("*.vcad"))}
-    raise SystemExit(main("Checks the files of slice jobs.", {**{f.__name__: f for f in CHECKS}, **EXAMPLE_CHECKS}))
+    raise SystemExit(program.main(Job, {**program.named(CHECKS), **EXAMPLE_CHECKS}))

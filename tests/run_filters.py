@@ -3,11 +3,8 @@
 
     python3 tests/run_filters.py build/dev/apps/ombre/ombre
 """
-import argparse
-import pathlib
 import struct
 import sys
-import tempfile
 import zlib
 
 import numpy as np
@@ -23,11 +20,11 @@ SPACING = (0.5, 0.4, 0.8)  # mm along x, y and z
 SHAPE = (15, 13, 9)  # voxels along x, y and z
 
 
-class Scene:
+class Scene(program.Folder):
     """A label map in which about a fifth is void, as a design of two materials and one attribute."""
 
     def __init__(self, ombre, scratch):
-        self.ombre, self.path = ombre, pathlib.Path(scratch)
+        super().__init__(ombre, scratch)
         rng = np.random.default_rng(31)
         self.labels = rng.choice(3, size=SHAPE, p=(0.2, 0.5, 0.3)).astype(np.uint8)
         # Ends of the lattice hold something, so that it is the whole map.
@@ -306,21 +303,12 @@ def grey_stacks_are_volumes(scene):
     expect((grid == numbers).all(), "numbers of a grey stack")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("ombre")
-    options = parser.parse_args()
-    checks = [convolutions_are_those_of_scipy, products_of_lists_are_the_same_kernel, boxes_are_kernels_of_ones,
-              sharpening_keeps_no_negative_share, gaussians_are_those_of_scipy, attributes_are_filtered_inside,
-              medians_are_those_of_scipy, majorities_count_materials, morphology_is_that_of_scipy,
-              smoothing_takes_the_half, smoothing_may_keep_the_volume, a_noisy_scan_becomes_clearer, parts_are_those_of_scipy, distances_are_those_of_a_ball,
-              stacks_of_slices_are_read_back, grey_stacks_are_volumes]
-    ombre = str(pathlib.Path(options.ombre).resolve())
-    for check in checks:
-        with tempfile.TemporaryDirectory() as scratch:
-            check(Scene(ombre, scratch))
-        print("ok", check.__name__.replace("_", " "))
+CHECKS = [convolutions_are_those_of_scipy, products_of_lists_are_the_same_kernel, boxes_are_kernels_of_ones,
+          sharpening_keeps_no_negative_share, gaussians_are_those_of_scipy, attributes_are_filtered_inside,
+          medians_are_those_of_scipy, majorities_count_materials, morphology_is_that_of_scipy,
+          smoothing_takes_the_half, smoothing_may_keep_the_volume, a_noisy_scan_becomes_clearer, parts_are_those_of_scipy, distances_are_those_of_a_ball,
+          stacks_of_slices_are_read_back, grey_stacks_are_volumes]
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(program.main(Scene, program.named(CHECKS)))

@@ -3,12 +3,8 @@
 
     python3 tests/run_guard.py build/dev/apps/ombre/ombre
 """
-import argparse
-import functools
-import pathlib
 import struct
 import sys
-import tempfile
 import zlib
 
 import program
@@ -32,51 +28,51 @@ def write_case(folder, text):
     (folder / "block" / "expect.txt").write_text(COMMAND, encoding="utf-8")
 
 
-def guard(ombre, scratch, action, *options):
-    return program.run([sys.executable, "-B", GUARD, action, scratch / "record.txt", "--program", ombre, *options])
+def guard(folder, action, *options):
+    return program.run([sys.executable, "-B", GUARD, action, folder.path / "record.txt", "--program", folder.ombre, *options])
 
 
-def builds_that_write_the_same_pass(ombre, scratch):
+def builds_that_write_the_same_pass(folder):
     only = ["--quick", "--only", "cone_and_sphere"]
-    done = guard(ombre, scratch, "record", *only, "--threads", "2")
+    done = guard(folder, "record", *only, "--threads", "2")
     expect(done.returncode == 0, done.stdout + done.stderr)
-    done = guard(ombre, scratch, "compare", *only)
+    done = guard(folder, "compare", *only)
     expect(done.returncode == 0 and " 0 differ" in done.stdout, done.stdout + done.stderr)
 
 
-def changed_designs_are_reported(ombre, scratch):
-    cases = scratch / "cases"
+def changed_designs_are_reported(folder):
+    cases = folder.path / "cases"
     cases.mkdir()
     write_case(cases, BLOCK)
-    done = guard(ombre, scratch, "record", "--only", "^given/", "--cases", cases)
+    done = guard(folder, "record", "--only", "^given/", "--cases", cases)
     expect(done.returncode == 0, done.stdout + done.stderr)
-    done = guard(ombre, scratch, "compare", "--only", "^given/")
+    done = guard(folder, "compare", "--only", "^given/")
     expect(done.returncode == 0, done.stdout + done.stderr)
     write_case(cases, WITHOUT_A_CORNER)
-    done = guard(ombre, scratch, "compare", "--only", "^given/")
+    done = guard(folder, "compare", "--only", "^given/")
     expect(done.returncode == 1, done.stdout + done.stderr)
     for part in ("given/block, given", "out/slice_00001.png: 1 of 16 pixels differ, by 255", "red: 31 voxels",
                  "ombre slice d.vcad --voxel 1 -o out --threads 1"):
         expect(part in done.stdout, f"nothing of {part}: {done.stdout}")
-    before, now = (scratch / "record.txt.differences" / "given" / "block" / "run" / when / "out" for when in ("before", "now"))
+    before, now = (folder.path / "record.txt.differences" / "given" / "block" / "run" / when / "out" for when in ("before", "now"))
     expect((before / "slice_00000.png").read_bytes() == (now / "slice_00000.png").read_bytes(), "the lower layer")
     expect((before / "slice_00001.png").read_bytes() != (now / "slice_00001.png").read_bytes(), "the upper layer")
 
 
-def jobs_that_are_gone_are_reported(ombre, scratch):
+def jobs_that_are_gone_are_reported(folder):
     only = ["--only", "say-version"]
-    guard(ombre, scratch, "record", *only)
-    record = scratch / "record.txt"
+    guard(folder, "record", *only)
+    record = folder.path / "record.txt"
     record.write_text(record.read_text().replace("say-version", "say-version-of-old"))
-    done = guard(ombre, scratch, "compare", *only)
+    done = guard(folder, "compare", *only)
     expect(done.returncode == 1 and "no more: program/ombre say-version-of-old" in done.stdout, done.stdout + done.stderr)
 
 
-def records_are_checked(ombre, scratch):
-    done = guard(ombre, scratch, "compare")
+def records_are_checked(folder):
+    done = guard(folder, "compare")
     expect(done.returncode == 2 and "./dev guard record" in done.stderr, done.stderr)
-    (scratch / "record.txt").write_text("something\n")
-    done = guard(ombre, scratch, "compare")
+    (folder.path / "record.txt").write_text("something\n")
+    done = guard(folder, "compare")
     expect(done.returncode == 1 and "is not a record" in done.stderr, done.stderr)
 
 
@@ -112,12 +108,12 @@ def differences_are_counted(*_):
            "1 of 3 files differ, a.npy: 1 of 2 bytes differ, the first at 1", reported)
 
 
-def times_and_paths_are_taken_out(ombre, scratch):
-    runner = guard_run.Runner(ombre, 1, scratch)
+def times_and_paths_are_taken_out(folder):
+    runner = guard_run.Runner(folder.ombre, 1, folder.path)
     reported = runner.normalised("a\nabout 0:00, 9 KiB of images (gray), at most 2 KiB of memory; nothing was written\n", "x")
     expect(reported == "a\nESTIMATE\n", reported)
-    said = f"9 layers written to {scratch}/x/out; 9 KiB in 1.5e-05 s, 2.5 M voxels/s; 3 mm {guard_jobs.ROOT}/a"
-    reported = runner.normalised(said, scratch / "x")
+    said = f"9 layers written to {folder.path}/x/out; 9 KiB in 1.5e-05 s, 2.5 M voxels/s; 3 mm {guard_jobs.ROOT}/a"
+    reported = runner.normalised(said, folder.path / "x")
     expect(reported == "9 layers written to OUT/out; 9 KiB in TIME s, SPEED voxels/s; 3 mm SOURCE/a", reported)
 
 
@@ -125,19 +121,5 @@ CHECKS = [builds_that_write_the_same_pass, changed_designs_are_reported, jobs_th
           differences_are_counted, times_and_paths_are_taken_out]
 
 
-def in_scratch(function, ombre):
-    with tempfile.TemporaryDirectory() as scratch:
-        return function(ombre, pathlib.Path(scratch))
-
-
-def main():
-    parser = argparse.ArgumentParser(description="Checks the guard.")
-    parser.add_argument("ombre", type=pathlib.Path, help="the program")
-    parser.add_argument("names", nargs="*", help="only these")
-    a = parser.parse_args()
-    chosen = [check for check in CHECKS if not a.names or check.__name__ in a.names]
-    return program.check_all([(check.__name__, functools.partial(in_scratch, check, a.ombre.resolve())) for check in chosen])
-
-
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program.main(program.Folder, program.named(CHECKS)))

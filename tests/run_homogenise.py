@@ -3,11 +3,7 @@
 
     python3 tests/run_homogenise.py build/dev/apps/ombre/ombre
 """
-import argparse
-import functools
 import json
-import pathlib
-import tempfile
 
 import program
 from program import expect
@@ -19,20 +15,18 @@ def near(got, wanted, tolerance, what):
     expect(abs(got - wanted) <= tolerance * abs(wanted), f"{what} is {got}, not {wanted}")
 
 
-def run(ombre, folder, design, *arguments, status=0):
-    (folder / "design.vcad").write_text(design, encoding="utf-8")
-    result = program.run([ombre, "homogenise", "design.vcad", *arguments], cwd=folder)
-    expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
-    return result
+def run(folder, design, *arguments, status=0):
+    folder.write("design.vcad", design)
+    return folder.run("homogenise", "design.vcad", *arguments, status=status)
 
 
-def homogenised(ombre, folder, design, *arguments):
-    lines = run(ombre, folder, design, "--study", STUDY, "--json", *arguments).stdout.splitlines()
+def homogenised(folder, design, *arguments):
+    lines = run(folder, design, "--study", STUDY, "--json", *arguments).stdout.splitlines()
     return next(e for e in map(json.loads, lines) if e["event"] == "homogenised")
 
 
-def plain_blocks_are_their_material(ombre, folder):
-    found = homogenised(ombre, folder, 'rectprism([6, 5, 4], material="red");', "--cell", "1")
+def plain_blocks_are_their_material(folder):
+    found = homogenised(folder, 'rectprism([6, 5, 4], material="red");', "--cell", "1")
     for value in found["modulus_mpa"]:
         near(value, 2850, 1e-6, "Young's modulus")
     for value in found["poissons_ratio"]:
@@ -40,10 +34,10 @@ def plain_blocks_are_their_material(ombre, folder):
     expect(abs(found["universal_anisotropy"]) < 1e-6, "it is not isotropic")
 
 
-def layers_share_strain_in_the_plane(ombre, folder):
+def layers_share_strain_in_the_plane(folder):
     """Half stiff, half soft across z: along x nearly half the stiff modulus; along z the soft one holds all."""
     design = 'translate([0, 0, 1]) rectprism([4, 4, 2], material="red"); translate([0, 0, -1]) rectprism([4, 4, 2], material="blue");'
-    found = homogenised(ombre, folder, design, "--cell", "0.5", "--tolerance", "1e-9")
+    found = homogenised(folder, design, "--cell", "0.5", "--tolerance", "1e-9")
 
     def compression(e, nu):
         return e * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
@@ -52,94 +46,93 @@ def layers_share_strain_in_the_plane(ombre, folder):
     near(found["modulus_mpa"][0], 1425, 0.01, "Young's modulus along the layers")
 
 
-def boxes_cut_and_repeat(ombre, folder):
+def boxes_cut_and_repeat(folder):
     """A rod that fills a quarter of its box, along z."""
-    found = homogenised(ombre, folder, 'rectprism([2, 2, 8], material="red");', "--cell", "0.5", "--box=-2,-2,-2,2,2,2")
+    found = homogenised(folder, 'rectprism([2, 2, 8], material="red");', "--cell", "0.5", "--box=-2,-2,-2,2,2,2")
     near(found["solid_share"], 0.25, 1e-9, "the solid share")
     near(found["stiffness_mpa"][2][2], 2850 / 4, 1e-5, "the stiffness along the rod")
     expect("modulus_mpa" not in found, "it says that it holds loads across")
 
 
-def shares_are_those_of_the_design(ombre, folder):
+def shares_are_those_of_the_design(folder):
     """A rod of 1.5 mm in a box of 4 mm: 0.140625 of it, whatever its bricks have."""
     rod = 'rectprism([1.5, 1.5, 8], material="red");'
     box = ("--cell", "0.8", "--box=-2,-2,-2,2,2,2")
-    found = homogenised(ombre, folder, rod, *box)
+    found = homogenised(folder, rod, *box)
     near(found["solid_share"], 0.140625, 0.03, "the solid share")
     near(found["brick_share"], 0.140625, 0.03, "the share of the bricks")
     near(found["stiffness_mpa"][2][2], 2850 * found["brick_share"], 1e-4, "the stiffness along the rod")
-    whole = homogenised(ombre, folder, rod, *box, "--fill", "centre")
+    whole = homogenised(folder, rod, *box, "--fill", "centre")
     near(whole["solid_share"], 0.140625, 0.03, "the solid share beside whole bricks")
     near(whole["brick_share"], 1 / 25, 1e-9, "the share of whole bricks")
 
 
-def sizes_are_compared(ombre, folder):
+def sizes_are_compared(folder):
     """Richardson's rule, from numbers of two runs; a plain block has no error."""
     cell = 'difference() { rectprism([4, 4, 4], material="red"); sphere(1.5); }'
-    fine, coarse = homogenised(ombre, folder, cell, "--cell", "0.5"), homogenised(ombre, folder, cell, "--cell", "1")
+    fine, coarse = homogenised(folder, cell, "--cell", "0.5"), homogenised(folder, cell, "--cell", "1")
     for axis in range(3):
         near(fine["coarse_modulus_mpa"][axis], coarse["modulus_mpa"][axis], 1e-6, "the modulus of larger bricks")
         difference = fine["modulus_mpa"][axis] - coarse["modulus_mpa"][axis]
         near(fine["extrapolated_modulus_mpa"][axis], fine["modulus_mpa"][axis] + difference / 3, 1e-6, "the limit")
         near(fine["modulus_error_mpa"][axis], abs(difference) / 3, 1e-3, "the error")
-    plain = homogenised(ombre, folder, 'rectprism([4, 4, 4], material="red");', "--cell", "1")
+    plain = homogenised(folder, 'rectprism([4, 4, 4], material="red");', "--cell", "1")
     for value, error in zip(plain["extrapolated_modulus_mpa"], plain["modulus_error_mpa"]):
         near(value, 2850, 1e-5, "the modulus of a block")
         expect(error < 0.01, f"a block has an error of {error}")
 
 
-def densities_find_a_thickness(ombre, folder):
+def densities_find_a_thickness(folder):
     """A rod that fills a quarter of a box of 4 mm is 2 mm thick."""
     rod = 'thickness = 1; rectprism([thickness, thickness, 8], material="red");'
     box = ("--study", STUDY, "--cell", "0.5", "--box=-2,-2,-2,2,2,2")
-    lines = run(ombre, folder, rod, *box, "--density", "0.25", "--by", "thickness=0.2:3.5", "--json").stdout.splitlines()
+    lines = run(folder, rod, *box, "--density", "0.25", "--by", "thickness=0.2:3.5", "--json").stdout.splitlines()
     events = {e["event"]: e for e in map(json.loads, lines)}
     near(events["density"]["value"], 2, 0.01, "the thickness")
     near(events["homogenised"]["solid_share"], 0.25, 0.002, "the share")
     for by, wanted in (("thickness=0.2:1", "never 25 %"), ("thickness=3", "needs a variable"), ("width=1:3", "width")):
-        reported = run(ombre, folder, rod, *box, "--density", "0.25", "--by", by, status=1).stderr
+        reported = run(folder, rod, *box, "--density", "0.25", "--by", by, status=1).stderr
         expect(wanted in reported, reported)
-    expect("is of a density" in run(ombre, folder, rod, *box, "--by", "thickness=1:3", status=1).stderr, "--by alone")
+    expect("is of a density" in run(folder, rod, *box, "--by", "thickness=1:3", status=1).stderr, "--by alone")
 
 
-def draws_are_softer_than_means(ombre, folder):
+def draws_are_softer_than_means(folder):
     """A dithered mixture of half and half lies between the bounds that any arrangement has."""
     design = 'fgrade(["0.5", "0.5"], ["red", "blue"]) rectprism([4, 4, 4]);'
-    drawn = homogenised(ombre, folder, design, "--cell", "0.5", "--seed", "3")
-    mixed = homogenised(ombre, folder, design, "--cell", "1", "--assign", "mix")
+    drawn = homogenised(folder, design, "--cell", "0.5", "--seed", "3")
+    mixed = homogenised(folder, design, "--cell", "1", "--assign", "mix")
     near(mixed["modulus_mpa"][0], (2850 + 0.383) / 2, 1e-4, "the mean modulus")
     for axis in range(3):
         value = drawn["stiffness_mpa"][axis][axis]
         expect(drawn["reuss_mpa"][axis][axis] < value < drawn["voigt_mpa"][axis][axis], "it is beyond the bounds")
-    expect(homogenised(ombre, folder, design, "--cell", "0.5", "--seed", "3", "--threads", "1")["stiffness_mpa"] ==
+    expect(homogenised(folder, design, "--cell", "0.5", "--seed", "3", "--threads", "1")["stiffness_mpa"] ==
            drawn["stiffness_mpa"], "threads change it")
 
 
-def charts_are_written(ombre, folder):
-    run(ombre, folder, 'rectprism([2, 2, 2], material="red");', "--study", STUDY, "--cell", "1", "-o", "chart.svg")
-    text = (folder / "chart.svg").read_text(encoding="utf-8")
+def charts_are_written(folder):
+    run(folder, 'rectprism([2, 2, 2], material="red");', "--study", STUDY, "--cell", "1", "-o", "chart.svg")
+    text = folder.read("chart.svg")
     expect(text.startswith("<svg") and text.count('class="modulus"') == 3, "three diagrams")
     before = text
-    reported = run(ombre, folder, "cube(2);", "--study", STUDY, "--cell", "1", "-o", "chart.svg", status=2).stderr
-    expect("--force" in reported and (folder / "chart.svg").read_text(encoding="utf-8") == before, "overwriting")
+    reported = run(folder, "cube(2);", "--study", STUDY, "--cell", "1", "-o", "chart.svg", status=2).stderr
+    expect("--force" in reported and folder.read("chart.svg") == before, "overwriting")
 
 
-def layers_conduct_in_series_and_parallel(ombre, folder):
+def layers_conduct_in_series_and_parallel(folder):
     design = 'translate([0, 0, 1]) rectprism([4, 4, 2], material="red"); translate([0, 0, -1]) rectprism([4, 4, 2], material="blue");'
     for physics, unit in (("heat", "conductivity_w_mk"), ("electric", "conductivity_s_m")):
-        (folder / "heat.json").write_text(json.dumps({"physics": physics, "materials": {"red": {unit: 15}, "blue": {unit: 0.2}}}),
-                                          encoding="utf-8")
-        lines = run(ombre, folder, design, "--study", "heat.json", "--json", "--cell", "1", "--tolerance", "1e-10").stdout.splitlines()
+        folder.write("heat.json", {"physics": physics, "materials": {"red": {unit: 15}, "blue": {unit: 0.2}}})
+        lines = run(folder, design, "--study", "heat.json", "--json", "--cell", "1", "--tolerance", "1e-10").stdout.splitlines()
         found = next(e for e in map(json.loads, lines) if e["event"] == "homogenised")[unit]
         for axis, wanted in enumerate(((15 + 0.2) / 2, (15 + 0.2) / 2, 2 / (1 / 15 + 1 / 0.2))):
             near(found[axis][axis], wanted, 1e-6, f"the conductivity along {'xyz'[axis]}")
-    reported = run(ombre, folder, design, "--study", "heat.json", "--cell", "1", "-o", "chart.svg", status=1).stderr
-    expect("conductivities have none" in reported and not (folder / "chart.svg").exists(), reported)
+    reported = run(folder, design, "--study", "heat.json", "--cell", "1", "-o", "chart.svg", status=1).stderr
+    expect("conductivities have none" in reported and not (folder.path / "chart.svg").exists(), reported)
 
 
-def wrong_use_is_reported(ombre, folder):
+def wrong_use_is_reported(folder):
     def reported(design, *arguments, status=1):
-        return run(ombre, folder, design, *arguments, status=status).stderr
+        return run(folder, design, *arguments, status=status).stderr
     study = ("--study", STUDY)
     expect('no elastic properties of "green"' in reported("sphere(2, green);", "--cell", "1", *study), "properties")
     expect("from 1 to 4096" in reported("cube(2, red);", "--cell", "0.0001", *study), "too many bricks")
@@ -148,21 +141,11 @@ def wrong_use_is_reported(ombre, folder):
     expect("more than the" in reported("cube(9, red);", "--cell", "0.1", "--memory", "1M", *study, status=2), "memory")
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("ombre", type=pathlib.Path)
-    ombre = parser.parse_args().ombre.resolve()
-
-    def check(function):
-        with tempfile.TemporaryDirectory() as scratch:
-            function(ombre, pathlib.Path(scratch))
-
-    checks = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat, shares_are_those_of_the_design, sizes_are_compared,
-              densities_find_a_thickness,
-              draws_are_softer_than_means, charts_are_written, layers_conduct_in_series_and_parallel,
-              wrong_use_is_reported]
-    return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
+CHECKS = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat, shares_are_those_of_the_design, sizes_are_compared,
+          densities_find_a_thickness,
+          draws_are_softer_than_means, charts_are_written, layers_conduct_in_series_and_parallel,
+          wrong_use_is_reported]
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program.main(program.Folder, program.named(CHECKS)))

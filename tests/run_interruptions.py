@@ -11,7 +11,7 @@ import subprocess
 
 import processes
 import program
-from slice_jobs import LONG, SMALL, expect, expect_same, files, layers, main, ombre_layer
+from slice_jobs import LONG, SMALL, Job, expect, expect_same, files, layers, ombre_layer
 
 NOBODY = 65534
 
@@ -20,11 +20,11 @@ NOBODY = 65534
 
 
 def resume_and_compare(job, out, parts_may_lie=True):
-    parts = [p.name for p in (job.folder / out).glob("*.part")]
+    parts = [p.name for p in (job.path / out).glob("*.part")]
     expect(parts_may_lie or not parts, f"unfinished files: {parts}")
     kept = job.slice(out, *LONG, "--resume", "--json")
     done = [json.loads(line) for line in kept.stdout.splitlines()][-1]
-    expect_same(job.folder / "whole", job.folder / out)
+    expect_same(job.path / "whole", job.path / out)
     return done["layers_kept"]
 
 
@@ -56,7 +56,7 @@ def layers_in_journal(folder):
 
 def kill_after_layers(job, out, least, *arguments):
     process = job.start(out, *LONG, *arguments)
-    processes.wait_until(lambda: process.poll() is not None or layers_in_journal(job.folder / out) >= least,
+    processes.wait_until(lambda: process.poll() is not None or layers_in_journal(job.path / out) >= least,
                          f"{least} layers are made")
     expect(process.poll() is None, "it ended before it was killed")
     process.send_signal(signal.SIGKILL)
@@ -66,7 +66,7 @@ def kill_after_layers(job, out, least, *arguments):
 def interrupted_jobs_resume(job):
     job.slice("whole", *LONG)
     process = job.start("interrupted", *LONG)
-    processes.wait_for_file(process, job.folder / "interrupted/journal.jsonl")
+    processes.wait_for_file(process, job.path / "interrupted/journal.jsonl")
     processes.interrupt(process)
     resume_and_compare(job, "interrupted", parts_may_lie=False)
 
@@ -77,13 +77,13 @@ def large_layers_stop_and_resume(job):
                            ellipsoid((240, 190, 97), "red"); }""")
     tray = ["--printer", "j750", "--format", "indexed"]
     process = job.start("out", *tray)
-    processes.wait_for_file(process, job.folder / "out/journal.jsonl")
+    processes.wait_for_file(process, job.path / "out/journal.jsonl")
     processes.interrupt(process)
-    names = sorted(p.name for p in (job.folder / "out").iterdir())
+    names = sorted(p.name for p in (job.path / "out").iterdir())
     expect(not [name for name in names if name.endswith(".part")], f"unfinished files: {names}")
     job.slice("out", *tray, "--layers", "30:32", "--memory", "200M", "--resume")
     ombre_layer(job, *tray, "--index", "31", "-o", "one.png")
-    expect((job.folder / "out" / "slice_00031.png").read_bytes() == (job.folder / "one.png").read_bytes(), "other bytes")
+    expect((job.path / "out" / "slice_00031.png").read_bytes() == (job.path / "one.png").read_bytes(), "other bytes")
 
 
 def resume_refuses_another_job(job):
@@ -95,11 +95,11 @@ def resume_refuses_another_job(job):
 def damaged_layers_are_made_again(job):
     job.slice("whole", *SMALL)
     job.slice("out", *SMALL)
-    first, second, *_ = layers(job.folder / "out")
+    first, second, *_ = layers(job.path / "out")
     first.write_bytes(first.read_bytes()[:-7])
     second.unlink()
     job.slice("out", *SMALL, "--resume")
-    expect_same(job.folder / "whole", job.folder / "out")
+    expect_same(job.path / "whole", job.path / "out")
 
 
 # ---- supports, which are found before the first layer
@@ -125,7 +125,7 @@ def supports_take_the_threads_given_and_stop_at_once(job):
         threads.add(len(processes.busy_seconds(process.pid)))
     expect(threads == {1}, f"{threads} threads with --threads 1")
     processes.interrupt(process)
-    expect(not layers(job.folder / "out"), "layers were written before the supports were known")
+    expect(not layers(job.path / "out"), "layers were written before the supports were known")
 
 
 def supports_are_the_same_in_pieces(job):
@@ -135,25 +135,25 @@ def supports_are_the_same_in_pieces(job):
     job.slice("pieces", *coarse, "--layers", "41:90")
     job.slice("pieces", *coarse, "--layers", ":17", "--resume", "--memory", "2M")
     job.slice("pieces", *coarse, "--resume")
-    expect_same(job.folder / "whole", job.folder / "pieces")
+    expect_same(job.path / "whole", job.path / "pieces")
 
 
 def supports_are_reported(job):
     design = job.write("holes.vcad", HOLES)
     result = job.slice("out", "--voxel", "0.02", "--memory", "5M", design=design, status=2)
     expect("supports: computing them takes about" in result.stderr and "--memory" in result.stderr, result.stderr)
-    expect(not (job.folder / "out").exists(), "a folder was made")
+    expect(not (job.path / "out").exists(), "a folder was made")
     result = job.slice("out", "--voxel", "0.03", "--dry-run", "--json", design=design)
     estimate = [json.loads(line) for line in result.stdout.splitlines()][-1]
     expect(estimate["event"] == "estimate" and estimate["seconds"] > 5, str(estimate))
-    expect(not (job.folder / "out").exists(), "a folder was made")
+    expect(not (job.path / "out").exists(), "a folder was made")
 
 
 # ---- folders
 
 
 def foreign_files_are_left_alone(job):
-    out = job.folder / "out"
+    out = job.path / "out"
     out.mkdir()
     (out / "notes.txt").write_text("mine")
     result = job.slice("out", *SMALL, status=2)
@@ -167,23 +167,23 @@ def foreign_files_are_left_alone(job):
 
 def finished_jobs_are_not_overwritten(job):
     job.slice("out", *SMALL)
-    before = files(job.folder / "out")
+    before = files(job.path / "out")
     job.slice("out", *SMALL, status=2)
-    expect(files(job.folder / "out") == before, "it changed the job")
+    expect(files(job.path / "out") == before, "it changed the job")
 
 
 def force_removes_the_old_layers(job):
     job.slice("out", "--voxel", "0.1")
     job.slice("out", "--voxel", "0.5", "--force")
     job.slice("fresh", "--voxel", "0.5")
-    expect_same(job.folder / "out", job.folder / "fresh")
+    expect_same(job.path / "out", job.path / "fresh")
 
 
 def output_that_is_a_file(job):
     job.write("out", "not a folder")
     result = job.slice("out", *SMALL, status=2)
-    expect(str(job.folder / "out") in result.stderr, f"it does not name the path: {result.stderr}")
-    expect((job.folder / "out").read_text() == "not a folder", "it changed the file")
+    expect(str(job.path / "out") in result.stderr, f"it does not name the path: {result.stderr}")
+    expect((job.path / "out").read_text() == "not a folder", "it changed the file")
 
 
 def become_nobody():
@@ -193,10 +193,10 @@ def become_nobody():
 
 
 def folder_that_may_not_be_written(job):
-    closed = job.folder / "closed"
+    closed = job.path / "closed"
     closed.mkdir()
     closed.chmod(0o555)
-    job.folder.chmod(0o755)
+    job.path.chmod(0o755)
     options = {"preexec_fn": become_nobody} if os.getuid() == 0 else {}
     try:
         able = program.run([job.ombre, "--version"], **options).returncode == 0
@@ -212,7 +212,7 @@ def folder_that_may_not_be_written(job):
 
 def full_disk(job):
     """Status 2 and a message with the path; nothing half-written; --resume once there is space."""
-    disk = job.folder / "disk"
+    disk = job.path / "disk"
     disk.mkdir()
     mounted = program.run(["mount", "-t", "tmpfs", "-o", "size=1m", "none", disk])
     if mounted.returncode != 0:
@@ -225,10 +225,10 @@ def full_disk(job):
         result = job.slice("disk/out", *SMALL, status=2)
         expect(str(disk / "out") in result.stderr, f"it does not name the path: {result.stderr}")
         for path in layers(disk / "out"):
-            expect(path.read_bytes() == (job.folder / "whole" / path.name).read_bytes(), f"{path.name} is not whole")
+            expect(path.read_bytes() == (job.path / "whole" / path.name).read_bytes(), f"{path.name} is not whole")
         (disk / "filler").unlink()
         job.slice("disk/out", *SMALL, "--resume")
-        expect_same(job.folder / "whole", disk / "out")
+        expect_same(job.path / "whole", disk / "out")
     finally:
         program.run(["umount", disk])
     return ""
@@ -241,4 +241,4 @@ CHECKS = [supports_take_the_threads_given_and_stop_at_once, supports_are_the_sam
           folder_that_may_not_be_written, full_disk]
 
 if __name__ == "__main__":
-    raise SystemExit(main("Checks slice jobs that go wrong.", {f.__name__: f for f in CHECKS}))
+    raise SystemExit(program.main(Job, program.named(CHECKS)))

@@ -3,15 +3,11 @@
 
     python3 tests/run_loop.py build/dev/apps/ombre/ombre
 """
-import argparse
 import json
 import math
-import pathlib
-import re
-import struct
-import tempfile
 
 import program
+from fea_jobs import array
 from program import expect
 
 SEAT = program.SOURCE / "examples" / "seat.vcad"
@@ -20,26 +16,13 @@ WITHOUT_READERS = "built without libzip and pugixml"
 LEAST, MOST, STIFFEST = 3, 9, 0.8  # as the design has them
 
 
-def array(path, name, kind):
-    """The numbers of an array of a .vtu file."""
-    data = path.read_bytes()
-    tag = re.search(rb'Name="' + re.escape(name.encode()) + rb'" NumberOfComponents="\d+" format="appended" offset="(\d+)"',
-                    data)
-    start = data.index(b"_", data.index(b"<AppendedData")) + 1 + int(tag.group(1))
-    size, = struct.unpack_from("<Q", data, start)
-    return struct.unpack_from(f"<{size // struct.calcsize(kind)}{kind}", data, start + 8)
-
-
 class Lacking(Exception):
     """This build cannot read results."""
 
 
-class Loop:
-    def __init__(self, ombre, folder):
-        self.ombre, self.folder = ombre, folder
-
+class Loop(program.Folder):
     def run(self, *arguments):
-        result = program.run([self.ombre, *arguments, "--json"], cwd=self.folder)
+        result = program.run([self.ombre, *arguments, "--json"], cwd=self.path)
         if WITHOUT_READERS in result.stderr:
             raise Lacking()
         expect(result.returncode == 0, result.stderr[-1500:])
@@ -48,13 +31,13 @@ class Loop:
     def solve(self, output, *arguments):
         """The greatest displacement in mm."""
         self.run("fea", SEAT, "--study", STUDY, "--cell", "8", "--solve", "--tolerance", "1e-5", "-o", output, *arguments)
-        moved = array(self.folder / output, "displacement [mm]", "f")
+        moved = array(self.path / output, "displacement [mm]")
         return max(math.hypot(*moved[n:n + 3]) for n in range(0, len(moved), 3))
 
     def nodes(self, name):
         """Places and displacements."""
-        places = array(self.folder / name, "points", "d")
-        moved = array(self.folder / name, "displacement [mm]", "f")
+        places = array(self.path / name, "points", "d")
+        moved = array(self.path / name, "displacement [mm]")
         return [(places[n:n + 3], math.hypot(*moved[n:n + 3])) for n in range(0, len(places), 3)]
 
     def gray(self, places, *arguments):
@@ -80,32 +63,23 @@ def stiff_where_it_moved(loop):
     expect(compared >= 20, f"only {compared} nodes are in the pad")
 
 
-def check(ombre, folder):
-    loop = Loop(ombre, folder)
+def check(loop):
     soft = loop.solve("soft.vtu")
     stiff_where_it_moved(loop)
     once = loop.solve("once.vtu", "-D", "moved=soft.vtu")
     expect(once < 0.7 * soft, f"it sags by {once} mm, after {soft} mm when it was soft")
     twice = loop.solve("twice.vtu", "-D", "moved=once.vtu")
     expect(twice < 0.7 * soft, f"after another round it sags by {twice} mm")
-    expect(any(array(folder / "twice.vtu", "stiffened", "f")), "the second round has forgotten the first")
+    expect(any(array(loop.path / "twice.vtu", "stiffened")), "the second round has forgotten the first")
 
 
-def check_if_possible(ombre, folder):
+def check_if_possible(loop):
     try:
-        check(ombre, folder)
+        check(loop)
     except Lacking:
         return "skipped: " + WITHOUT_READERS
     return ""
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("ombre", type=pathlib.Path)
-    ombre = parser.parse_args().ombre.resolve()
-    with tempfile.TemporaryDirectory() as folder:
-        return program.check_all([("the seat", lambda: check_if_possible(ombre, pathlib.Path(folder)))])
-
-
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program.main(Loop, {"the seat": check_if_possible}))

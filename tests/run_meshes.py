@@ -11,7 +11,6 @@ import json
 import pathlib
 import re
 import subprocess
-import tempfile
 import zipfile
 
 import processes
@@ -33,20 +32,16 @@ CELLS = {"graded_wing": 0.05}
 BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'
 
 
-class Meshes:
-    """A folder for one check, with a design in it."""
+class Meshes(program.Folder):
+    """A folder with a design in it."""
 
-    def __init__(self, ombre, checker, comparer, scratch):
-        self.ombre, self.checker, self.comparer, self.folder = ombre, checker, comparer, pathlib.Path(scratch)
-        (self.folder / "bar.vcad").write_text(BAR, encoding="utf-8")
+    def __init__(self, checker, comparer, ombre, scratch):
+        super().__init__(ombre, scratch)
+        self.checker, self.comparer = checker, comparer
+        self.write("bar.vcad", BAR)
 
-    def command(self, *arguments):
-        return [str(self.ombre), *(str(a) for a in arguments)]
-
-    def mesh(self, *arguments, status=0, design="bar.vcad"):
-        result = program.run(self.command("mesh", design, *arguments), cwd=self.folder, timeout=600)
-        expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
-        return result
+    def mesh(self, *arguments, design="bar.vcad", **options):
+        return self.run("mesh", design, *arguments, timeout=600, **options)
 
     def bodies(self, *arguments, **options):
         for line in self.mesh(*arguments, "--json", **options).stdout.splitlines():
@@ -54,24 +49,16 @@ class Meshes:
                 return json.loads(line)
         raise AssertionError("no bodies were reported")
 
-    def events(self, *arguments):
-        done = program.run(self.command(*arguments, "--json"), cwd=self.folder)
-        expect(done.returncode == 0, done.stderr)
-        return [json.loads(line) for line in done.stdout.splitlines()]
-
     def judged(self, name):
-        done = program.run([self.checker, name], cwd=self.folder)
+        done = program.run([self.checker, name], cwd=self.path)
         expect(done.returncode == 0, done.stderr)
         return json.loads(done.stdout)
 
     def compared(self, design, name, tolerance):
         """Both sides of the Hausdorff distance between a design's surface and its mesh, at samples."""
-        done = program.run([self.comparer, design, name, tolerance], cwd=self.folder, timeout=400)
+        done = program.run([self.comparer, design, name, tolerance], cwd=self.path, timeout=400)
         expect(done.returncode == 0, done.stderr)
         return json.loads(done.stdout)
-
-    def names(self):
-        return sorted(path.name for path in self.folder.iterdir())
 
 
 def near(a, b, share, what):
@@ -101,9 +88,7 @@ def is_closed_and_as_large_as_its_voxels(design, meshes):
     if meshes.comparer:
         is_as_near_as_requested(design, meshes, bodies["tolerance_mm"])
     pitch = (body["volume_mm3"] / 3e7) ** (1 / 3)
-    done = program.run(meshes.command("slice", design, "-o", "slices", "--voxel", f"{pitch:.4f}", "--json"),
-                       cwd=meshes.folder)
-    reported = [json.loads(line) for line in done.stdout.splitlines()]
+    reported = meshes.events("slice", design, "-o", "slices", "--voxel", f"{pitch:.4f}")
     voxels = sum(m["volume_mm3"] for event in reported if event["event"] == "done" for m in event["materials"])
     error = 1.5e-3 * voxels if design.stem in CURVED else body["area_mm2"] * pitch / 4 + 1e-3 * voxels
     expect(abs(voxels - body["volume_mm3"]) < error, f"{body}, {voxels} mm3 of voxels of {pitch} mm")
@@ -115,7 +100,7 @@ def wing_is_right_where_cells_can_follow_it(meshes):
     for before, after in [("(23, 5, 3)", "(6, 5, 3)"), ("models/", f"{program.SOURCE}/examples/models/")]:
         expect(wing.count(before) == 1, before)
         wing = wing.replace(before, after)
-    part = meshes.folder / "part_of_wing.vcad"
+    part = meshes.path / "part_of_wing.vcad"
     part.write_text(wing, encoding="utf-8")
     is_closed_and_as_large_as_its_voxels(part, meshes)
 
@@ -144,7 +129,7 @@ def extruders(path):
 
 def materials_are_not_joined_in_silence(meshes):
     """Without --by: a body for each material, bands of mixtures; a warning where a file cannot hold bodies."""
-    (meshes.folder / "two.vcad").write_text('part("left") translate(-5, 0, 0) cube(10, "red");\n'
+    (meshes.path / "two.vcad").write_text('part("left") translate(-5, 0, 0) cube(10, "red");\n'
                                             'part("right") translate(5, 0, 0) cube(10, "blue");', encoding="utf-8")
     for ending in ("amf", "glb", "obj", "3mf"):
         result = meshes.mesh("-o", "two." + ending, "--flavour", "prusa", design="two.vcad")
@@ -152,9 +137,9 @@ def materials_are_not_joined_in_silence(meshes):
             return "skipped: no libzip"
         for name in ("red", "blue"):
             expect(f"{name}: 12 triangles, 1000 mm3" in result.stderr, result.stderr)
-    expect(extruders(meshes.folder / "two.3mf") == ["1", "2"], "materials have no extruders of their own")
+    expect(extruders(meshes.path / "two.3mf") == ["1", "2"], "materials have no extruders of their own")
     meshes.mesh("-o", "parts.3mf", "--by", "parts", "--flavour", "prusa", design="two.vcad")
-    expect(extruders(meshes.folder / "parts.3mf") == ["1", "2"], "parts have no extruders of their own")
+    expect(extruders(meshes.path / "parts.3mf") == ["1", "2"], "parts have no extruders of their own")
     for ending in ("stl", "ply", "off"):
         result = meshes.mesh("-o", "two." + ending, design="two.vcad")
         expect(result.stderr.count("warning") == 1 and "red, blue are joined" in result.stderr, result.stderr)
@@ -170,11 +155,11 @@ def materials_are_not_joined_in_silence(meshes):
 
 def many_cells_are_coarser(meshes):
     """Two walls of a gyroid in 20 mm would have a million cells of 0.08 mm; a block of planes keeps its thousandth."""
-    (meshes.folder / "gyroid.vcad").write_text('intersection(materials="first") { '
+    (meshes.path / "gyroid.vcad").write_text('intersection(materials="first") { '
                                                'tpms("gyroid", cell=(10, 10, 10), thickness=1); cube(20); }', encoding="utf-8")
     result = meshes.mesh("-o", "gyroid.stl", design="gyroid.vcad")
     expect("within 0.06 mm of each other; a smaller --tolerance takes longer" in result.stderr, result.stderr)
-    (meshes.folder / "block.vcad").write_text("rotate(0, 0, 30) rectprism(20, 12, 8);", encoding="utf-8")
+    (meshes.path / "block.vcad").write_text("rotate(0, 0, 30) rectprism(20, 12, 8);", encoding="utf-8")
     result = meshes.mesh("-o", "block.stl", design="block.vcad")
     expect("part: 12 triangles, 1920 mm3, 992 mm2\n" in result.stderr, result.stderr)
     expect("within 0.02 mm of each other\n" in result.stderr, result.stderr)
@@ -182,7 +167,7 @@ def many_cells_are_coarser(meshes):
 
 def steps_have_borders(meshes):
     """Beyond the step both fractions are the same, and the first material wins."""
-    (meshes.folder / "step.vcad").write_text('fgrade(["if(x < 0.1, 0, 0.5)", "if(x < 0.1, 1, 0.5)"], ["red", "blue"]) '
+    (meshes.path / "step.vcad").write_text('fgrade(["if(x < 0.1, 0, 0.5)", "if(x < 0.1, 1, 0.5)"], ["red", "blue"]) '
                                              'cube(10);', encoding="utf-8")
     reported = meshes.bodies("-o", "step.off", "--by", "materials", "--cell", "0.3", design="step.vcad")
     for body, volume in zip(reported["bodies"], (490, 510), strict=True):
@@ -191,7 +176,7 @@ def steps_have_borders(meshes):
 
 def materials_come_back(meshes):
     """What a mesh file says of materials, read into a design again, by volumes and at points."""
-    (meshes.folder / "ball.vcad").write_text('union(materials="first") { translate(1, 2, 2) sphere(4, "red"); '
+    (meshes.path / "ball.vcad").write_text('union(materials="first") { translate(1, 2, 2) sphere(4, "red"); '
                                              'rectprism(12, 10, 8, "blue"); }', encoding="utf-8")
     points = ["--at=1,2,2", "--at=4.5,2,2", "--at=5.5,4,3", "--at=1,2,5.5", "--at=-4,-4,-3", "--at=5,4.5,4.5"]
     materials = [["red"], ["red"], ["blue"], ["red"], ["blue"], []]
@@ -200,7 +185,7 @@ def materials_come_back(meshes):
         flavour = ["--flavour", name[:5]] if name in ("prusa.3mf", "bambu.3mf") else []
         reported = meshes.bodies("-o", name, "--by", "materials", "--force", "--tolerance", "0.05", *flavour,
                              design="ball.vcad")
-        again = meshes.folder / "again.vcad"
+        again = meshes.path / "again.vcad"
         again.write_text(f'mesh("{name}", "gray", materials="{rule}");', encoding="utf-8")
         found = meshes.events("probe", again, *points)
         expect([list(point["composition"]) for point in found] == materials, f"{name}: {found}")
@@ -216,7 +201,7 @@ def slicers_get_settings_of_each_band(meshes):
     if "without libzip" in meshes.mesh("-o", "seat.3mf", "--bands", "4", "--flavour", "prusa", "--setting",
                                        "fill_density=10%..70%", "--setting", "perimeters=1,2,3,4").stderr:
         return "skipped: no libzip"
-    with zipfile.ZipFile(meshes.folder / "seat.3mf") as archive:
+    with zipfile.ZipFile(meshes.path / "seat.3mf") as archive:
         config = archive.read("Metadata/Slic3r_PE_model.config").decode()
     for key, values in [("fill_density", ["10%", "30%", "50%", "70%"]), ("perimeters", ["1", "2", "3", "4"]),
                         ("extruder", ["1", "1", "1", "1"])]:
@@ -241,7 +226,7 @@ def slips_get_remedies(meshes):
 
 
 def files_are_kept(meshes):
-    (meshes.folder / "bar.3mf").write_text("mine")
+    (meshes.path / "bar.3mf").write_text("mine")
     error = meshes.mesh(status=2).stderr
     expect("bar.3mf exists already" in error, error)
     error = meshes.mesh("-o", "missing/bar.stl", status=2).stderr
@@ -251,7 +236,7 @@ def files_are_kept(meshes):
 
 def interrupts_leave_nothing(meshes):
     job = subprocess.Popen(meshes.command("mesh", "bar.vcad", "-o", "bar.stl", "--cell", "0.005",
-                                          "--memory", "1T"), cwd=meshes.folder,
+                                          "--memory", "1T"), cwd=meshes.path,
                            env=program.environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                            stderr=subprocess.PIPE, text=True)
     processes.wait_for_work(job, 1)
@@ -271,11 +256,11 @@ def memory_is_reported_and_kept(meshes):
 
 
 def thin_parts_are_reported(meshes):
-    (meshes.folder / "thin.vcad").write_text("translate(0, 0, 0.013) rectprism((100, 100, 0.05));\n"
+    (meshes.path / "thin.vcad").write_text("translate(0, 0, 0.013) rectprism((100, 100, 0.05));\n"
                                              "translate(0, 0, 20) cube(10);", encoding="utf-8")
     result = meshes.mesh("-o", "thin.stl", design="thin.vcad")
     expect("thinner than the cells of 0.4 mm is missing" in result.stderr, result.stderr)
-    (meshes.folder / "thin.stl").unlink()
+    (meshes.path / "thin.stl").unlink()
     result = meshes.mesh("-o", "thin.stl", "--cell", "2", "--tolerance", "1", design="bar.vcad")
     expect("missing" not in result.stderr, result.stderr)
 
@@ -286,11 +271,6 @@ CHECKS = [wing_is_right_where_cells_can_follow_it, bands_fill_the_whole, materia
           interrupts_leave_nothing, memory_is_reported_and_kept, thin_parts_are_reported]
 
 
-def in_a_folder(ombre, checker, comparer, check):
-    with tempfile.TemporaryDirectory() as scratch:
-        return check(Meshes(ombre, checker, comparer, scratch))
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("ombre", type=pathlib.Path)
@@ -298,13 +278,13 @@ def main():
     parser.add_argument("--checkers", type=pathlib.Path, help="the folder of check_mesh and compare_mesh")
     given = parser.parse_intermixed_args()
     checkers = [given.checkers and given.checkers.resolve() / name for name in ("check_mesh", "compare_mesh")]
-    run = functools.partial(in_a_folder, given.ombre.resolve(), *checkers)
     checks = {design.stem: functools.partial(is_closed_and_as_large_as_its_voxels, design) for design in EXAMPLES}
-    checks |= {check.__name__: check for check in CHECKS}
-    names = given.names or list(checks)
-    if "checks" in names:
-        names = [check.__name__ for check in CHECKS]
-    return program.check_all([(name, functools.partial(run, checks[name])) for name in names])
+    checks |= program.named(CHECKS)
+    if "checks" in given.names:
+        checks = program.named(CHECKS)
+    elif given.names:
+        checks = {name: checks[name] for name in given.names}
+    return program.check_in_folders(functools.partial(Meshes, *checkers), given.ombre.resolve(), checks)
 
 
 if __name__ == "__main__":

@@ -3,16 +3,12 @@
 
     python3 tests/run_optimise.py build/dev/apps/ombre/ombre
 """
-import argparse
 import array
 import csv
-import functools
 import json
 import math
-import pathlib
 import signal
 import subprocess
-import tempfile
 
 import processes
 import program
@@ -37,30 +33,19 @@ FRONT = {"variables": {"x": {"from": -10, "to": 10, "start": 5}},
          "evaluations": 480}
 
 
-class Folder:
+class Folder(program.Folder):
     def __init__(self, ombre, scratch):
-        self.ombre, self.path = ombre, pathlib.Path(scratch)
+        super().__init__(ombre, scratch)
         self.write("bars.vcad", BARS)
         self.write("light.json", LIGHT)
         self.write("schaffer.vcad", SCHAFFER)
         self.write("front.json", FRONT)
 
-    def write(self, name, text):
-        (self.path / name).write_text(text if isinstance(text, str) else json.dumps(text), encoding="utf-8")
-
-    def read(self, name):
-        return (self.path / name).read_text(encoding="utf-8")
-
     def table(self, name):
         return list(csv.DictReader(self.read(name).splitlines()))
 
-    def run(self, *arguments, status=0, command="optimise"):
-        result = program.run([self.ombre, command, *arguments], cwd=self.path)
-        expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
-        return result
-
-    def events(self, *arguments):
-        return [json.loads(line) for line in self.run(*arguments, "--json").stdout.splitlines()]
+    def run(self, *arguments, command="optimise", **options):
+        return super().run(command, *arguments, **options)
 
     def best(self, *arguments):
         return next(event for event in self.events(*arguments) if event["event"] == "best")
@@ -482,24 +467,14 @@ def wrong_topologies_are_reported(folder):
     expect(not (folder.path / "wrong").exists(), "a folder is left")
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("ombre", type=pathlib.Path)
-    ombre = parser.parse_args().ombre.resolve()
-
-    def check(function):
-        with tempfile.TemporaryDirectory() as scratch:
-            function(Folder(ombre, scratch))
-
-    checks = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, studies_have_the_options_of_fea,
-              beams_follow_beam_theory, fronts_are_found, whole_variables_are_whole, searches_go_on,
-              damaged_lines_are_measured_again, the_journal_is_the_table, searches_of_older_versions_are_named,
-              designs_are_turned, changed_files_are_noticed, interrupted_topologies_leave_their_steps,
-              ctrl_c_keeps_the_history, wrong_studies_are_reported, designs_that_fail_are_left_out,
-              topologies_are_as_stiff_as_published, projection_draws_densities_apart,
-              displacements_are_goals_of_topologies, wrong_topologies_are_reported]
-    return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
+CHECKS = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, studies_have_the_options_of_fea,
+          beams_follow_beam_theory, fronts_are_found, whole_variables_are_whole, searches_go_on,
+          damaged_lines_are_measured_again, the_journal_is_the_table, searches_of_older_versions_are_named,
+          designs_are_turned, changed_files_are_noticed, interrupted_topologies_leave_their_steps,
+          ctrl_c_keeps_the_history, wrong_studies_are_reported, designs_that_fail_are_left_out,
+          topologies_are_as_stiff_as_published, projection_draws_densities_apart,
+          displacements_are_goals_of_topologies, wrong_topologies_are_reported]
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program.main(Folder, program.named(CHECKS)))

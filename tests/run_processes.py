@@ -10,7 +10,7 @@ import subprocess
 import processes
 import program
 from program import expect
-from slice_jobs import main
+from slice_jobs import Job
 
 # Very many overhangs, each of which asks for the surface's slope: seconds for what comes before the first layer.
 SUPPORTS = """module block() {
@@ -93,10 +93,10 @@ def write_files(job, design):
     for study, content in (("study.json", STUDY), ("topology.json", TOPOLOGY), ("search.json", SEARCH)):
         job.write(study, json.dumps(content))
     side = 200
-    (job.folder / "scan.nrrd").write_bytes(
+    (job.path / "scan.nrrd").write_bytes(
         f"NRRD0004\ntype: uint8\ndimension: 3\nsizes: {side} {side} {side}\nspace directions: (0.3,0,0) (0,0.3,0) (0,0,0.3)\n"
         "space dimension: 3\nencoding: raw\n\n".encode() + bytes((n // side // 20 + n % side // 20) % 2 for n in range(side * side)) * side)
-    return name, {path.name for path in job.folder.iterdir()}
+    return name, {path.name for path in job.path.iterdir()}
 
 
 def check_job(job, name):
@@ -105,24 +105,18 @@ def check_job(job, name):
     options = [] if words[0] == "scad" else ["--threads", "1", "--force"]
     for moment in moments:
         with subprocess.Popen([str(job.ombre), words[0], design_name, *words[1:], *options],
-                              cwd=job.folder, env=program.environment(), stdout=subprocess.DEVNULL,
+                              cwd=job.path, env=program.environment(), stdout=subprocess.DEVNULL,
                               stderr=subprocess.PIPE, text=True) as process:
             processes.wait_for_work(process, moment)
             busy = processes.busy_seconds(process.pid)
             processes.interrupt(process)
         if options:
             expect(sum(busy) - max(busy) < 0.05, f"threads have worked {busy} s with --threads 1")
-        left = [path.name for path in job.folder.iterdir() if path.name not in {*there, "out"}]
+        left = [path.name for path in job.path.iterdir() if path.name not in {*there, "out"}]
         expect(not left, f"it left {left}")
 
 
 # ---- memory
-
-
-def run(job, *arguments, status=0):
-    result = program.run([job.ombre, *arguments], cwd=job.folder)
-    expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
-    return result
 
 
 def little_memory_gives_the_same_bytes(job):
@@ -133,20 +127,20 @@ def little_memory_gives_the_same_bytes(job):
         reported = {}
         for memory in ("1M", "1G"):
             out = f"{stem}{memory}.{ending}"
-            events = run(job, *words, "-o", out, "--memory", memory, "--threads", "4", "--json").stdout.splitlines()
+            events = job.run(*words, "-o", out, "--memory", memory, "--threads", "4", "--json").stdout.splitlines()
             reported[memory] = next(e for e in map(json.loads, events) if e["event"] == "plan")["memory_bytes"]
-        few, many = ({p.name.replace(memory, ""): p.read_bytes() for p in job.folder.glob(f"{stem}{memory}*.{ending}")}
+        few, many = ({p.name.replace(memory, ""): p.read_bytes() for p in job.path.glob(f"{stem}{memory}*.{ending}")}
                      for memory in ("1M", "1G"))
         expect(few and few == many, f"{words[0]}: other bytes with less memory")
         expect(0 < reported["1M"] < reported["1G"] <= 1 << 30, f"{words[0]} says that it takes {reported}")
 
 
 def too_little_memory_is_reported(job):
-    error = run(job, "render", "ball.vcad", "--size", "9000x9000", "--memory", "100M", "-o", "a.png", status=2).stderr
+    error = job.run("render", "ball.vcad", "--size", "9000x9000", "--memory", "100M", "-o", "a.png", status=2).stderr
     expect("takes about" in error and "--memory" in error and "--size" in error, error)
-    warning = run(job, "layer", "ball.vcad", "--voxel", "0.003", "--z", "0", "--memory", "1M", "-o", "b.png").stderr
+    warning = job.run("layer", "ball.vcad", "--voxel", "0.003", "--z", "0", "--memory", "1M", "-o", "b.png").stderr
     expect("the layer takes up to" in warning and "--memory of 1 MiB" in warning, warning)
-    expect(not (job.folder / "a.png").exists() and (job.folder / "b.png").exists(), "not the files that were meant")
+    expect(not (job.path / "a.png").exists() and (job.path / "b.png").exists(), "not the files that were meant")
 
 
 # Those that are tests by themselves; the rest are "jobs".
@@ -164,4 +158,4 @@ CHECKS |= {with_group(check.__name__): check for check in (little_memory_gives_t
 
 
 if __name__ == "__main__":
-    raise SystemExit(main("Checks jobs as processes.", CHECKS))
+    raise SystemExit(program.main(Job, CHECKS))

@@ -3,11 +3,7 @@
 
     python3 tests/run_results.py build/dev/apps/ombre/ombre
 """
-import argparse
-import functools
 import json
-import pathlib
-import tempfile
 
 import program
 from program import expect, near
@@ -19,22 +15,11 @@ PULL = {"materials": {"red": RED},
 STRAIN = 100 / 2850
 
 
-class Folder:
-    def __init__(self, ombre, scratch):
-        self.ombre, self.path = ombre, pathlib.Path(scratch)
-
-    def write(self, name, text):
-        (self.path / name).write_text(text, encoding="utf-8")
-
-    def run(self, *arguments, status=0):
-        result = program.run([self.ombre, *arguments], cwd=self.path)
-        expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
-        return result
-
+class Folder(program.Folder):
     def solve(self):
         """A block of 10 mm, pulled along z by 100 MPa."""
         self.write("cube.vcad", "rectprism((10, 10, 10), red);")
-        self.write("pull.json", json.dumps(PULL))
+        self.write("pull.json", PULL)
         self.run("fea", "cube.vcad", "--study", "pull.json", "--cell", "2.5", "--solve", "-o", "cube.vtu")
 
     def voxels(self, design, pitch):
@@ -219,19 +204,9 @@ def wrong_use_is_reported(folder):
     expect(not (folder.path / "never").exists(), "a folder is left")
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("ombre", type=pathlib.Path)
-    ombre = parser.parse_args().ombre.resolve()
-
-    def check(function):
-        with tempfile.TemporaryDirectory() as scratch:
-            function(Folder(ombre, scratch))
-
-    checks = [own_results_are_read_back, outside_is_as_requested, the_mesh_is_a_solid, coverage_is_reported,
-              bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_reported]
-    return program.check_all([(c.__name__, functools.partial(check, c)) for c in checks])
+CHECKS = [own_results_are_read_back, outside_is_as_requested, the_mesh_is_a_solid, coverage_is_reported,
+          bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_reported]
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program.main(Folder, program.named(CHECKS)))

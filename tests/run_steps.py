@@ -8,7 +8,7 @@ import json
 
 import program
 from program import expect
-from slice_jobs import main
+from slice_jobs import Job
 
 # What reads it fails, so a command that fails otherwise has not read it.
 WRONG = "sphere(;\n"
@@ -38,10 +38,8 @@ OUTPUTS = {
 }
 
 
-def run(job, *arguments, status=0):
-    result = program.run([job.ombre, *arguments], cwd=job.folder)
-    expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
-    return result.stderr
+def said(job, *arguments, status=0):
+    return job.run(*arguments, status=status).stderr
 
 
 def prepare(job):
@@ -54,7 +52,7 @@ def prepare(job):
 
 
 def names(job):
-    return sorted(path.name for path in job.folder.rglob("*"))
+    return sorted(path.name for path in job.path.rglob("*"))
 
 
 def check_file(job, case):
@@ -64,54 +62,54 @@ def check_file(job, case):
     command, kept = case.split()[0], there[0] if there else output
     job.write(kept, "mine")
     before = names(job)
-    error = run(job, command, "wrong.vcad", *arguments, "-o", output, status=2)
+    error = said(job, command, "wrong.vcad", *arguments, "-o", output, status=2)
     expect(f"{kept} exists already" in error and "--force" in error, error)
-    expect((job.folder / kept).read_text(encoding="utf-8") == "mine" and names(job) == before, "it wrote something")
-    error = run(job, command, "wrong.vcad", *arguments, "-o", "nowhere/" + output, status=2)
+    expect((job.path / kept).read_text(encoding="utf-8") == "mine" and names(job) == before, "it wrote something")
+    error = said(job, command, "wrong.vcad", *arguments, "-o", "nowhere/" + output, status=2)
     expect("nowhere" in error and "the folder is missing" in error, error)
     if command != "sheet":  # with --force it reads the design
-        error = run(job, command, "wrong.vcad", *arguments, "-o", output, "--force", status=1)
+        error = said(job, command, "wrong.vcad", *arguments, "-o", output, "--force", status=1)
         expect("wrong.vcad:1:" in error, error)
-    expect((job.folder / kept).read_text(encoding="utf-8") == "mine" and names(job) == before, "it wrote something")
+    expect((job.path / kept).read_text(encoding="utf-8") == "mine" and names(job) == before, "it wrote something")
 
 
 def slices_keep_jobs_and_files_of_others(job):
     prepare(job)
-    run(job, "slice", "good.vcad", "-o", "out", "--voxel", "1")
-    (job.folder / "others").mkdir()
+    job.run("slice", "good.vcad", "-o", "out", "--voxel", "1")
+    (job.path / "others").mkdir()
     job.write("others/notes.txt", "mine")
     job.write("file", "mine")
     before = names(job)
     for folder, reason in (("out", "already holds a slice job"), ("others", "notes.txt"), ("file", "is a file")):
-        expect(reason in run(job, "slice", "wrong.vcad", "-o", folder, status=2), folder)
-        expect("wrong.vcad:1:" in run(job, "slice", "wrong.vcad", "-o", folder, "--dry-run", status=1), "a dry run")
-    expect("wrong.vcad:1:" in run(job, "slice", "wrong.vcad", "-o", "out", "--force", status=1), "--force")
+        expect(reason in said(job, "slice", "wrong.vcad", "-o", folder, status=2), folder)
+        expect("wrong.vcad:1:" in said(job, "slice", "wrong.vcad", "-o", folder, "--dry-run", status=1), "a dry run")
+    expect("wrong.vcad:1:" in said(job, "slice", "wrong.vcad", "-o", "out", "--force", status=1), "--force")
     expect(names(job) == before, "it wrote something")
 
 
 def contours_keep_layers(job):
     prepare(job)
-    run(job, "contours", "good.vcad", "-o", "out", "--layer-height", "1")
+    job.run("contours", "good.vcad", "-o", "out", "--layer-height", "1")
     before = names(job)
-    expect("has layers already" in run(job, "contours", "wrong.vcad", "-o", "out", status=2), "layers")
+    expect("has layers already" in said(job, "contours", "wrong.vcad", "-o", "out", status=2), "layers")
     expect(names(job) == before, "it wrote something")
 
 
 def searches_keep_folders(job):
     prepare(job)
-    (job.folder / "out").mkdir()
+    (job.path / "out").mkdir()
     job.write("out/history.csv", "mine")
     before = names(job)
-    expect("--force" in run(job, "optimise", "varied.vcad", "--study", "search.json", "-o", "out", status=1), "variables")
-    expect("history.csv exists already" in run(job, "optimise", "wrong.vcad", "--study", "topology.json", "-o", "out",
-                                               status=2), "a topology")
+    expect("--force" in said(job, "optimise", "varied.vcad", "--study", "search.json", "-o", "out", status=1), "variables")
+    expect("history.csv exists already" in said(job, "optimise", "wrong.vcad", "--study", "topology.json", "-o", "out",
+                                                status=2), "a topology")
     expect(names(job) == before, "it wrote something")
 
 
 def dry_runs_write_nothing(job):
     prepare(job)
     before = names(job)
-    run(job, "slice", "good.vcad", "-o", "out", "--voxel", "0.5", "--dry-run")
+    job.run("slice", "good.vcad", "-o", "out", "--voxel", "0.5", "--dry-run")
     expect(names(job) == before, "it wrote something")
 
 
@@ -120,7 +118,7 @@ def small_disks_are_reported(job):
     prepare(job)
     before = names(job)
     for output in ("out.raw", "out.npy", "out.nrrd", "out.vti"):
-        error = run(job, "voxels", "good.vcad", "--voxel", "0.00005", "-o", output, status=2)
+        error = said(job, "voxels", "good.vcad", "--voxel", "0.00005", "-o", output, status=2)
         expect("the disk of" in error and "free some space" in error and "--voxel" in error, error)
     expect(names(job) == before, "it wrote something")
 
@@ -131,4 +129,4 @@ CHECKS |= {check.__name__: check for check in (slices_keep_jobs_and_files_of_oth
 
 
 if __name__ == "__main__":
-    raise SystemExit(main("Checks the order of a command's steps.", CHECKS))
+    raise SystemExit(program.main(Job, CHECKS))

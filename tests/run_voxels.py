@@ -3,18 +3,14 @@
 
     python3 tests/run_voxels.py build/dev/apps/ombre/ombre
 """
-import argparse
-import functools
 import gzip
 import json
 import math
-import pathlib
 import re
 import shutil
 import signal
 import struct
 import subprocess
-import tempfile
 
 import processes
 import program
@@ -28,30 +24,19 @@ except ImportError:
 BALL = 'fgrade(["0.5 + z/10", "0.5 - z/10"], ["red", "blue"]) { sphere(5); }'
 
 
-class Grid:
-    """A folder for one check, with a design in it."""
+class Grid(program.Folder):
+    """A folder with a design in it."""
 
     def __init__(self, ombre, scratch):
-        self.ombre, self.folder = ombre, pathlib.Path(scratch)
-        (self.folder / "ball.vcad").write_text(BALL, encoding="utf-8")
-
-    def command(self, *arguments):
-        return [str(self.ombre), *(str(a) for a in arguments)]
-
-    def run(self, *arguments, status=0, **options):
-        result = program.run(self.command(*arguments), cwd=self.folder, **options)
-        expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
-        return result
+        super().__init__(ombre, scratch)
+        self.write("ball.vcad", BALL)
 
     def voxels(self, out, *arguments, **options):
         return self.run("voxels", "ball.vcad", "-o", out, *arguments, **options)
 
     def floats(self, name):
-        data = (self.folder / name).read_bytes()
+        data = (self.path / name).read_bytes()
         return struct.unpack(f"<{len(data) // 4}f", data)
-
-    def names(self):
-        return sorted(path.name for path in self.folder.iterdir())
 
 
 def nrrd(path):
@@ -64,19 +49,19 @@ def nrrd(path):
 def materials_are_those_of_slices(grid):
     grid.voxels("ball.raw", "--voxel", "0.4", "--seed", "7", "--dither", "blue-noise")
     grid.run("slice", "ball.vcad", "-o", "slices", "--voxel", "0.4", "--seed", "7", "--dither", "blue-noise")
-    about = json.loads((grid.folder / "ball.raw.json").read_text())
+    about = json.loads((grid.path / "ball.raw.json").read_text())
     nx, ny, nz = about["dimensions"]
-    data = (grid.folder / "ball.raw").read_bytes()
+    data = (grid.path / "ball.raw").read_bytes()
     expect(len(data) == nx * ny * nz, "wrong size")
     counts = {m["name"]: data.count(m["id"]) for m in about["materials"]}
-    job = json.loads((grid.folder / "slices/job.json").read_text())
+    job = json.loads((grid.path / "slices/job.json").read_text())
     expected = {m["name"]: m["voxels"] for m in job["totals"]["materials"]}
     expect(counts == expected, f"{counts}, slices have {expected}")
 
 
 def distances_are_mathematics(grid):
     grid.voxels("ball.raw", "--voxel", "0.4", "--what", "distance")
-    about = json.loads((grid.folder / "ball.raw.json").read_text())
+    about = json.loads((grid.path / "ball.raw.json").read_text())
     expect(about["distance"] == "exact" and about["data_type"] == "float32", str(about))
     values = iter(grid.floats("ball.raw"))
     (nx, ny, nz), step, origin = about["dimensions"], about["spacing_mm"], about["origin_mm"]
@@ -91,10 +76,10 @@ def numpy_reads_them(grid):
     if numpy is None:
         return "skipped: no NumPy"
     grid.voxels("ball.npy", "--voxel", "0.4,0.5,0.8")
-    ids = numpy.load(grid.folder / "ball.npy")
+    ids = numpy.load(grid.path / "ball.npy")
     expect(ids.shape == (13, 20, 25) and ids.dtype == numpy.uint8, f"{ids.shape} {ids.dtype}")
     grid.voxels("part.npy", "--voxel", "0.4,0.5,0.8", "--what", "fractions")
-    red, blue = numpy.load(grid.folder / "part_red.npy"), numpy.load(grid.folder / "part_blue.npy")
+    red, blue = numpy.load(grid.path / "part_red.npy"), numpy.load(grid.path / "part_blue.npy")
     expect(red.dtype == numpy.float32, str(red.dtype))
     expect(numpy.allclose(red + blue, ids != 0), "fractions do not sum to one inside")
     heights = -5 + 0.8 * (numpy.arange(13) + 0.5)
@@ -105,7 +90,7 @@ def numpy_reads_them(grid):
 def nrrd_is_in_millimetres(grid):
     grid.voxels("ball.nrrd", "--voxel", "0.5", "--what", "distance")
     grid.voxels("zip.nrrd", "--voxel", "0.5", "--what", "distance", "--gzip")
-    (plain, data), (zipped, unzipped) = nrrd(grid.folder / "ball.nrrd"), nrrd(grid.folder / "zip.nrrd")
+    (plain, data), (zipped, unzipped) = nrrd(grid.path / "ball.nrrd"), nrrd(grid.path / "zip.nrrd")
     expect(data == unzipped and len(data) == 4 * 20 ** 3, "the numbers differ")
     expect(zipped["encoding"] == "gzip" and plain["encoding"] == "raw", "wrong encoding")
     expect(plain["sizes"] == "20 20 20" and plain["type"] == "float", str(plain))
@@ -134,10 +119,10 @@ def vti(path):
 
 
 def image_data_holds_all_grids(grid):
-    (grid.folder / "ball.vcad").write_text(TYPED, encoding="utf-8")
+    (grid.path / "ball.vcad").write_text(TYPED, encoding="utf-8")
     what = "materials,fractions,distance,attributes"
     grid.voxels("ball.vti", "--voxel", "0.5,0.5,1", "--what", what)
-    header, arrays = vti(grid.folder / "ball.vti")
+    header, arrays = vti(grid.path / "ball.vti")
     expect('WholeExtent="0 20 0 20 0 10" Origin="-5 -5 -5" Spacing="0.5 0.5 1"' in header, header)
     expect([(name, c) for name, (c, _) in arrays.items()] == [("material", 1), ("distance", 1), ("green", 1), ("tissue", 2),
            ("color_rgba", 4), ("fibre", 3), ("modulus", 1)], str(header))
@@ -154,7 +139,7 @@ def image_data_holds_all_grids(grid):
             near = len(found) == len(values) and all(abs(a - b) < 1e-5 for a, b in zip(found, values))
             expect(near, f"{name} at {(x, y, z)}: {found}, expected {values}")
     grid.voxels("again.vti", "--voxel", "0.5,0.5,1", "--what", what, "--threads", "1")
-    expect((grid.folder / "again.vti").read_bytes() == (grid.folder / "ball.vti").read_bytes(), "threads show")
+    expect((grid.path / "again.vti").read_bytes() == (grid.path / "ball.vti").read_bytes(), "threads show")
     grid.voxels("part.raw", "--voxel", "0.5,0.5,1", "--what", "materials,fibre.y")
     expect(grid.floats(next(name for name in grid.names() if name.startswith("part_fibre") and name.endswith(".raw")))
            == arrays["fibre"][1][1::3], "dense files differ")
@@ -162,14 +147,14 @@ def image_data_holds_all_grids(grid):
 
 def attributes_come_back(grid):
     """Numbers, vectors, colours and mixtures, through files of grids and back as values of a design, are what they were."""
-    (grid.folder / "ball.vcad").write_text(TYPED, encoding="utf-8")
+    (grid.path / "ball.vcad").write_text(TYPED, encoding="utf-8")
     names = ["modulus", "fibre.x", "fibre.y", "fibre.z", "color_rgba.r", "color_rgba.a", "tissue.red", "tissue.blue"]
     parts = {"x": 0, "y": 1, "z": 2, "r": 0, "a": 3, "red": 0, "blue": 1}
     points = [(x, y, z) for x in (-3.25, 0.25, 2.75) for y in (-1.75, 1.25) for z in (-2.5, 0.5)]
     at = ["--at=" + ",".join(map(repr, point)) for point in points]
 
     def values_of(design):
-        reported = program.run([grid.ombre, "probe", design, "--json", *at], cwd=grid.folder)
+        reported = program.run([grid.ombre, "probe", design, "--json", *at], cwd=grid.path)
         expect(reported.returncode == 0, reported.stdout + reported.stderr)
         found = [json.loads(line) for line in reported.stdout.splitlines()]
         return [event["attributes"] for event in found if event["event"] == "point"]
@@ -188,13 +173,13 @@ def attributes_come_back(grid):
     grid.voxels("typed.npy", "--voxel", "0.5,0.5,1", "--what", "attributes")
     endings = ["vti", "npy"]
     sparse = program.run(grid.command("voxels", "ball.vcad", "-o", "typed.vdb", "--voxel", "0.5,0.5,1", "--what",
-                                      "attributes"), cwd=grid.folder)
+                                      "attributes"), cwd=grid.path)
     if "without OpenVDB" not in sparse.stderr:
         expect(sparse.returncode == 0, sparse.stderr)
         endings.append("vdb")
     for ending in endings:
         text = "".join(f'attribute("v{n}", {source(ending, name)}.nearest) ' for n, name in enumerate(names))
-        (grid.folder / "back.vcad").write_text(text + "cube(10);\n", encoding="utf-8")
+        (grid.path / "back.vcad").write_text(text + "cube(10);\n", encoding="utf-8")
         for point, wanted, found in zip(points, direct, values_of("back.vcad")):
             for n, name in enumerate(names):
                 expect(abs(found[f"v{n}"] - wanted[name]) < 1e-5,
@@ -206,11 +191,11 @@ def scans_are_resampled_and_cropped(grid):
     count, step, origin = (10, 8, 6), (1.0, 1.5, 2.0), (-4.0, -5.0, -5.0)
     values = [2 * (origin[0] + i * step[0]) + 3 * (origin[1] + j * step[1]) - (origin[2] + k * step[2])
               for k in range(count[2]) for j in range(count[1]) for i in range(count[0])]
-    (grid.folder / "scan.raw").write_bytes(struct.pack(f"<{len(values)}f", *values))
-    (grid.folder / "scan.raw.json").write_text(json.dumps({
+    (grid.path / "scan.raw").write_bytes(struct.pack(f"<{len(values)}f", *values))
+    (grid.path / "scan.raw.json").write_text(json.dumps({
         "data_type": "float32", "byte_order": "little", "dimensions": count, "spacing_mm": step, "origin_mm": origin}))
     grid.run("voxels", "scan.raw", "-o", "small.raw", "--voxel", "0.5", "--box=-2,-2,-2,2,1,2")
-    about = json.loads((grid.folder / "small.raw.json").read_text())
+    about = json.loads((grid.path / "small.raw.json").read_text())
     nx, ny, nz = about["dimensions"]
     found, first = grid.floats("small.raw"), about["origin_mm"]
     expect(8 <= nx <= 9 and 6 <= ny <= 7 and 8 <= nz <= 9, f"dimensions {nx} {ny} {nz}")
@@ -229,10 +214,10 @@ def vtk_reads_image_data(grid):
         from vtkmodules.vtkIOXML import vtkXMLImageDataReader
     except ImportError:
         return "skipped: no VTK"
-    (grid.folder / "ball.vcad").write_text(TYPED, encoding="utf-8")
+    (grid.path / "ball.vcad").write_text(TYPED, encoding="utf-8")
     grid.voxels("ball.vti", "--voxel", "0.5", "--what", "materials,distance,attributes")
     reader = vtkXMLImageDataReader()
-    reader.SetFileName(str(grid.folder / "ball.vti"))
+    reader.SetFileName(str(grid.path / "ball.vti"))
     reader.Update()
     image = reader.GetOutput()
     expect(image.GetBounds() == (-5, 5, -5, 5, -5, 5), str(image.GetBounds()))
@@ -250,7 +235,7 @@ def vtk_reads_image_data(grid):
 
 def boxes_are_cut_out(grid):
     grid.voxels("ball.raw", "--voxel", "0.5", "--box", "0,0,0,1,2,4.99")
-    about = json.loads((grid.folder / "ball.raw.json").read_text())
+    about = json.loads((grid.path / "ball.raw.json").read_text())
     expect(about["dimensions"] == [2, 4, 10] and about["origin_mm"] == [0.25, 0.25, 0.25], str(about))
     beside = grid.voxels("b.raw", "--box", "9,9,9,10,10,10", status=1).stderr
     expect("is beside the part, which lies from -5,-5,-5 to 5,5,5 mm" in beside, beside)
@@ -270,7 +255,7 @@ def slips_get_remedies(grid):
 
 
 def files_are_kept(grid):
-    (grid.folder / "ball.raw.json").write_text("mine")
+    (grid.path / "ball.raw.json").write_text("mine")
     error = grid.voxels("ball.raw", status=2).stderr
     expect("ball.raw.json exists already" in error, error)
     grid.voxels("ball.raw", "--force")
@@ -287,9 +272,9 @@ def interrupts_leave_nothing(grid):
     for name in ["ball.npy", "ball.vdb"]:
         job = subprocess.Popen(grid.command("voxels", "ball.vcad", "-o", name, "--what", "distance", "--voxel", "0.01",
                                             "--threads", "1", "--force"),
-                               cwd=grid.folder, env=program.environment(), stdin=subprocess.DEVNULL,
+                               cwd=grid.path, env=program.environment(), stdin=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        processes.wait_until(lambda: job.poll() is not None or (grid.folder / (name + ".part")).exists(), f"{name} is begun")
+        processes.wait_until(lambda: job.poll() is not None or (grid.path / (name + ".part")).exists(), f"{name} is begun")
         job.send_signal(signal.SIGINT)
         error = job.communicate(timeout=processes.PATIENCE_S)[1]
         if "without OpenVDB" in error:
@@ -303,11 +288,11 @@ def sparse_files_are_the_same_on_any_threads(grid):
         made = set()
         for threads in ["1", "3"]:
             result = program.run(grid.command("voxels", "ball.vcad", "-o", "b" + ending, "--voxel", "0.25", "--force",
-                                              "--threads", threads), cwd=grid.folder)
+                                              "--threads", threads), cwd=grid.path)
             if "without OpenVDB" in result.stderr:
                 return "skipped: no OpenVDB"
             expect(result.returncode == 0, result.stderr)
-            made.add((grid.folder / ("b" + ending)).read_bytes())
+            made.add((grid.path / ("b" + ending)).read_bytes())
         expect(len(made) == 1, f"{ending} depends on threads")
     return ""
 
@@ -316,11 +301,11 @@ def openvdb_prints_the_same(grid):
     """By OpenVDB's own program: voxels whose centres are inside, and three voxels on both sides of the surface."""
     if not shutil.which("vdb_print"):
         return "skipped: no vdb_print"
-    made = program.run(grid.command("voxels", "ball.vcad", "-o", "ball.vdb", "--voxel", "0.5"), cwd=grid.folder)
+    made = program.run(grid.command("voxels", "ball.vcad", "-o", "ball.vdb", "--voxel", "0.5"), cwd=grid.path)
     if "without OpenVDB" in made.stderr:
         return "skipped: no OpenVDB"
     expect(made.returncode == 0, made.stderr)
-    reported = program.run(["vdb_print", "-l", "ball.vdb"], cwd=grid.folder)
+    reported = program.run(["vdb_print", "-l", "ball.vdb"], cwd=grid.path)
     expect(reported.returncode == 0, reported.stderr)
     found = {}
     for text in reported.stdout.split("Name: ")[1:]:
@@ -337,17 +322,5 @@ CHECKS = [materials_are_those_of_slices, distances_are_mathematics, numpy_reads_
           sparse_files_are_the_same_on_any_threads, openvdb_prints_the_same]
 
 
-def in_a_folder(ombre, check):
-    with tempfile.TemporaryDirectory() as scratch:
-        return check(Grid(ombre, scratch))
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("ombre", type=pathlib.Path)
-    ombre = parser.parse_args().ombre.resolve()
-    return program.check_all([(check.__name__, functools.partial(in_a_folder, ombre, check)) for check in CHECKS])
-
-
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(program.main(Grid, program.named(CHECKS)))

@@ -1,8 +1,5 @@
 """What the runners of whole slice jobs share: a folder with a design in it, and how its files are compared."""
-import argparse
-import pathlib
 import subprocess
-import tempfile
 
 import png
 import program
@@ -21,33 +18,25 @@ SMALL = ["--voxel", "0.1"]
 LONG = ["--voxel", "0.012"]
 
 
-class Job:
-    """A folder for one check, with a design in it."""
+class Job(program.Folder):
+    """A folder with a design in it."""
 
     def __init__(self, ombre, scratch):
-        self.ombre, self.folder = ombre, pathlib.Path(scratch)
+        super().__init__(ombre, scratch)
         self.design = self.write("ball.vcad", BALL)
 
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_text(text, encoding="utf-8")
-        return path
+    def slicing(self, out, *arguments, design=None):
+        return self.command("slice", design or self.design, "-o", self.path / out, *arguments)
 
-    def command(self, out, *arguments, design=None):
-        return [self.ombre, "slice", design or self.design, "-o", self.folder / out, *arguments]
-
-    def slice(self, out, *arguments, design=None, status=0, **options):
-        result = program.run(self.command(out, *arguments, design=design), cwd=self.folder, **options)
-        expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
-        return result
+    def slice(self, out, *arguments, design=None, **options):
+        return self.run("slice", design or self.design, "-o", self.path / out, *arguments, **options)
 
     def start(self, out, *arguments):
-        command = [str(a) for a in self.command(out, *arguments)]
-        return subprocess.Popen(command, cwd=self.folder, env=program.environment(), stdin=subprocess.DEVNULL,
+        return subprocess.Popen(self.slicing(out, *arguments), cwd=self.path, env=program.environment(), stdin=subprocess.DEVNULL,
                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def images(self, out):
-        return [png.read(path) for path in layers(self.folder / out)]
+        return [png.read(path) for path in layers(self.path / out)]
 
 
 def layers(folder):
@@ -68,24 +57,5 @@ def expect_same(one, other, names=None):
     expect(not different, f"other bytes: {different[:8]}")
 
 
-def ombre_layer(job, *arguments, status=0):
-    result = program.run([job.ombre, "layer", job.design, *arguments], cwd=job.folder)
-    expect(result.returncode == status, f"status {result.returncode}, expected {status}: {result.stderr[-1500:]}")
-    return result
-
-
-def in_scratch(function, ombre):
-    with tempfile.TemporaryDirectory() as scratch:
-        return function(Job(ombre, scratch))
-
-
-def main(description, functions):
-    """Runs the checks, {name: function of a Job}, or those that are named on the command line."""
-    parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("ombre", type=pathlib.Path, help="the program")
-    parser.add_argument("names", nargs="*", help="only these")
-    a = parser.parse_args()
-    if a.names:
-        functions = {name: f for name, f in functions.items() if name in a.names or not set(a.names).isdisjoint(name.split())}
-    ombre = a.ombre.resolve()
-    return program.check_all([(name, lambda f=f: in_scratch(f, ombre)) for name, f in functions.items()])
+def ombre_layer(job, *arguments, **options):
+    return job.run("layer", job.design, *arguments, **options)
