@@ -4,8 +4,6 @@
 #include <new>
 #include <unordered_set>
 
-#include "design/registry.h"
-
 namespace ombre::design {
 
 void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& values, SourceRange where) {
@@ -18,7 +16,7 @@ void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& value
   for (const NodePtr& other : dependencies()) depth = std::max(depth, other->depth() + 1);
   depth_ = static_cast<uint16_t>(depth) & 0xFFF;
   uses_cell_ = !traits().gives_cell &&
-               (type().uses_cell(*this) ||
+               (parameters_use_cell() ||
                 std::ranges::any_of(dependencies(), [](const NodePtr& other) { return other->uses_cell(); }));
   const Metric metric = find_metric(Inputs(*this, nullptr));
   lipschitz_ = metric.lipschitz;
@@ -29,29 +27,6 @@ Traits Node::traits_of_shape() const {
   const Node* node = this;
   while (node->keeps_shape()) node = node->inputs().front().get();
   return node->traits();
-}
-
-bool Node::is_mixture() const {
-  return !type().is_solid() && type().outputs[first_output()].type.form == OutputForm::mixture;
-}
-
-std::vector<std::string> Node::output_names() const {
-  std::vector<std::string> names;
-  const NodePtr not_held(NodePtr(), this);
-  for (const Node* node : topological({not_held}))
-    for (size_t n = 0; n < node->type().outputs.size(); ++n)
-      if (node->type().is_solid() && node->gives(n)) names.push_back(node->type().outputs[n].name);
-  std::ranges::sort(names);
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
-}
-
-const OutputType* Node::output_type(std::string_view output_name) const {
-  const auto own = type().output(output_name);
-  if (own && gives(*own)) return &type().outputs[*own].type;
-  for (const NodePtr& input : inputs())
-    if (const OutputType* found = input->output_type(output_name)) return found;
-  return nullptr;
 }
 
 size_t Node::first_output() const {

@@ -199,6 +199,7 @@ class Node {
 
  private:
   virtual Metric find_metric(const Inputs& in) const = 0;
+  virtual bool parameters_use_cell() const = 0;  // true if a formula in them uses ci, cj or ck
 
   SourceRange where_;
   std::unique_ptr<NodePtr[]> inputs_;  // inputs, followed by values

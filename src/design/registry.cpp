@@ -10,6 +10,29 @@ namespace ombre::design {
 
 bool Node::is_nothing() const { return type().is_nothing; }
 
+bool Node::is_mixture() const {
+  return !type().is_solid() && type().outputs[first_output()].type.form == OutputForm::mixture;
+}
+
+std::vector<std::string> Node::output_names() const {
+  std::vector<std::string> names;
+  const NodePtr not_held(NodePtr(), this);
+  for (const Node* node : topological({not_held}))
+    for (size_t n = 0; n < node->type().outputs.size(); ++n)
+      if (node->type().is_solid() && node->gives(n)) names.push_back(node->type().outputs[n].name);
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+const OutputType* Node::output_type(std::string_view output_name) const {
+  const auto own = type().output(output_name);
+  if (own && gives(*own)) return &type().outputs[*own].type;
+  for (const NodePtr& input : inputs())
+    if (const OutputType* found = input->output_type(output_name)) return found;
+  return nullptr;
+}
+
 std::optional<size_t> NodeType::output(std::string_view output_name) const {
   const auto found = std::ranges::find(outputs, output_name, &OutputInfo::name);
   return found == outputs.end() ? std::nullopt : std::optional(static_cast<size_t>(found - outputs.begin()));

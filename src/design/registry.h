@@ -69,8 +69,6 @@ class NodeType {
   virtual Data get(const Node& node, size_t parameter, bool for_hash) const = 0;
   // True if its parameters make it empty, like a text without letters.
   virtual bool makes_nothing(const Node& node) const = 0;
-  // True if a formula in its parameters uses ci, cj or ck.
-  virtual bool uses_cell(const Node& node) const = 0;
   // Fills in values that defaults leave open and checks combinations of parameters.
   virtual bool complete(Node& node, const Reader& reader, const std::vector<NodePtr>& inputs) const = 0;
 

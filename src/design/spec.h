@@ -93,10 +93,12 @@ struct OutputSpec {
       : info{std::string(name), std::string(doc), OutputPort<M>::type()},
         constant([member](const T& t) { return Port<M>::write(t.*member, false); }) {}
   template <class M>
-  OutputSpec(std::string_view, M T::*, std::string_view, const Interval& = Interval::everything()) {
-    static_assert(!std::is_same_v<M, M>,
-                  "an output is a method that takes a const Ask&, is const, and returns a Field, VectorField or another "
-                  "type that has an OutputPort");
+  requires(!IsPort<M>)
+      OutputSpec(std::string_view, M T::*, std::string_view, const Interval& = Interval::everything()) {
+    static_assert(
+        !std::is_same_v<M, M>,
+        "an output is a method that takes a const Ask&, is const, and returns a Field, VectorField or another "
+        "type that has an OutputPort");
   }
 
   OutputInfo info;
@@ -257,6 +259,8 @@ class NodeOf final : public Node {
       return in.count() > 0 ? in.metric(0) : Metric::exact();
   }
 
+  bool parameters_use_cell() const override { return type_.uses_cell(data); }
+
   const NodeTypeOf<T>& type_;
 };
 
@@ -369,8 +373,7 @@ class NodeTypeOf final : public NodeType {
 
   const OutputSpec<T>& output_spec(size_t output) const { return spec_.outputs[output]; }
 
-  bool uses_cell(const Node& node) const override {
-    const T& data = static_cast<const NodeOf<T>&>(node).data;
+  bool uses_cell(const T& data) const {
     return std::ranges::any_of(spec_.parameters,
                                [&](const Parameter<T>& one) { return one.uses_cell && one.uses_cell(data); });
   }

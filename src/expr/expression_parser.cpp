@@ -4,7 +4,6 @@
 
 #include "base/system/temporary.h"
 #include "base/text/text.h"
-#include "expr/expression.h"
 #include "expr/functions.h"
 
 namespace ombre::expr {

@@ -99,7 +99,9 @@ struct OutputPort<Region> {
 
 // True for the types of outputs that vary in space.
 template <class R>
-concept VariesInSpace = requires(const R& made) { OutputPort<R>::answer(made); };
+concept VariesInSpace = requires(const R& made) {
+  OutputPort<R>::answer(made);
+};
 
 // A value that is known when the node is made.
 template <IsPort M>

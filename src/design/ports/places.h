@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/math/vec.h"
-#include "base/math/vec.h"
 #include "design/ports/lists.h"
 
 namespace ombre::design {

@@ -10,7 +10,7 @@
 
 namespace ombre::design {
 
-// What people read of a type.
+// The words by which people know a type.
 struct PortText {
   std::string kind;    // in help and in the reference: "number or field"
   std::string plural;  // in the kind of a list of them: "numbers or fields"

@@ -1,4 +1,4 @@
-#include "design/ports/words.h"
+#include "design/ports/choices.h"
 
 #include <algorithm>
 

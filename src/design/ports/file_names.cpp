@@ -1,4 +1,4 @@
-#include "design/ports/files.h"
+#include "design/ports/file_names.h"
 
 #include "design/ports/numbers.h"
 

@@ -1,4 +1,4 @@
-#include "design/ports/kernel.h"
+#include "design/ports/voxel_weights.h"
 
 #include <cmath>
 
