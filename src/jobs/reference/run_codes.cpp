@@ -4,7 +4,7 @@
 
 #include "base/text/code.h"
 #include "jobs/common/job_kind.h"
-#include "jobs/common/session.h"
+#include "jobs/reference/list_or_page.h"
 
 namespace ombre::jobs {
 namespace {
@@ -36,30 +36,11 @@ std::string codes_reference() {
   return text;
 }
 
-struct CodesChoices {
-  bool markdown = false;
-
-  static const options::Spec<CodesChoices>& options() {
-    using namespace options;
-    static const options::Spec<CodesChoices> spec{
-        flag("--markdown", &CodesChoices::markdown, "Print the whole reference")};
-    return spec;
-  }
-};
-
-int show_codes(const CodesChoices& a, Session& session) {
-  if (a.markdown)
-    session.events.print(codes_reference());
-  else
-    list_codes(session);
-  return done;
-}
-
 }  // namespace
 
 JobKind codes_kind() {
-  return job_kind<CodesChoices>("codes", "List the codes that messages have for programs", "Example:\n  ombre codes\n",
-                                show_codes);
+  return job_kind<ListChoices>("codes", "List the codes that messages have for programs", "Example:\n  ombre codes\n",
+                               list_or_print<list_codes, codes_reference>);
 }
 
 }  // namespace ombre::jobs

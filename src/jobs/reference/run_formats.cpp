@@ -3,7 +3,7 @@
 
 #include "base/text/text.h"
 #include "jobs/common/job_kind.h"
-#include "jobs/common/session.h"
+#include "jobs/reference/list_or_page.h"
 #include "sources/file_formats.h"
 
 namespace ombre::jobs {
@@ -63,30 +63,11 @@ std::string formats_reference() {
   return text;
 }
 
-struct FormatsChoices {
-  bool markdown = false;
-
-  static const options::Spec<FormatsChoices>& options() {
-    using namespace options;
-    static const options::Spec<FormatsChoices> spec{
-        flag("--markdown", &FormatsChoices::markdown, "Print the whole reference")};
-    return spec;
-  }
-};
-
-int show_formats(const FormatsChoices& a, Session& session) {
-  if (a.markdown)
-    session.events.print(formats_reference());
-  else
-    list_formats(session);
-  return done;
-}
-
 }  // namespace
 
 JobKind formats_kind() {
-  return job_kind<FormatsChoices>("formats", "List the formats of files that are read and written",
-                                  "Example:\n  ombre formats\n", show_formats);
+  return job_kind<ListChoices>("formats", "List the formats of files that are read and written",
+                               "Example:\n  ombre formats\n", list_or_print<list_formats, formats_reference>);
 }
 
 }  // namespace ombre::jobs

@@ -7,6 +7,7 @@
 #include "base/text/text.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
+#include "jobs/reference/list_or_page.h"
 #include "load/node_data.h"
 #include "load/node_registry.h"
 
@@ -67,7 +68,7 @@ std::string describe(const NodeType& type) {
   return text;
 }
 
-void list_nodes(Session& session) {
+void list_nodes(const Session& session) {
   const auto& types = compile::node_registry().types();
   size_t width = 0;
   for (const auto& type : types) width = std::max(width, type->name.size());
@@ -129,24 +130,20 @@ std::string reference() {
 
 struct NodesChoices {
   std::string node;
-  bool markdown = false;
+  ListChoices list;
 
   static const options::Spec<NodesChoices>& options() {
     using namespace options;
     static const options::Spec<NodesChoices> spec{
         option("node", &NodesChoices::node, kind::text, "A node's name, as in a design", "NAME"),
-        flag("--markdown", &NodesChoices::markdown, "Print the whole reference")};
+        group(&NodesChoices::list)};
     return spec;
   }
 };
 
 int show_nodes(const NodesChoices& a, Session& session) {
-  if (!a.markdown && !a.node.empty()) return show_node(a.node, session);
-  if (a.markdown)
-    session.events.print(reference());
-  else
-    list_nodes(session);
-  return done;
+  if (!a.list.markdown && !a.node.empty()) return show_node(a.node, session);
+  return list_or_print<list_nodes, reference>(a.list, session);
 }
 
 }  // namespace
