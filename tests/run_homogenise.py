@@ -4,6 +4,7 @@
     python3 tests/run_homogenise.py build/dev/apps/ombre/ombre
 """
 import json
+import xml.etree.ElementTree as ElementTree
 
 import program
 from program import expect
@@ -116,6 +117,10 @@ def charts_are_written(folder):
     before = text
     reported = run(folder, "cube(2);", "--study", STUDY, "--cell", "1", "-o", "chart.svg", status=2).stderr
     expect("--force" in reported and folder.read("chart.svg") == before, "overwriting")
+    folder.write("this & <that>.vcad", 'cube(2, "red");')
+    folder.run("homogenise", "this & <that>.vcad", "--study", STUDY, "--cell", "1", "-o", "named.svg")
+    texts = [element.text for element in ElementTree.fromstring(folder.read("named.svg")).iter() if element.tag.endswith("text")]
+    expect("this & <that>.vcad" in texts, str(texts))
 
 
 def layers_conduct_in_series_and_parallel(folder):

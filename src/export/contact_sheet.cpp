@@ -7,14 +7,16 @@
 #include "base/system/assert.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
-#include "export/digits.h"
+#include "draw/pen.h"
 #include "formats/containers/file.h"
 
 namespace ombre::exporting {
 namespace {
 
-constexpr uint32_t sheet_width = 1600, tallest_tile = 800, margin = 16, label_gap = 6, label_scale = 2;
-constexpr formats::Rgba paper{250, 250, 248, 255}, tile_colour{229, 232, 236, 255}, ink{90, 90, 90, 255};
+constexpr uint32_t sheet_width = 1600, tallest_tile = 800, margin = 16, label_height = 16;
+constexpr int label_size = 14;
+constexpr formats::Rgba paper{250, 250, 248, 255}, tile_colour{229, 232, 236, 255};
+constexpr draw::Rgb ink{90, 90, 90};
 
 // Pixels [left, right) x [top, bottom).
 struct Crop {
@@ -35,7 +37,7 @@ struct Crop {
 struct Grid {
   uint32_t columns = 1, rows = 1, tile_width = 1, tile_height = 1;
 
-  uint32_t cell_height() const { return tile_height + label_gap + text_height(label_scale) + margin; }
+  uint32_t cell_height() const { return tile_height + label_height + margin; }
   uint32_t sheet_height() const { return margin + rows * cell_height(); }
   uint32_t left(uint32_t tile) const { return margin + tile % columns * (tile_width + margin); }
   uint32_t top(uint32_t tile) const { return margin + tile / columns * cell_height(); }
@@ -130,8 +132,7 @@ formats::Rgba mean(const formats::PngImage& image, std::pair<uint32_t, uint32_t>
   return {channel(0), channel(1), channel(2), 255};
 }
 
-void draw_tile(Picture& sheet, const Grid& grid, uint32_t tile, const formats::PngImage& image, const SheetLayer& layer,
-               const Crop& crop) {
+void draw_tile(Picture& sheet, const Grid& grid, uint32_t tile, const formats::PngImage& image, const Crop& crop) {
   for (uint32_t y = 0; y < grid.tile_height; ++y) {
     const auto rows = sources(y, grid.tile_height, crop.top, crop.height());
     for (uint32_t x = 0; x < grid.tile_width; ++x) {
@@ -139,13 +140,17 @@ void draw_tile(Picture& sheet, const Grid& grid, uint32_t tile, const formats::P
       sheet.set(grid.left(tile) + x, grid.top(tile) + y, mean(image, columns, rows));
     }
   }
+}
+
+void draw_label(draw::Pen& pen, Picture& sheet, const Grid& grid, uint32_t tile, const SheetLayer& layer) {
+  const draw::Canvas canvas{sheet.width, sheet.height, &sheet.rgba};
   const std::string number = std::to_string(layer.layer), height = format_rounded(layer.z_mm) + " mm";
-  const uint32_t baseline = grid.top(tile) + grid.tile_height + label_gap;
-  draw_text(sheet, grid.left(tile), baseline, number, label_scale, ink);
+  const double left = grid.left(tile), baseline = grid.top(tile) + grid.tile_height + label_height;
+  pen.write(canvas, {left, baseline}, number, label_size, ink);
   // The label includes the height if there is room for it.
-  const uint32_t needed = text_width(height, label_scale);
-  if (text_width(number, label_scale) + label_gap + needed <= grid.tile_width)
-    draw_text(sheet, grid.left(tile) + grid.tile_width - needed, baseline, height, label_scale, ink);
+  const double spare = grid.tile_width - pen.text_width(height, label_size);
+  if (pen.text_width(number + ' ', label_size) <= spare)
+    pen.write(canvas, {left + spare, baseline}, height, label_size, ink);
 }
 
 }  // namespace
@@ -156,8 +161,12 @@ Picture draw_contact_sheet(const std::vector<SheetLayer>& layers, const SheetSty
   const Grid grid = arrange(static_cast<uint32_t>(layers.size()), crop.width() * style.pixel_width_mm,
                             crop.height() * style.pixel_height_mm);
   Picture sheet(margin + grid.columns * (grid.tile_width + margin), grid.sheet_height(), paper);
-  for (uint32_t tile = 0; tile < layers.size(); ++tile)
-    draw_tile(sheet, grid, tile, read(layers[tile], style), layers[tile], crop);
+  std::optional<draw::Pen> pen;
+  if (draw::can_draw()) pen.emplace();
+  for (uint32_t tile = 0; tile < layers.size(); ++tile) {
+    draw_tile(sheet, grid, tile, read(layers[tile], style), crop);
+    if (pen) draw_label(*pen, sheet, grid, tile, layers[tile]);
+  }
   return sheet;
 }
 

@@ -17,8 +17,8 @@ DataMembers describe_node(const design::NodeType& type) {
                                         {"variables", texts(parameter.domain.variables)}});
   DataList outputs;
   for (const design::OutputInfo& output : type.outputs)
-    outputs.emplace_back(
-        DataMembers{{"name", output.name}, {"doc", output.doc}, {"type", output.type.name}, {"python", output.type.python}});
+    outputs.emplace_back(DataMembers{
+        {"name", output.name}, {"doc", output.doc}, {"type", output.type.name}, {"python", output.type.python}});
   const bool has_many = type.inputs.most == design::many_solids.most;
   return {{"name", type.name},
           {"category", type.category},

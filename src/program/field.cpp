@@ -135,6 +135,21 @@ Field Builder::apply(Op op, Field a, Field b, Field c) {
   return intern({op, in.a, in.b, in.c, 0, nullptr}, in);
 }
 
+namespace {
+
+// Returns an instruction of three operands with an entry of a table.
+Instruction with_entry(Op op, Field a, Field b, Field c, size_t entry) {
+  Instruction in;
+  in.op = op;
+  in.a = a.id;
+  in.b = b.id;
+  in.c = c.id;
+  in.aux = static_cast<uint32_t>(entry);
+  return in;
+}
+
+}  // namespace
+
 Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
   // Rows with a single non-zero coefficient are common; translations produce them.
   const Field parts[] = {a, b, c};
@@ -145,12 +160,7 @@ Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
                                   : apply(Op::multiply, constant(row[i]), parts[i]);
     return row[3] == 0 ? result : apply(Op::add, result, constant(row[3]));
   }
-  Instruction in;
-  in.op = Op::affine;
-  in.a = a.id;
-  in.b = b.id;
-  in.c = c.id;
-  in.aux = static_cast<uint32_t>(maps_.size());
+  const Instruction in = with_entry(Op::affine, a, b, c, maps_.size());
   uint64_t bits = 1;
   for (const double m : row) bits = (bits ^ std::bit_cast<uint64_t>(m == 0 ? 0.0 : m)) * 0x9E3779B97F4A7C15ull;
   const Field field = intern({Op::affine, in.a, in.b, in.c, bits, nullptr}, in);
@@ -165,36 +175,21 @@ Field Builder::affine(const AffineRow& row, Field a, Field b, Field c) {
 }
 
 Field Builder::source(const SourceField& source, int channel, Field a, Field b, Field c, uint32_t tag) {
-  Instruction in;
-  in.op = Op::source;
-  in.a = a.id;
-  in.b = b.id;
-  in.c = c.id;
-  in.aux = static_cast<uint32_t>(reads_.size());
+  const Instruction in = with_entry(Op::source, a, b, c, reads_.size());
   const Field field = intern({Op::source, in.a, in.b, in.c, static_cast<uint64_t>(channel), source.get()}, in);
   if (code_[field.id].aux == reads_.size()) reads_.push_back({source, channel, tag});
   return field;
 }
 
 Field Builder::call(const std::shared_ptr<Program>& body, uint32_t output, Field a, Field b, Field c) {
-  Instruction in;
-  in.op = Op::call;
-  in.a = a.id;
-  in.b = b.id;
-  in.c = c.id;
-  in.aux = static_cast<uint32_t>(calls_.size());
+  const Instruction in = with_entry(Op::call, a, b, c, calls_.size());
   const Field field = intern({Op::call, in.a, in.b, in.c, output, body.get()}, in);
   if (code_[field.id].aux == calls_.size()) calls_.push_back({body, output});
   return field;
 }
 
 Field Builder::parts(const std::shared_ptr<const PartSet>& set, size_t slot, Field a, Field b, Field c) {
-  Instruction in;
-  in.op = Op::parts;
-  in.a = a.id;
-  in.b = b.id;
-  in.c = c.id;
-  in.aux = static_cast<uint32_t>(part_sets_.size());
+  Instruction in = with_entry(Op::parts, a, b, c, part_sets_.size());
   in.value = static_cast<double>(slot);
   const Field field = intern({Op::parts, in.a, in.b, in.c, slot, set.get()}, in);
   if (code_[field.id].aux == part_sets_.size()) part_sets_.push_back(set);

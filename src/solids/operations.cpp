@@ -230,26 +230,28 @@ class Applier {
     return result;
   }
 
-  template <class Operate>
-  Pieces for_regions(const Operate& operate) {
-    keep_dimension(2, true);
+  // Replaces the shapes of one kind, which `part` gives; pieces without one stay.
+  template <auto part, class Operate>
+  Pieces for_united(const Operate& operate) {
     Pieces result;
     for (const PieceGroup& group : grouped(all(), matching())) {
       const Piece piece = united(group);
-      result.push_back(piece.region() ? piece_of(group.attributes, operate(*piece.region())) : piece);
+      const auto* const shape = (piece.*part)();
+      result.push_back(shape ? piece_of(group.attributes, operate(*shape)) : piece);
     }
     return result;
   }
 
   template <class Operate>
+  Pieces for_regions(const Operate& operate) {
+    keep_dimension(2, true);
+    return for_united<&Piece::region>(operate);
+  }
+
+  template <class Operate>
   Pieces for_solids(const Operate& operate) {
     keep_dimension(3, false);
-    Pieces result;
-    for (const PieceGroup& group : grouped(all(), matching())) {
-      const Piece piece = united(group);
-      result.push_back(piece.solid() ? piece_of(group.attributes, operate(*piece.solid())) : piece);
-    }
-    return result;
+    return for_united<&Piece::solid>(operate);
   }
 
   template <class Set>

@@ -110,17 +110,10 @@ std::vector<cad::SolidPtr> choose_solids(const std::string& path, const std::vec
   for (const cad::SolidPtr& solid : solids)
     if (solid->name == object) chosen.push_back(solid);
   if (!chosen.empty()) return chosen;
-  constexpr size_t most_listed = 20;
-  std::vector<std::string> names = names_of_solids(solids);
-  std::string hint = did_you_mean(object, names);
-  const bool is_cut = names.size() > most_listed;
-  if (is_cut) names.resize(most_listed);
-  if (hint.empty())
-    hint = names.empty() ? "its solids have no names: leave object out"
-                         : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
-  reader.diagnostics.error(Code::unknown_object, reader.where,
-                           "the CAD file \"" + path + "\" has no solid \"" + object + '"', hint,
-                           {{"file", path}, {"name", object}});
+  reader.diagnostics.error(
+      Code::unknown_object, reader.where, "the CAD file \"" + path + "\" has no solid \"" + object + '"',
+      sources::hint_of_names(object, names_of_solids(solids), "its solids have no names: leave object out"),
+      {{"file", path}, {"name", object}});
   return {};
 }
 

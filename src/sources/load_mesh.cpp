@@ -24,17 +24,10 @@ importing::InsideRule rule_of(std::string_view name) {
 // Reduces the mesh to an object. Returns false, with a diagnostic, if the file has none of that name.
 bool choose_object(const std::string& path, formats::Mesh& mesh, const std::string& object, const Reader& reader) {
   if (object.empty() || formats::keep_object(mesh, object)) return true;
-  constexpr size_t most_listed = 20;
-  std::vector<std::string> names = formats::object_names(mesh);
-  std::string hint = did_you_mean(object, names);
-  const bool is_cut = names.size() > most_listed;
-  if (is_cut) names.resize(most_listed);
-  if (hint.empty())
-    hint = names.empty() ? "its objects have no names: leave object out"
-                         : "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
-  reader.diagnostics.error(Code::unknown_object, reader.where,
-                           "the mesh \"" + path + "\" has no object \"" + object + '"', hint,
-                           {{"file", path}, {"name", object}});
+  reader.diagnostics.error(
+      Code::unknown_object, reader.where, "the mesh \"" + path + "\" has no object \"" + object + '"',
+      sources::hint_of_names(object, formats::object_names(mesh), "its objects have no names: leave object out"),
+      {{"file", path}, {"name", object}});
   return false;
 }
 

@@ -153,11 +153,9 @@ solids::Pieces of_part(const ScadRequest& request, const solids::Pieces& pieces,
   if (!own.empty()) return own;
   std::vector<std::string> names = part_names(pieces);
   std::erase(names, "");
-  std::string hint = did_you_mean(request.part, names);
-  if (hint.empty())
-    hint = names.empty() ? "its solids have no parts: leave part out" : "there are \"" + join(names, "\", \"") + '"';
   reader.diagnostics.error(Code::unknown_part, reader.where,
-                           '"' + request.file.path + "\" has no part \"" + request.part + '"', hint,
+                           '"' + request.file.path + "\" has no part \"" + request.part + '"',
+                           sources::hint_of_names(request.part, names, "its solids have no parts: leave part out"),
                            {{"part", request.part}});
   return own;
 }

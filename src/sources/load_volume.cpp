@@ -99,10 +99,7 @@ const formats::VolumeSegment* find_segment(const VolumeParts& parts, const Volum
   if (segments.empty())
     return fail(file + " names no segments",
                 "write its number: " + spelled::parameter("label", "1") + "; names are read from .seg.nrrd files");
-  const std::vector<std::string> names = segment_names(segments);
-  std::string hint = did_you_mean(request.segment, names);
-  if (hint.empty()) hint = "there are \"" + join(names, "\", \"") + '"';
-  return fail(file + " has no segment " + name, hint);
+  return fail(file + " has no segment " + name, sources::hint_of_names(request.segment, segment_names(segments), ""));
 }
 
 // Sets the channel and the label of the requested segment. Returns false, with a diagnostic, if there is none.

@@ -24,6 +24,15 @@ std::shared_ptr<const void> Loader::find(design::SourceRequest request, const de
   return std::visit([&](auto* kind) -> std::shared_ptr<const void> { return kind->load(loading); }, request);
 }
 
+std::string hint_of_names(const std::string& name, std::vector<std::string> names, const std::string& without_names) {
+  if (names.empty()) return without_names;
+  if (std::string meant = did_you_mean(name, names); !meant.empty()) return meant;
+  constexpr size_t most_listed = 20;
+  const bool is_cut = names.size() > most_listed;
+  if (is_cut) names.resize(most_listed);
+  return "there are \"" + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
+}
+
 Key& Key::add(std::string_view word) {
   text_.append(std::to_string(word.size())).append(" ").append(word);
   return *this;

@@ -38,6 +38,10 @@ class Loader : public design::SourceLoader {
   std::set<Hash> reported_;
 };
 
+// Returns what to write instead of a name that a file does not have: the one that may have been meant, or its names;
+// `without_names` if it has none.
+std::string hint_of_names(const std::string& name, std::vector<std::string> names, const std::string& without_names);
+
 // A key of everything that determines a source. Words are stored with their lengths, so that different lists of words
 // give different keys.
 class Key {

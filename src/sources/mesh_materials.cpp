@@ -9,6 +9,7 @@
 #include "base/text/text.h"
 #include "design/nearest_material.h"
 #include "formats/mesh/mesh_objects.h"
+#include "sources/loading.h"
 
 namespace ombre::sources {
 namespace {
@@ -71,18 +72,10 @@ class MaterialFinder {
     bool good = true;
     for (const auto& [name, material] : use_.material_map) {
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-      std::string hint = did_you_mean(name, names);
-      if (hint.empty()) hint = "there are " + listed(names);
-      good = fail("material_map of " + file_.node + ": " + file_name() + " has no material \"" + name + '"', hint);
+      good = fail("material_map of " + file_.node + ": " + file_name() + " has no material \"" + name + '"',
+                  hint_of_names(name, names, "it has no materials: leave material_map out"));
     }
     return good;
-  }
-
-  static std::string listed(std::vector<std::string> names) {
-    constexpr size_t most_listed = 20;
-    const bool is_cut = names.size() > most_listed;
-    if (is_cut) names.resize(most_listed);
-    return '"' + join(names, "\", \"") + '"' + (is_cut ? " and more" : "");
   }
 
   const Material* mapped(const std::string& name) const {

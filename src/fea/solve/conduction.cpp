@@ -138,11 +138,8 @@ Conduction conduct(const ModelView& model, const Conditions& conditions, const S
 
 double conduct_bytes(const Bricks& bricks) {
   // Bytes of a node: about twenty vectors and its place in a coarse brick. Bytes of a brick: its place, nodes and
-  // moduli twice, and its flux. Coarser levels take a seventh of that.
-  constexpr double of_node = 20.0 * sizeof(double) + 24, of_brick = 2.0 * (sizeof(Cell) + 32 + 8) + 24;
-  constexpr double all_levels = 8.0 / 7;
-  return own_matrix_bytes(bricks, 1) + all_levels * (of_node * static_cast<double>(bricks.node_count()) +
-                                                     of_brick * static_cast<double>(bricks.count()));
+  // moduli twice, and its flux.
+  return multigrid_bytes(bricks, 1, 20.0 * sizeof(double) + 24, 2.0 * (sizeof(Cell) + 32 + 8) + 24);
 }
 
 }  // namespace ombre::fea

@@ -68,11 +68,8 @@ Solution solve(const Model& model, const Conditions& conditions, const SolveOpti
 
 double solve_bytes(const Bricks& bricks) {
   // Bytes of a node: about sixteen vectors of three doubles and its place in a coarse brick. Bytes of a brick: its
-  // place, nodes and moduli twice. Coarser levels take a seventh of that.
-  constexpr double of_node = 48.0 * sizeof(double) + 24, of_brick = 2.0 * (sizeof(Cell) + 32 + 8) + 100;
-  constexpr double all_levels = 8.0 / 7;
-  return own_matrix_bytes(bricks, 3) + all_levels * (of_node * static_cast<double>(bricks.node_count()) +
-                                                     of_brick * static_cast<double>(bricks.count()));
+  // place, nodes and moduli twice.
+  return multigrid_bytes(bricks, 3, 48.0 * sizeof(double) + 24, 2.0 * (sizeof(Cell) + 32 + 8) + 100);
 }
 
 }  // namespace ombre::fea

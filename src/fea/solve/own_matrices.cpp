@@ -63,12 +63,15 @@ OwnMatrices own_conductance(const Bricks& bricks, const std::vector<Section>& se
       });
 }
 
-double own_matrix_bytes(const Bricks& bricks, size_t unknowns) {
+double multigrid_bytes(const Bricks& bricks, size_t unknowns, double node_bytes, double brick_bytes) {
+  constexpr double all_levels = 8.0 / 7;  // coarser levels take a seventh of the finest
   double cut = 0;
   for (const Fill fill : bricks.fills) cut += fill != full_fill ? 1 : 0;
   const size_t matrix = unknowns == 1 ? sizeof(PackedConductance) : sizeof(PackedStiffness);
   return cut * static_cast<double>(matrix) +
-         static_cast<double>(bricks.fills.size() * (sizeof(Fill) + sizeof(uint32_t)));
+         static_cast<double>(bricks.fills.size() * (sizeof(Fill) + sizeof(uint32_t))) +
+         all_levels * (node_bytes * static_cast<double>(bricks.node_count()) +
+                       brick_bytes * static_cast<double>(bricks.count()));
 }
 
 }  // namespace ombre::fea

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "base/math/vec.h"
 #include "base/text/diagnostic.h"
@@ -13,6 +15,19 @@ namespace ombre::formats {
 // Reports an error in a file without a position, and throws DesignError.
 [[noreturn]] void fail(Diagnostics& diagnostics, const std::string& name, const std::string& message,
                        std::string hint = "");
+
+// Returns what `read` makes of the bytes of a file; null, with a diagnostic, if there are none or it throws
+// DesignError.
+template <class Read>
+std::optional<std::invoke_result_t<Read>> read_or_null(const std::string& name, std::string_view bytes,
+                                                       Diagnostics& diagnostics, const Read& read) {
+  try {
+    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
+    return read();
+  } catch (const DesignError&) {
+    return std::nullopt;
+  }
+}
 
 // Returns a word for messages: in quotes, shortened and printable.
 std::string quoted(std::string_view word, size_t longest = 40);

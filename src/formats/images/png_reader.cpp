@@ -58,13 +58,18 @@ void take(png_structp png, png_bytep data, size_t size) {
   reader->position += size;
 }
 
-bool read_header(PngReader& reader) {
-  if (setjmp(png_jmpbuf(reader.png))) return false;
+// Reads what the file says of its pixels; a failure jumps to where the caller has set the jump.
+void read_stored_layout(PngReader& reader) {
   png_set_read_fn(reader.png, &reader, take);
   png_set_user_limits(reader.png, largest_side, largest_side);
   png_read_info(reader.png, reader.info);
   reader.stored_bit_depth = png_get_bit_depth(reader.png, reader.info);
   reader.stored_bits_per_pixel = reader.stored_bit_depth * png_get_channels(reader.png, reader.info);
+}
+
+bool read_header(PngReader& reader) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
+  read_stored_layout(reader);
   if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE) {
     png_set_packing(reader.png);
   } else {
@@ -81,11 +86,7 @@ bool read_header(PngReader& reader) {
 // Reads the header for gray pixels of two bytes each; smaller samples are not scaled.
 bool read_gray_header(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
-  png_set_read_fn(reader.png, &reader, take);
-  png_set_user_limits(reader.png, largest_side, largest_side);
-  png_read_info(reader.png, reader.info);
-  reader.stored_bit_depth = png_get_bit_depth(reader.png, reader.info);
-  reader.stored_bits_per_pixel = reader.stored_bit_depth * png_get_channels(reader.png, reader.info);
+  read_stored_layout(reader);
   if ((png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_COLOR) != 0)
     png_error(reader.png,
               "it is in colour; choose one of its values by channel=0, up to 3, or save it in shades of grey");

@@ -176,12 +176,7 @@ class ObjReader {
 }  // namespace
 
 std::optional<Mesh> read_obj(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  try {
-    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    return ObjReader(name, bytes, diagnostics).read();
-  } catch (const DesignError&) {
-    return std::nullopt;
-  }
+  return read_or_null(name, bytes, diagnostics, [&] { return ObjReader(name, bytes, diagnostics).read(); });
 }
 
 }  // namespace ombre::formats

@@ -165,12 +165,7 @@ bool is_off(std::string_view bytes) {
 }
 
 std::optional<Mesh> read_off(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  try {
-    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    return OffReader(name, bytes, diagnostics).read();
-  } catch (const DesignError&) {
-    return std::nullopt;
-  }
+  return read_or_null(name, bytes, diagnostics, [&] { return OffReader(name, bytes, diagnostics).read(); });
 }
 
 }  // namespace ombre::formats

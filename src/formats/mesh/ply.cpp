@@ -333,12 +333,7 @@ class PlyReader {
 bool is_ply(std::string_view bytes) { return bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r"; }
 
 std::optional<Mesh> read_ply(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  try {
-    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    return PlyReader(name, bytes, diagnostics).read();
-  } catch (const DesignError&) {
-    return std::nullopt;
-  }
+  return read_or_null(name, bytes, diagnostics, [&] { return PlyReader(name, bytes, diagnostics).read(); });
 }
 
 }  // namespace ombre::formats

@@ -123,13 +123,8 @@ Mesh read_binary(const std::string& name, std::string_view bytes, Diagnostics& d
 bool is_stl(std::string_view bytes) { return has_binary_size(bytes) || is_like_text(bytes); }
 
 std::optional<Mesh> read_stl(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  try {
-    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
-    if (has_binary_size(bytes) || !is_like_text(bytes)) return read_binary(name, bytes, diagnostics);
-    return read_stl_text(name, bytes, diagnostics);
-  } catch (const DesignError&) {
-    return std::nullopt;
-  }
+  const auto read = has_binary_size(bytes) || !is_like_text(bytes) ? read_binary : read_stl_text;
+  return read_or_null(name, bytes, diagnostics, [&] { return read(name, bytes, diagnostics); });
 }
 
 }  // namespace ombre::formats

@@ -256,16 +256,13 @@ std::string unpacked(const std::string& name, std::string_view bytes, Diagnostic
 }  // namespace
 
 std::optional<Mesh> read_amf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  try {
-    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
+  return read_or_null(name, bytes, diagnostics, [&] {
     const std::string text = is_zip(bytes) ? unpacked(name, bytes, diagnostics) : "";
     const XmlFile file(name, is_zip(bytes) ? text : bytes, diagnostics);
     Assembly assembly;
     AmfReader(file, assembly).read();
     return assemble(assembly, name, diagnostics);
-  } catch (const DesignError&) {
-    return std::nullopt;
-  }
+  });
 }
 
 }  // namespace ombre::formats

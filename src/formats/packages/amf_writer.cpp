@@ -11,20 +11,18 @@ std::string metadata(std::string_view type, std::string_view value) {
   return "<metadata" + xml_attribute("type", type) + '>' + xml_escaped(value) + "</metadata>\n";
 }
 
-void append_number(std::string& text, std::string_view element, double value) {
-  text += '<';
-  text += element;
-  text += '>';
-  append_float(text, value);
-  text += "</";
-  text += element;
-  text += '>';
+template <class Number>
+void append_element(std::string& text, std::string_view name, void (&append)(std::string&, Number),
+                    std::type_identity_t<Number> value) {
+  text.append("<").append(name).append(">");
+  append(text, value);
+  text.append("</").append(name).append(">");
 }
 
 void append_colour(std::string& text, const Rgba& colour) {
   constexpr std::string_view parts[]{"r", "g", "b", "a"};
   text += "<color>";
-  for (size_t i = 0; i < colour.size(); ++i) append_number(text, parts[i], colour[i] / 255.0);
+  for (size_t i = 0; i < colour.size(); ++i) append_element(text, parts[i], append_float, colour[i] / 255.0);
   text += "</color>";
 }
 
@@ -38,29 +36,19 @@ std::string material_text(const MeshMaterial& material, size_t index) {
 void append_vertex(std::string& text, const MeshBody& body, size_t index) {
   const Vec3 p = body.vertices[index];
   text += "<vertex><coordinates>";
-  append_number(text, "x", p.x);
-  append_number(text, "y", p.y);
-  append_number(text, "z", p.z);
+  append_element(text, "x", append_float, p.x);
+  append_element(text, "y", append_float, p.y);
+  append_element(text, "z", append_float, p.z);
   text += "</coordinates>";
   if (!body.vertex_colours.empty()) append_colour(text, body.vertex_colours[index]);
   text += "</vertex>\n";
 }
 
-void append_corner(std::string& text, std::string_view element, uint64_t vertex) {
-  text += '<';
-  text += element;
-  text += '>';
-  append_count(text, vertex);
-  text += "</";
-  text += element;
-  text += '>';
-}
-
 void append_triangle(std::string& text, const std::array<uint32_t, 3>& triangle, uint64_t first_vertex) {
   text += "<triangle>";
-  append_corner(text, "v1", first_vertex + triangle[0]);
-  append_corner(text, "v2", first_vertex + triangle[1]);
-  append_corner(text, "v3", first_vertex + triangle[2]);
+  append_element(text, "v1", append_count, first_vertex + triangle[0]);
+  append_element(text, "v2", append_count, first_vertex + triangle[1]);
+  append_element(text, "v3", append_count, first_vertex + triangle[2]);
   text += "</triangle>\n";
 }
 

@@ -63,36 +63,20 @@ double least_length(const WrittenBeams& written) {
   return (1 - rounding) * least;
 }
 
-void append_length(std::string& text, std::string_view name, double value) {
-  text += ' ';
-  text += name;
-  text += "=\"";
-  append_float(text, value);
-  text += '"';
-}
-
-void append_index(std::string& text, std::string_view name, uint64_t value) {
-  text += ' ';
-  text += name;
-  text += "=\"";
-  append_count(text, value);
-  text += '"';
-}
-
 void append_beam(std::string& text, const WrittenBeams& written, const Usual& usual, size_t index) {
   const Beam& beam = written.beams[index];
   text += "<b:beam";
-  append_index(text, "v1", beam.ends[0]);
-  append_index(text, "v2", beam.ends[1]);
+  append_xml_attribute(text, "v1", append_count, beam.ends[0]);
+  append_xml_attribute(text, "v2", append_count, beam.ends[1]);
   // If r1 is written, r2 defaults to it; otherwise both default to the lattice's radius.
   const auto first = static_cast<float>(beam.radii[0]), second = static_cast<float>(beam.radii[1]);
-  if (first != usual.radius || second != usual.radius) append_length(text, "r1", first);
-  if (first != second) append_length(text, "r2", second);
+  if (first != usual.radius || second != usual.radius) append_xml_attribute(text, "r1", append_float, first);
+  if (first != second) append_xml_attribute(text, "r2", append_float, second);
   if (beam.caps[0] != usual.cap) text += xml_attribute("cap1", word(beam.caps[0]));
   if (beam.caps[1] != usual.cap) text += xml_attribute("cap2", word(beam.caps[1]));
   if (!written.materials.empty() && written.materials[index] != usual.material) {
-    append_index(text, "p1", written.materials[index]);
-    append_index(text, "p2", written.materials[index]);
+    append_xml_attribute(text, "p1", append_count, written.materials[index]);
+    append_xml_attribute(text, "p2", append_count, written.materials[index]);
   }
   text += "/>\n";
 }
@@ -102,15 +86,15 @@ void append_beam(std::string& text, const WrittenBeams& written, const Usual& us
 LazyBytes beam_lattice_text(const WrittenBeams& written, std::optional<uint64_t> clip, uint64_t materials) {
   const Usual usual = usual_of(written);
   std::string begin = "<b:beamlattice";
-  append_length(begin, "minlength", least_length(written));
-  append_length(begin, "radius", usual.radius);
+  append_xml_attribute(begin, "minlength", append_float, least_length(written));
+  append_xml_attribute(begin, "radius", append_float, usual.radius);
   if (clip) {
     begin += xml_attribute("clippingmode", clipping_texts[static_cast<size_t>(written.clipping)]);
-    append_index(begin, "clippingmesh", *clip);
+    append_xml_attribute(begin, "clippingmesh", append_count, *clip);
   }
   if (!written.materials.empty()) {
-    append_index(begin, "pid", materials);
-    append_index(begin, "pindex", usual.material);
+    append_xml_attribute(begin, "pid", append_count, materials);
+    append_xml_attribute(begin, "pindex", append_count, usual.material);
   }
   if (usual.cap != BeamCap::sphere) begin += xml_attribute("cap", word(usual.cap));
   LazyBytes bytes;

@@ -26,14 +26,6 @@ void append_vertex(std::string& text, Vec3 p) {
   text += "\"/>\n";
 }
 
-void append_attribute(std::string& text, std::string_view name, uint64_t value) {
-  text += ' ';
-  text += name;
-  text += "=\"";
-  append_count(text, value);
-  text += '"';
-}
-
 // Attributes of triangles other than their corners.
 struct TriangleProperties {
   uint64_t group = 0;           // 0 for none
@@ -43,15 +35,15 @@ struct TriangleProperties {
 void append_triangle(std::string& text, const std::array<uint32_t, 3>& t, uint64_t first_vertex,
                      const TriangleProperties& properties) {
   text += "<triangle";
-  append_attribute(text, "v1", first_vertex + t[0]);
-  append_attribute(text, "v2", first_vertex + t[1]);
-  append_attribute(text, "v3", first_vertex + t[2]);
+  append_xml_attribute(text, "v1", append_count, first_vertex + t[0]);
+  append_xml_attribute(text, "v2", append_count, first_vertex + t[1]);
+  append_xml_attribute(text, "v3", append_count, first_vertex + t[2]);
   if (properties.group != 0) {
-    append_attribute(text, "pid", properties.group);
-    append_attribute(text, "p1", properties.all.value_or(t[0]));
+    append_xml_attribute(text, "pid", append_count, properties.group);
+    append_xml_attribute(text, "p1", append_count, properties.all.value_or(t[0]));
     if (!properties.all) {
-      append_attribute(text, "p2", t[1]);
-      append_attribute(text, "p3", t[2]);
+      append_xml_attribute(text, "p2", append_count, t[1]);
+      append_xml_attribute(text, "p3", append_count, t[2]);
     }
   }
   text += "/>\n";

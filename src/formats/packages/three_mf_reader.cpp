@@ -4,6 +4,7 @@
 #include "base/text/text.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/containers/zip_archive.h"
+#include "formats/packages/mesh_formats.h"
 #include "formats/packages/package_readers.h"
 #include "formats/packages/three_mf_model.h"
 #include "formats/packages/three_mf_text.h"
@@ -99,13 +100,10 @@ class ThreeMfReader {
 }  // namespace
 
 std::optional<Mesh> read_3mf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  try {
-    if (bytes.empty()) fail(diagnostics, name, "the file is empty");
+  return read_or_null(name, bytes, diagnostics, [&] {
     if (!is_zip(bytes)) fail(diagnostics, name, "this is not a 3MF file: those are zip archives");
     return ThreeMfReader(name, bytes, diagnostics).read();
-  } catch (const DesignError&) {
-    return std::nullopt;
-  }
+  });
 }
 
 }  // namespace ombre::formats

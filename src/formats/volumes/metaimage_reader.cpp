@@ -11,9 +11,9 @@
 namespace ombre::formats {
 namespace {
 
-class MetaImage {
+class MetaImage : TextHeader {
  public:
-  MetaImage(const std::string& path, std::string_view bytes) : path_(path) {
+  MetaImage(const std::string& path, std::string_view bytes) : TextHeader(path) {
     constexpr size_t most_header = size_t{1} << 20;
     size_t at = 0;
     while (at < bytes.size() && at < most_header) {
@@ -58,17 +58,6 @@ class MetaImage {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const { fail_volume(path_, message); }
-
-  std::string field_or(const std::string& name, const std::string& otherwise) const {
-    const auto found = fields_.find(name);
-    return found == fields_.end() ? otherwise : found->second;
-  }
-  std::string field(const std::string& name) const {
-    const auto found = fields_.find(name);
-    if (found == fields_.end()) fail("has a header without \"" + name + '"');
-    return found->second;
-  }
   // Returns the first of the names that the header has.
   std::string first_of(std::initializer_list<const char*> names) const {
     for (const char* name : names)
@@ -152,10 +141,6 @@ class MetaImage {
     if (skip < -1 || before > bytes.size()) fail("has a wrong \"HeaderSize\"");
     take_numbers(file, bytes.substr(before), is_big, channel, volume);
   }
-
-  const std::string& path_;
-  std::map<std::string, std::string> fields_;
-  std::string_view rest_;
 };
 
 }  // namespace

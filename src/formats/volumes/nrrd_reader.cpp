@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class NrrdReader {
+class NrrdReader : TextHeader {
  public:
-  NrrdReader(const std::string& path, std::string_view bytes) : path_(path) {
+  NrrdReader(const std::string& path, std::string_view bytes) : TextHeader(path) {
     constexpr size_t most_header = size_t{1} << 20;
     size_t at = 0;
     for (bool is_first = true; at < bytes.size(); is_first = false) {
@@ -78,8 +78,6 @@ class NrrdReader {
   static constexpr int most_layers = 100000;
   static constexpr int64_t most_label = (1 << 24) - 1;  // largest integer that floats represent exactly without gaps
 
-  [[noreturn]] void fail(const std::string& message) const { fail_volume(path_, message); }
-
   void check_version(const std::string& line) const {
     if (line.size() != 8 || line < "NRRD0001" || line > "NRRD0005")
       fail("has the NRRD version \"" + line.substr(0, 20) + "\"; NRRD0001 to NRRD0005 are read");
@@ -122,16 +120,6 @@ class NrrdReader {
       if (!(colour[n] >= 0 && colour[n] <= 1)) fail("has a wrong \"" + key + "\": its numbers lie from 0 to 1");
     }
     return colour;
-  }
-
-  std::string field_or(const std::string& name, const std::string& otherwise) const {
-    const auto found = fields_.find(name);
-    return found == fields_.end() ? otherwise : found->second;
-  }
-  std::string field(const std::string& name) const {
-    const auto found = fields_.find(name);
-    if (found == fields_.end()) fail("has a header without \"" + name + '"');
-    return found->second;
   }
 
   static Words words_of(const std::string& text) {
@@ -355,9 +343,7 @@ class NrrdReader {
     check_finite(path_, volume);
   }
 
-  const std::string& path_;
-  std::map<std::string, std::string> fields_, notes_;
-  std::string_view rest_;
+  std::map<std::string, std::string> notes_;
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Common parts of the readers of grids.
 #pragma once
 
+#include <map>
+
 #include "base/text/error.h"
 #include "formats/volumes/volume.h"
 
@@ -9,6 +11,26 @@ namespace ombre::formats {
 [[noreturn]] inline void fail_volume(const std::string& path, const std::string& message) {
   throw Error(Code::file_content, "the volume \"" + path + "\" " + message, {{"file", path}});
 }
+
+// A header of text: its fields by their names in lower case, and the bytes behind it.
+class TextHeader {
+ protected:
+  explicit TextHeader(const std::string& path) : path_(path) {}
+
+  [[noreturn]] void fail(const std::string& message) const { fail_volume(path_, message); }
+  std::string field_or(const std::string& name, const std::string& otherwise) const {
+    const auto found = fields_.find(name);
+    return found == fields_.end() ? otherwise : found->second;
+  }
+  std::string field(const std::string& name) const {
+    if (!fields_.contains(name)) fail("has a header without \"" + name + '"');
+    return fields_.at(name);
+  }
+
+  const std::string& path_;
+  std::map<std::string, std::string> fields_;
+  std::string_view rest_;
+};
 
 // Returns an empty list of that type ("uint8", "int16", "float", ...). Throws Error for other types.
 VoxelValues values_of_type(const std::string& path, const std::string& type);

@@ -7,6 +7,7 @@
 #include "base/text/text.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
+#include "jobs/reference/list_or_page.h"
 #include "load/node_data.h"
 #include "load/node_registry.h"
 
@@ -67,7 +68,7 @@ std::string describe(const NodeType& type) {
   return text;
 }
 
-void list_nodes(Session& session) {
+void list_nodes(const Session& session) {
   const auto& types = compile::node_registry().types();
   size_t width = 0;
   for (const auto& type : types) width = std::max(width, type->name.size());
@@ -113,8 +114,7 @@ std::string reference() {
     if (!type->parameters.empty()) text += "\n| parameter | is | default | |\n| --- | --- | --- | --- |\n";
     for (const ParameterInfo& parameter : type->parameters) {
       const std::string domain = domain_text(parameter.domain);
-      text += "| `" + parameter.name + "` | " + parameter.text.kind + (domain.empty() ? "" : ", " + domain) +
-              " | " +
+      text += "| `" + parameter.name + "` | " + parameter.text.kind + (domain.empty() ? "" : ", " + domain) + " | " +
               (parameter.domain.required           ? "required"
                : parameter.default_value.is_null() ? "none"
                                                    : "`" + print_json_line(parameter.default_value) + "`") +
@@ -129,24 +129,20 @@ std::string reference() {
 
 struct NodesChoices {
   std::string node;
-  bool markdown = false;
+  ListChoices list;
 
   static const options::Spec<NodesChoices>& options() {
     using namespace options;
     static const options::Spec<NodesChoices> spec{
         option("node", &NodesChoices::node, kind::text, "A node's name, as in a design", "NAME"),
-        flag("--markdown", &NodesChoices::markdown, "Print the whole reference")};
+        group(&NodesChoices::list)};
     return spec;
   }
 };
 
 int show_nodes(const NodesChoices& a, Session& session) {
-  if (!a.markdown && !a.node.empty()) return show_node(a.node, session);
-  if (a.markdown)
-    session.events.print(reference());
-  else
-    list_nodes(session);
-  return done;
+  if (!a.list.markdown && !a.node.empty()) return show_node(a.node, session);
+  return list_or_print<list_nodes, reference>(a.list, session);
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+// What the kinds of jobs do that list what there is, or print it as a page of the reference.
+#pragma once
+
+#include "jobs/common/job_kind.h"
+
+namespace ombre::jobs {
+
+struct ListChoices {
+  bool markdown = false;
+
+  static const options::Spec<ListChoices>& options() {
+    static const options::Spec<ListChoices> spec{
+        options::flag("--markdown", &ListChoices::markdown, "Print the whole reference")};
+    return spec;
+  }
+};
+
+template <void list(const Session& session), std::string page()>
+int list_or_print(const ListChoices& a, Session& session) {
+  if (a.markdown)
+    session.events.print(page());
+  else
+    list(session);
+  return done;
+}
+
+}  // namespace ombre::jobs
