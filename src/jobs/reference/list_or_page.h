@@ -1,4 +1,4 @@
-// What the kinds of jobs do that list what there is, or print it as a page of the reference.
+// A kind of job lists things, or prints a page of the reference about them: options and output.
 #pragma once
 
 #include "jobs/common/job_kind.h"

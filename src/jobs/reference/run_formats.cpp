@@ -2,81 +2,72 @@
 #include <algorithm>
 
 #include "base/text/text.h"
-<<<<<<< HEAD
-#include "jobs/reference/page_kind.h"
-    =======
 #include "jobs/common/job_kind.h"
 #include "jobs/reference/list_or_page.h"
-    >>>>>>> likes
 #include "sources/file_formats.h"
 
-    namespace ombre::jobs {
-  namespace {
+namespace ombre::jobs {
+namespace {
 
-  std::string use_of(const FileFormat& format) {
-    if (!format.is_written) return "read";
-    return format.is_read ? "read, written" : "written";
-  }
+std::string use_of(const FileFormat& format) {
+  if (!format.is_written) return "read";
+  return format.is_read ? "read, written" : "written";
+}
 
-  std::string ending_texts(const FileFormat& format) {
-    return join(std::vector<std::string>(format.endings.begin(), format.endings.end()), ", ");
-  }
+std::string ending_texts(const FileFormat& format) {
+  return join(std::vector<std::string>(format.endings.begin(), format.endings.end()), ", ");
+}
 
-  void list_formats(const Session& session) {
-    for (const FileFormat& format : sources::file_formats()) {
-      if (session.events.wants_data()) {
-        DataList endings;
-        for (const std::string_view ending : format.endings) endings.emplace_back(std::string(ending));
-        DataMembers members{{"name", std::string(format.name)},
-                            {"holds", std::string(name_of(format.content))},
-                            {"endings", std::move(endings)},
-                            {"is_read", format.is_read},
-                            {"is_written", format.is_written}};
-        if (format.module) {
-          members.emplace_back("library", format.module->library);
-          members.emplace_back("is_available", has_module(*format.module));
-        }
-        session.events.event("format", members);
-        continue;
+void list_formats(const Session& session) {
+  for (const FileFormat& format : sources::file_formats()) {
+    if (session.events.wants_data()) {
+      DataList endings;
+      for (const std::string_view ending : format.endings) endings.emplace_back(std::string(ending));
+      DataMembers members{{"name", std::string(format.name)},
+                          {"holds", std::string(name_of(format.content))},
+                          {"endings", std::move(endings)},
+                          {"is_read", format.is_read},
+                          {"is_written", format.is_written}};
+      if (format.module) {
+        members.emplace_back("library", format.module->library);
+        members.emplace_back("is_available", has_module(*format.module));
       }
-      constexpr size_t name_width = 28, ending_width = 22, use_width = 15;
-      std::string line(format.name);
-      line.append(name_width - std::min(line.size(), name_width - 1), ' ');
-      const std::string endings = ending_texts(format);
-      line.append(endings).append(ending_width - std::min(endings.size(), ending_width - 1), ' ');
-      line.append(use_of(format)).append(use_width - use_of(format).size(), ' ').append(name_of(format.content));
-      if (format.module && !has_module(*format.module)) line.append("; ").append(without(*format.module));
-      session.events.print(line + "\n");
+      session.events.event("format", members);
+      continue;
     }
+    constexpr size_t name_width = 28, ending_width = 22, use_width = 15;
+    std::string line(format.name);
+    line.append(name_width - std::min(line.size(), name_width - 1), ' ');
+    const std::string endings = ending_texts(format);
+    line.append(endings).append(ending_width - std::min(endings.size(), ending_width - 1), ' ');
+    line.append(use_of(format)).append(use_width - use_of(format).size(), ' ').append(name_of(format.content));
+    if (format.module && !has_module(*format.module)) line.append("; ").append(without(*format.module));
+    session.events.print(line + "\n");
   }
+}
 
-  // A page of the reference, with a row for each format.
-  std::string formats_reference() {
-    std::string text =
-        "# File formats\n\nMade by `ombre formats --markdown`. A library is named where a build may lack it; the "
-        "packages "
-        "are Debian's, the option\nCMake's.\n\n| format | endings | holds | | needs |\n| --- | --- | --- | --- | --- "
-        "|\n";
-    for (const FileFormat& format : sources::file_formats()) {
-      text += "| " + std::string(format.name) + " | `" +
-              join(std::vector<std::string>(format.endings.begin(), format.endings.end()), "` `") + "` | " +
-              std::string(name_of(format.content)) + " | " + use_of(format) + " | ";
-      if (const Module* module = format.module)
-        text += std::string(module->library) + " (" + module->packages + ", `" + module->option + "`) ";
-      text += "|\n";
-    }
-    return text;
+// A page of the reference, with a row for each format.
+std::string formats_reference() {
+  std::string text =
+      "# File formats\n\nMade by `ombre formats --markdown`. A library is named where a build may lack it; the "
+      "packages "
+      "are Debian's, the option\nCMake's.\n\n| format | endings | holds | | needs |\n| --- | --- | --- | --- | --- |\n";
+  for (const FileFormat& format : sources::file_formats()) {
+    text += "| " + std::string(format.name) + " | `" +
+            join(std::vector<std::string>(format.endings.begin(), format.endings.end()), "` `") + "` | " +
+            std::string(name_of(format.content)) + " | " + use_of(format) + " | ";
+    if (const Module* module = format.module)
+      text += std::string(module->library) + " (" + module->packages + ", `" + module->option + "`) ";
+    text += "|\n";
   }
+  return text;
+}
 
-  }  // namespace
+}  // namespace
 
-  JobKind formats_kind() {
-<<<<<<< HEAD
-    return page_kind<list_formats, formats_reference>("formats", "List the formats of files that are read and written");
-=======
-    return job_kind<ListChoices>("formats", "List the formats of files that are read and written",
-                                 "Example:\n  ombre formats\n", list_or_print<list_formats, formats_reference>);
->>>>>>> likes
-  }
+JobKind formats_kind() {
+  return job_kind<ListChoices>("formats", "List the formats of files that are read and written",
+                               "Example:\n  ombre formats\n", list_or_print<list_formats, formats_reference>);
+}
 
 }  // namespace ombre::jobs

@@ -6,6 +6,7 @@
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
 #include "load/find_printer.h"
+#include "voxel/image_kinds.h"
 
 namespace ombre::jobs {
 namespace {
