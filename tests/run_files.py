@@ -175,7 +175,7 @@ def images_of_values_have_channels(job):
     for bits, shades in (("8", {0, 102, 255}), ("16", None), ("1", {0, 255})):  # png reads no images of 16 bits
         result = job.slice(f"dose{bits}", *by, "--bits", bits, design=design)
         done = [json.loads(line) for line in result.stdout.splitlines()][-1]
-        about = json.loads((job.folder / f"dose{bits}" / "job.json").read_text(encoding="utf-8"))
+        about = json.loads((job.path / f"dose{bits}" / "job.json").read_text(encoding="utf-8"))
         expect("materials" not in done and "materials" not in about, f"materials of {bits} bits")
         kind = {"8": "dose8", "16": "dose16", "1": "mask"}[bits]
         expect(about["channels"] == [{"name": "dose", "type": kind, "unit": "J", "range": [0, 125]}], str(about))
