@@ -124,7 +124,8 @@ class ModelMaker {
     const auto plan = plan_bricks(own, sampled, session_, diagnostics_);
     if (!plan) return std::nullopt;
     JobProgress progress(session_.events, Counted::voxels);
-    return compile::fea_model(sampled, *plan, study_, a_.sections.request(a_.work.threads), diagnostics_, &progress, &session_.stop);
+    return compile::fea_model(sampled, *plan, study_, a_.sections.request(a_.work.threads), diagnostics_, &progress,
+                              &session_.stop);
   }
 
   std::optional<compile::TetraModel> tetrahedra() {
