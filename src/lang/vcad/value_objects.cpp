@@ -245,9 +245,10 @@ Value output_value(const NodePtr& node, size_t output, const ValueMaker& maker, 
     const design::NodeType& solid_of = *maker.registry.find("solid_of");
     Diagnostics diagnostics;
     const Data given = design::write_output({node.get(), output}, node);
-    return solid_value(design::make_node(solid_of, {{&solid_of.parameters[0], given}}, {},
-                                         {maker.materials, diagnostics, nullptr, node->where(), solid_of.name, ""}),
-                       maker, meter);
+    const NodePtr made = design::make_node(solid_of, {{&solid_of.parameters[0], given}}, {},
+                                           {maker.materials, diagnostics, nullptr, node->where(), solid_of.name, ""});
+    if (!made) throw LimitReached{"values depend on one another too deeply", "compute them in fewer steps"};
+    return solid_value(made, maker, meter);
   }
   if (type.has_parts()) {
     ListBuilder list(meter);
