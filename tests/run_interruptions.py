@@ -8,10 +8,11 @@ import os
 import random
 import signal
 import subprocess
+import zipfile
 
 import processes
 import program
-from slice_jobs import LONG, SMALL, Job, expect, expect_same, files, layers, ombre_layer
+from slice_jobs import BALL, LONG, SMALL, Job, expect, expect_same, files, layers, ombre_layer
 
 NOBODY = 65534
 
@@ -133,6 +134,7 @@ def supports_are_the_same_in_pieces(job):
     coarse = ["--voxel", "0.5"]
     job.slice("whole", *coarse, "--threads", "1")
     job.slice("pieces", *coarse, "--layers", "41:90")
+    expect(len(list((job.path / "pieces/stages").glob("*.stage"))) == 1, "the supports are not kept for the next run")
     job.slice("pieces", *coarse, "--layers", ":17", "--resume", "--memory", "2M")
     job.slice("pieces", *coarse, "--resume")
     expect_same(job.path / "whole", job.path / "pieces")
@@ -234,11 +236,64 @@ def full_disk(job):
     return ""
 
 
+# ---- archives, and frames in folders
+
+
+def unpacked(path):
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def archives_hold_what_the_folder_holds(job):
+    job.slice("whole", *SMALL)
+    job.slice("part.zip", *SMALL, "--layers", ":30")
+    expect(not (job.path / "part.zip").exists(), "an archive of some layers was written")
+    job.slice("part.zip", *SMALL, "--resume")
+    expect(unpacked(job.path / "part.zip") == files(job.path / "whole"), "the archive has other files or bytes")
+    expect(not (job.path / "part.zip.pieces").exists(), "the folder of the layers stayed")
+    refused = job.slice("part.zip", *SMALL, status=2).stderr
+    expect("part.zip exists already; replace it with --force" in refused, refused)
+    job.slice("part.zip", *SMALL, "--force", "--voxel", "0.2")
+    expect(len(unpacked(job.path / "part.zip")) == 2 + 50, "the archive was not replaced")
+
+
+TURN = ["--frames", "12", "--size", "60x40", "--aa", "1"]
+
+
+def render(job, out, *arguments, **options):
+    return job.run("render", job.design, "-o", job.path / out, *TURN, *arguments, **options)
+
+
+def frames_resume(job):
+    whole = [json.loads(line) for line in render(job, "whole", "--json").stdout.splitlines()][-1]
+    expect((whole["frames_written"], whole["frames_kept"]) == (12, 0), f"{whole}")
+    folder = job.path / "stopped"
+    process = subprocess.Popen(job.command("render", job.design, "-o", folder, *TURN), cwd=job.path, env=program.environment(),
+                               stderr=subprocess.DEVNULL)
+    processes.wait_for_file(process, folder / "frame_01.png")
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    refused = render(job, "stopped", status=2).stderr
+    expect("already holds a set of frames; continue it with --resume" in refused, refused)
+    refused = render(job, "stopped", "--resume", "--zoom", "2", status=2).stderr
+    expect("holds other frames, since --zoom differs" in refused, refused)
+    done = [json.loads(line) for line in render(job, "stopped", "--resume", "--threads", "1", "--json").stdout.splitlines()][-1]
+    expect(done["frames_kept"] >= 1 and done["frames_kept"] + done["frames_written"] == 12, f"{done}")
+    expect_same(job.path / "whole", folder)
+    render(job, "turn.zip")
+    expect(unpacked(job.path / "turn.zip") == files(folder), "the archive has other files or bytes")
+    job.write("ball.vcad", BALL.replace("0.5", "0.6"))
+    refused = render(job, "stopped", "--resume", status=2).stderr
+    expect("holds other frames, since" in refused and "ball.vcad differs" in refused, refused)
+    refused = render(job, "turn.png", "--resume", status=2).stderr
+    expect("goes on with frames in a folder or an archive; write for example -o turn/" in refused, refused)
+
+
 CHECKS = [supports_take_the_threads_given_and_stop_at_once, supports_are_the_same_in_pieces, supports_are_reported,
           killed_jobs_resume, killed_twice_resumes, interrupted_jobs_resume, large_layers_stop_and_resume,
           resume_refuses_another_job, damaged_layers_are_made_again, foreign_files_are_left_alone,
           finished_jobs_are_not_overwritten, force_removes_the_old_layers, output_that_is_a_file,
-          folder_that_may_not_be_written, full_disk]
+          folder_that_may_not_be_written, full_disk, archives_hold_what_the_folder_holds, frames_resume]
 
 if __name__ == "__main__":
     raise SystemExit(program.main(Job, program.named(CHECKS)))

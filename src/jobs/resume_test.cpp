@@ -1,3 +1,4 @@
+#include "jobs/slice/stored_stages.h"
 #include "jobs/test_slices.h"
 
 #include <sys/mount.h>
@@ -62,6 +63,31 @@ TEST_F(Slice, StoppedRunsResumeToTheSameBytes) {
     EXPECT_EQ(report.layers_kept, 8 * after);
     expect_same(reference, contents(folder()));
   }
+}
+
+TEST_F(Slice, StagesStayUntilTheJobIsComplete) {
+  const Hash key = hash_bytes("what the values are made from");
+  const auto stages = [&](FolderUse use) { return StoredStages(folder(), use, {}); };
+  stages(FolderUse::fresh).keep(key, "values");
+  EXPECT_EQ(stages(FolderUse::resume).find(key), "values");
+  EXPECT_EQ(stages(FolderUse::resume).find(hash_bytes("something else")), std::nullopt);
+  write(fs::path(folder()) / "stages/0.stage", "damage");
+  EXPECT_EQ(stages(FolderUse::resume).find(key), std::nullopt);
+  stages(FolderUse::resume).keep(key, "again");
+  EXPECT_EQ(stages(FolderUse::replace).find(key), std::nullopt);
+  stages(FolderUse::resume).remove();
+  EXPECT_FALSE(fs::exists(fs::path(folder()) / "stages"));
+}
+
+TEST_F(Slice, StagesLeaveFilesOfOthersAlone) {
+  const fs::path theirs = fs::path(folder()) / "stages/notes.txt";
+  fs::create_directories(theirs.parent_path());
+  write(theirs, "mine");
+  StoredStages(folder(), FolderUse::replace, {}).remove();
+  StoredStages stages(folder(), FolderUse::replace, {});
+  stages.keep(hash_bytes("a"), "values");
+  stages.remove();
+  EXPECT_EQ(contents(theirs.parent_path()), (Contents{{"notes.txt", "mine"}}));
 }
 
 TEST_F(Slice, StopsWhileASlabIsMade) {

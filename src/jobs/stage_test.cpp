@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <map>
 
+#include "base/system/byte_pack.h"
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "jobs/grid/grid_job.h"
@@ -179,6 +181,8 @@ class Stages : public testing::Test {
     StageLoan loan;
     loan.threads = threads;
     loan.memory_bytes = memory_;
+    loan.keeper = keeper_;
+    loan.progress = progress_;
     stages.prepare(loan);
     const auto rows = source->rows(0, voxel::design_from_index(lattice_));
     EXPECT_TRUE(rows && rows->has_values());
@@ -236,6 +240,28 @@ class Stages : public testing::Test {
   LoadedPtr loaded_;
   voxel::Lattice lattice_;
   size_t memory_ = size_t{1} << 30;
+  StageKeeper* keeper_ = nullptr;
+  Progress* progress_ = nullptr;
+};
+
+class MapKeeper : public StageKeeper {
+ public:
+  std::optional<std::string> find(const Hash& made_from) override {
+    const auto found = kept.find(made_from.hex());
+    return found == kept.end() ? std::nullopt : std::optional(found->second);
+  }
+  void keep(const Hash& made_from, std::string values) override { kept[made_from.hex()] = std::move(values); }
+
+  std::map<std::string, std::string> kept;
+};
+
+// Counts how often stages tell that they are computed.
+class PreparationCounter : public Progress {
+ public:
+  void update(const HowFar&) override {}
+  void preparing(const std::string&, const HowFar&) override { ++count; }
+
+  int count = 0;
 };
 
 TEST_F(Stages, OfAHaloReadWhatIsAround) {
@@ -274,6 +300,30 @@ TEST_F(Stages, OfTheWholeSeeAllCells) {
   const double cell = 0.1 * 0.125 * 0.2, volume = 4.0 / 3 * 3.141592653589793 * 3.7 * 3.7 * 3.7;
   EXPECT_NEAR(*std::ranges::max_element(expected), volume / cell, 0.005 * volume / cell);
   expect_values(std::make_shared<PartSize>(solid()), expected);
+}
+
+TEST_F(Stages, ComputedAsAWholeAreTakenFromTheirKeeper) {
+  for (const design::StagePtr& stage :
+       std::vector<design::StagePtr>{std::make_shared<PartSize>(solid()), std::make_shared<SumFromTop>(solid())}) {
+    MapKeeper keeper;
+    PreparationCounter counter;
+    keeper_ = &keeper;
+    progress_ = &counter;
+    const auto again = [&] {
+      counter.count = 0;
+      return values(*stages_of(design::Design()), stage, {160, 80, 42}, 2);
+    };
+    const std::vector<float> computed = again();
+    EXPECT_GT(counter.count, 0);
+    ASSERT_EQ(keeper.kept.size(), 1U);
+    EXPECT_EQ(again(), computed);
+    EXPECT_EQ(counter.count, 0);
+    BytePacker empty;  // lists for a smaller lattice
+    for (int list = 0; list < 2; ++list) empty.add_list(std::vector<float>{});
+    keeper.kept.begin()->second = empty.take();
+    EXPECT_EQ(again(), computed);
+    EXPECT_GT(counter.count, 0);
+  }
 }
 
 TEST_F(Stages, StandOnTheJobsLatticeAlsoWhereThePartIsMovedByWholeVoxels) {

@@ -95,6 +95,20 @@ class Spec {
   std::vector<Option> options_;
 };
 
+// Returns the rows, whose options also append what they are set to, "--size=800x600", to a member of the job.
+template <class Job>
+Spec<Job> recorded(const Spec<Job>& spec, std::vector<std::string> Job::*member) {
+  Row<Job> row{spec.options()};
+  for (Option& option : row.options)
+    option.set = [=, set = option.set, name = option.name()](void* job, const std::vector<std::string>& texts) {
+      set(job, texts);
+      std::vector<std::string>& settings = static_cast<Job*>(job)->*member;
+      if (texts.empty()) settings.push_back(name);
+      for (const std::string& text : texts) settings.push_back(name + '=' + text);
+    };
+  return {row};
+}
+
 template <class T>
 void assign(T& member, T value) {
   member = std::move(value);

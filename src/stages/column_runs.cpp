@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/system/byte_pack.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
 
@@ -31,6 +32,25 @@ void ColumnTable::add(size_t channel, int64_t i, int64_t j, int64_t bottom, int6
 
 void ColumnTable::finish() {
   for (Channel& channel : channels_) put_in_order(channel);
+}
+
+std::string ColumnTable::pack() const {
+  BytePacker packer;
+  for (const Channel& channel : channels_) {
+    packer.add_list(channel.first);
+    packer.add_list(channel.runs);
+  }
+  return packer.take();
+}
+
+bool ColumnTable::unpack(std::string_view bytes) {
+  ByteUnpacker unpacker(bytes);
+  for (Channel& channel : channels_) {
+    channel.first = unpacker.get_list<uint32_t>();
+    channel.runs = unpacker.get_list<Run>();
+    if (channel.first.size() != columns() + 1 || channel.runs.size() != channel.first.back()) return false;
+  }
+  return true;
 }
 
 double ColumnTable::bytes() const {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "design/stage.h"
@@ -19,6 +20,11 @@ class ColumnTable final : public design::ColumnRuns {
   void add(size_t channel, int64_t i, int64_t j, int64_t bottom, int64_t top, float value) override;
   // Puts the runs in order; after that values can be read.
   void finish();
+
+  // Returns the runs, which must be in order, as bytes.
+  std::string pack() const;
+  // Sets the runs by the bytes of a table with the same cells and channels. Returns false if they are of another one.
+  bool unpack(std::string_view bytes);
 
   double bytes() const;
   float at(size_t channel, int64_t i, int64_t j, int64_t k) const;

@@ -164,7 +164,8 @@ program::SourceField JobStages::make(const design::StagePtr& stage, const StageP
   if (!halo && !is_sensible_sweep(frame.box, frame.lattice.voxel_mm())) fail(*stage, frame.lattice.voxel_mm());
   StageInput input = make_input_(design_for(place, frame.lattice, not_kept(*this)), stage->reads(), frame.lattice);
   frame.channels = stage->channels(input.channels());
-  if (shared_->memory) frame.made_from = hash_of_values(frame, place.materials);
+  frame.materials = place.materials;
+  if (shared_->memory) frame.made_from = hash_of_values(frame);
   if (halo) {
     const auto reach = halo->reach(frame.lattice.voxel_mm());
     grow(frame, reach);

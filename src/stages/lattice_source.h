@@ -20,6 +20,7 @@ struct LatticeFrame {
   Box box;                 // points beyond it are not flagged
   IndexBox cells;          // all values beyond them are 0
   std::vector<design::StageChannel> channels;
+  design::MaterialTable materials;     // of the solids that the stage reads
   std::optional<Hash> made_from = {};  // hash of everything that the values depend on, if a memory keeps them
 };
 

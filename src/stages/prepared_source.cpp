@@ -6,6 +6,7 @@
 #include "base/system/stopwatch.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
+#include "stages/stage_hash.h"
 
 namespace ombre::compile {
 
@@ -23,10 +24,22 @@ bool PreparedSource::is_remembered() const {
   return known != nullptr;
 }
 
+bool PreparedSource::is_kept(StageKeeper& keeper) const {
+  const auto values = keeper.find(hash_of_values(frame()));
+  return values && unpack(*values);
+}
+
+// Keeps the values where they are wanted later. The keeper gets them only if memory holds them twice.
+void PreparedSource::keep(const StageLoan& loan) const {
+  if (memory()) memory()->keep(*frame().made_from, made(), static_cast<size_t>(kept_bytes()));
+  if (loan.keeper && 2 * kept_bytes() <= static_cast<double>(loan.memory_bytes))
+    loan.keeper->keep(hash_of_values(frame()), pack());
+}
+
 void PreparedSource::prepare(const StageLoan& loan) const {
   const std::scoped_lock lock(mutex_);
   if (is_prepared_) return;
-  if (is_remembered()) {
+  if (is_remembered() || (loan.keeper && is_kept(*loan.keeper))) {
     is_prepared_ = true;
     return;
   }
@@ -41,7 +54,7 @@ void PreparedSource::prepare(const StageLoan& loan) const {
   work.tell(0);
   compute(loan, work);
   work.tell(1);
-  if (memory()) memory()->keep(*frame().made_from, made(), static_cast<size_t>(kept_bytes()));
+  keep(loan);
   is_prepared_ = true;
 }
 

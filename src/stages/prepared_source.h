@@ -4,6 +4,8 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <string_view>
 
 #include "stages/lattice_source.h"
 #include "stages/stage_input.h"
@@ -41,10 +43,16 @@ class PreparedSource : public LatticeSource {
   // made() returns the values so that they can be kept; take() sets values that another source of the same class made.
   virtual std::shared_ptr<const void> made() const = 0;
   virtual void take(std::shared_ptr<const void> made) const = 0;
+  // pack() returns the values as bytes; unpack() sets values that another source of the same class packed. It returns
+  // false if they are not as many as this source has.
+  virtual std::string pack() const = 0;
+  virtual bool unpack(std::string_view values) const = 0;
 
  private:
   design::SubDesignMemory* memory() const { return frame().made_from ? shared_->memory.load() : nullptr; }
   bool is_remembered() const;
+  bool is_kept(StageKeeper& keeper) const;
+  void keep(const StageLoan& loan) const;
 
   StageInput input_;
   std::shared_ptr<SharedStageWork> shared_;

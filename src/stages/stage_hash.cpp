@@ -23,13 +23,13 @@ std::string text_of(const design::StageRead& read, const design::MaterialTable& 
 
 }  // namespace
 
-Hash hash_of_values(const LatticeFrame& frame, const design::MaterialTable& materials) {
+Hash hash_of_values(const LatticeFrame& frame) {
   std::string text = "values of " + frame.stage->name() + ' ' + frame.stage->content().hex() + ' ';
   text += text_of(frame.lattice.origin) + text_of(frame.lattice.voxel_mm()) + text_of(frame.box.lo);
   text += text_of(frame.box.hi);
   for (const auto& end : {frame.cells.lo, frame.cells.hi})
     for (const int64_t cell : end) text += std::to_string(cell) + ' ';
-  for (const design::StageRead& read : frame.stage->reads()) text += '\n' + text_of(read, materials);
+  for (const design::StageRead& read : frame.stage->reads()) text += '\n' + text_of(read, frame.materials);
   return hash_bytes(text);
 }
 

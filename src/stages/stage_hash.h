@@ -7,6 +7,6 @@ namespace ombre::compile {
 
 // Hashes the stage, its cells and all that it reads. If it reads only the shape of a solid, materials and attributes
 // given to the solid as a whole do not count.
-Hash hash_of_values(const LatticeFrame& frame, const design::MaterialTable& materials);
+Hash hash_of_values(const LatticeFrame& frame);
 
 }  // namespace ombre::compile

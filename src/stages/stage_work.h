@@ -7,6 +7,7 @@
 #include "base/system/progress.h"
 #include "design/sub_design_memory.h"
 #include "stages/block_cache.h"
+#include "stages/stage_keeper.h"
 
 namespace ombre::compile {
 
@@ -18,7 +19,8 @@ struct StageLoan {
   const StopFlag* stop = nullptr;  // must live as long as the job works
   // Memory that keeps values for other jobs; null: values are not kept. It must live as long as the job's stages.
   design::SubDesignMemory* memory = nullptr;
-  bool keeps_blocks = false;  // keeps values of halo stages, too; there are many if all layers are made
+  bool keeps_blocks = false;      // keeps values of halo stages, too; there are many if all layers are made
+  StageKeeper* keeper = nullptr;  // keeps values of stages that are computed as a whole for later runs; may be null
 };
 
 // State that halo stages share. They may be computed at any time, by any of the job's threads.

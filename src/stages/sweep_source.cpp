@@ -94,6 +94,13 @@ void SweepSource::compute(const StageLoan& loan, const design::StageWork& work) 
   table_ = table;
 }
 
+bool SweepSource::unpack(std::string_view values) const {
+  const auto table = std::make_shared<ColumnTable>(frame().cells, frame().channels.size());
+  if (!table->unpack(values)) return false;
+  table_ = table;
+  return true;
+}
+
 void SweepSource::read_made(size_t channel, const CellIndex& first, std::span<float> values) const {
   for (size_t n = 0; n < values.size(); ++n)
     values[n] = table_->at(channel, first[0] + static_cast<int64_t>(n), first[1], first[2]);

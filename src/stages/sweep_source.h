@@ -22,6 +22,8 @@ class SweepSource final : public PreparedSource {
   void take(std::shared_ptr<const void> made) const override {
     table_ = std::static_pointer_cast<const ColumnTable>(std::move(made));
   }
+  std::string pack() const override { return table_->pack(); }
+  bool unpack(std::string_view values) const override;
 
  private:
   // Number of layers read at once, and of threads that read them.

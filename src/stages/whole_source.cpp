@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/system/byte_pack.h"
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "voxel/tile.h"
@@ -63,6 +64,24 @@ void WholeSource::compute(const StageLoan& loan, const design::StageWork& work) 
   rest.tell = [&](double share) { work.tell(0.5 + 0.5 * share); };
   stage_->compute(read, *made, {frame().lattice.origin, frame().lattice.pitch}, rest);
   made_ = made;
+}
+
+std::string WholeSource::pack() const {
+  BytePacker packer;
+  for (size_t n = 0; n < made_->channels(); ++n) packer.add_list(made_->channel(n));
+  return packer.take();
+}
+
+bool WholeSource::unpack(std::string_view values) const {
+  ByteUnpacker unpacker(values);
+  const auto made = std::make_shared<StageValues>(frame().cells, frame().channels.size());
+  for (size_t n = 0; n < made->channels(); ++n) {
+    std::vector<float> channel = unpacker.get_list<float>();
+    if (channel.size() != made->channel(n).size()) return false;
+    made->channel(n) = std::move(channel);
+  }
+  made_ = made;
+  return true;
 }
 
 void WholeSource::read_made(size_t channel, const CellIndex& first, std::span<float> values) const {

@@ -22,6 +22,8 @@ class WholeSource final : public PreparedSource {
   void take(std::shared_ptr<const void> made) const override {
     made_ = std::static_pointer_cast<const design::StageValues>(std::move(made));
   }
+  std::string pack() const override;
+  bool unpack(std::string_view values) const override;
 
  private:
   double cell_count() const;

@@ -14,11 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string free_path(std::string path, FolderUse use) {
-  std::error_code ignored;
-  if (use != FolderUse::replace && fs::exists(path, ignored))
-    throw Error(Code::exists,
-                path + " exists already; replace it with " + spelled::option("--force") + ", or choose another name",
-                {{"file", path}});
+  ArchiveStore::refuse_used_file(path, use);
   return path;
 }
 
@@ -32,7 +28,7 @@ std::vector<std::string> names_of(const StoredJob& job, const Entries& finished)
 void write_archive(const std::string& path, const fs::path& folder, const std::vector<std::string>& names) {
   std::vector<formats::ZipEntry> entries;
   for (const std::string& name : names) {
-    entries.push_back({name, {}});
+    entries.push_back({name, {}, name.ends_with(".png")});
     entries.back().bytes.add_rows(
         1, [file = (folder / name).string()](std::string& bytes, size_t) { bytes += formats::read_file(file); });
   }
@@ -47,18 +43,30 @@ void write_archive(const std::string& path, const fs::path& folder, const std::v
 
 }  // namespace
 
+void ArchiveStore::refuse_used_file(const std::string& path, FolderUse use) {
+  std::error_code ignored;
+  if (!formats::can_write_zip()) formats::write_zip(path, {});  // throws, and says what is missing
+  if (use != FolderUse::replace && fs::exists(path, ignored))
+    throw Error(Code::exists,
+                path + " exists already; replace it with " + spelled::option("--force") + ", or choose another name",
+                {{"file", path}});
+  if (fs::is_directory(path, ignored))
+    throw Error(Code::cannot_write, path + " is a folder; choose another name", {{"file", path}});
+}
+
 ArchiveStore::ArchiveStore(std::string path, const StoredJob& job, FolderUse use, Checking checking)
-    : path_(free_path(std::move(path), use)), job_(job), folder_(folder_path(), job, use, checking) {}
+    : path_(free_path(std::move(path), use)), job_(job), folder_(folder_of(path_), job, use, checking) {}
 
 void ArchiveStore::close() {
   folder_.close();
   if (!job_.is_complete(finished())) return;
   const std::vector<std::string> names = names_of(job_, finished());
-  write_archive(path_, folder_path(), names);
+  const std::string folder = folder_of(path_);
+  write_archive(path_, folder, names);
   // Files of others stay, and the folder with them.
   std::error_code ignored;
-  for (const std::string& name : names) fs::remove(fs::path(folder_path()) / name, ignored);
-  fs::remove(folder_path(), ignored);
+  for (const std::string& name : names) fs::remove(fs::path(folder) / name, ignored);
+  fs::remove(folder, ignored);
 }
 
 }  // namespace ombre::stores

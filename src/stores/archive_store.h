@@ -11,7 +11,12 @@ namespace ombre::stores {
 // resumed.
 class ArchiveStore : public Store {
  public:
-  // Throws as FolderStore does, and if the archive is there and is not to be replaced.
+  // Returns the folder of the pieces.
+  static std::string folder_of(const std::string& path) { return path + ".pieces"; }
+  // Throws Error if the archive exists and is not to be replaced, or this build cannot write archives.
+  static void refuse_used_file(const std::string& path, FolderUse use);
+
+  // Throws as FolderStore does, and as refuse_used_file does.
   ArchiveStore(std::string path, const StoredJob& job, FolderUse use, Checking checking = {});
 
   const Entries& finished() const override { return folder_.finished(); }
@@ -20,8 +25,6 @@ class ArchiveStore : public Store {
   void close() override;
 
  private:
-  std::string folder_path() const { return path_ + ".pieces"; }
-
   std::string path_;
   const StoredJob& job_;
   FolderStore folder_;

@@ -75,6 +75,13 @@ void FolderStore::close() {
   folder_.update_description();
 }
 
+void FolderStore::remove() {
+  folder_.close();
+  remove_old_job();
+  std::error_code ignored;  // files of others stay, and the folder with them
+  std::filesystem::remove(folder_.path(), ignored);
+}
+
 // Removes Ombre's own files, and those that the description names, or the journal if that cannot be read.
 void FolderStore::remove_old_job() {
   const std::string& description_file = job_.words().description_file;

@@ -25,6 +25,8 @@ class FolderStore : public Store {
   void put(Piece piece) override { folder_.put(piece); }
   // Sorts the journal and brings the description up to date.
   void close() override;
+  // Removes the job's files, and the folder if it holds no others. The store is not used again.
+  void remove();
 
  private:
   void remove_old_job();

@@ -118,17 +118,18 @@ Archive create(const std::string& path) {
   throw_failure(&error);
 }
 
-void add(zip_t* archive, const std::string& name, EntrySource& bytes) {
+void add(zip_t* archive, const ZipEntry& added, EntrySource& bytes) {
   zip_source_t* const source = libzip().source_function(archive, &EntrySource::call, &bytes);
   if (!source) throw_failure(libzip().get_error(archive));
   // Names are ASCII. With ZIP_FL_ENC_UTF_8, the bytes would depend on the version of libzip.
-  const zip_int64_t index = libzip().file_add(archive, name.c_str(), source, ZIP_FL_ENC_GUESS);
+  const zip_int64_t index = libzip().file_add(archive, added.name.c_str(), source, ZIP_FL_ENC_GUESS);
   if (index < 0) {
     libzip().source_free(source);
     throw_failure(libzip().get_error(archive));
   }
   const auto entry = static_cast<zip_uint64_t>(index);
-  if (libzip().set_file_compression(archive, entry, ZIP_CM_DEFLATE, compression_level) != 0 ||
+  if (libzip().set_file_compression(archive, entry, added.is_packed ? ZIP_CM_STORE : ZIP_CM_DEFLATE,
+                                    compression_level) != 0 ||
       libzip().file_set_dostime(archive, entry, midnight, first_date, 0) != 0)
     throw_failure(libzip().get_error(archive));
 }
@@ -160,7 +161,7 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
   std::vector<std::unique_ptr<EntrySource>> sources;
   for (const ZipEntry& entry : entries) sources.push_back(std::make_unique<EntrySource>(entry.bytes));
   Archive archive = create(path);
-  for (size_t i = 0; i < entries.size(); ++i) add(archive.get(), entries[i].name, *sources[i]);
+  for (size_t i = 0; i < entries.size(); ++i) add(archive.get(), entries[i], *sources[i]);
   if (libzip().close(archive.get()) != 0) throw_failure(libzip().get_error(archive.get()));
   static_cast<void>(archive.release());  // closing has freed it
 }

@@ -23,9 +23,10 @@ inline constexpr Module zip_module{"ombre_libzip", "libzip",    "zip archives",
 struct ZipEntry {
   std::string name;
   LazyBytes bytes;
+  bool is_packed = false;  // the bytes are compressed already, as those of a PNG are, and are stored as they are
 };
 
-// Writes a compressed archive with all entries dated 1980-01-01. It is written under another name beside `path` and
+// Writes an archive with all entries dated 1980-01-01. It is written under another name beside `path` and
 // renamed. Throws std::system_error for I/O errors, std::runtime_error for others, and Error in builds without libzip.
 void write_zip(const std::string& path, const std::vector<ZipEntry>& entries);
 // Returns false in builds without libzip.

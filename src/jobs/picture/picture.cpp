@@ -91,6 +91,7 @@ class Studio {
   bool take_all(const std::function<void(int, const Picture&)>& take) {
     if (!prepare()) return false;
     for (int frame = 0; frame < request_.frames; ++frame) {
+      if (!is_wanted(frame)) continue;
       const auto shot = request_.slice ? section() : turned_solid(frame);
       if (!shot) return false;
       stages_of(loaded_.design)->prepare(loan_);
@@ -328,7 +329,12 @@ class Studio {
   // Returns the number of rows of pixels in a band, so that large pictures fit into memory.
   int64_t rows_at_once(int64_t samples) const { return std::max<int64_t>(1, most_rays / (width_ * samples * samples)); }
 
-  uint64_t rows_in_all() const { return static_cast<uint64_t>(request_.frames) * static_cast<uint64_t>(height_); }
+  bool is_wanted(int frame) const { return !request_.wants || request_.wants(frame); }
+  uint64_t rows_in_all() const {
+    uint64_t frames = 0;
+    for (int frame = 0; frame < request_.frames; ++frame) frames += is_wanted(frame) ? 1 : 0;
+    return frames * static_cast<uint64_t>(height_);
+  }
 
   const Loaded& loaded_;
   const PictureRequest& request_;

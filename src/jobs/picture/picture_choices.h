@@ -49,15 +49,19 @@ struct PictureChoices {
   bool axes = false, scale_bar = false, legend = false, annotate = false;
   std::optional<Divided> outlines, names;
   std::string font;
-  bool force = false;
+  bool force = false, resume = false;
+  std::vector<std::string> settings;  // all options that were set: "--size=800x600"
 
   static const options::Spec<PictureChoices>& options() {
     using namespace options;
     using P = PictureChoices;
-    static const options::Spec<P> spec{
+    static const options::Spec<P> rows{
         group(&P::design),
         option("-o,--output", &P::output, kind::file,
-               "The picture to write, - for stdout (default: the design's name with .png)", "FILE"),
+               "The picture to write, - for stdout (default: the design's name with .png); with --frames also a "
+               "folder, or a\n"
+               ".zip archive",
+               "FILE"),
         option("--size", &P::size, size_kind, "Size of the picture in pixels (default 800x600)", "WxH"),
         choice("--view", &P::view, render::view_names(),
                "Direction of view: iso (default), front, back, left, right, top or bottom", "NAME"),
@@ -108,7 +112,11 @@ struct PictureChoices {
                "parts|materials"),
         option("--font", &P::font, kind::file,
                "Font of the labels (default: DejaVu Sans, or another font of the system)", "FILE"),
-        flag("--force", &P::force, "Replace existing pictures")};
+        flag("--force", &P::force, "Replace existing pictures"),
+        flag("--resume", &P::resume, "Go on with the frames in the folder of -o")
+            .needs("--frames")
+            .excludes({"--force"})};
+    static const options::Spec<P> spec = recorded(rows, &P::settings);
     return spec;
   }
   PictureRequest request() const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,6 +65,7 @@ struct PictureRequest {
   int threads = 0;
   size_t memory_bytes = size_t{4} << 30;  // for rays, pixels and stages
   // Memory that keeps results of sub-designs for other pictures; null: they are not kept. It must outlive the request.
+  std::function<bool(int frame)> wants = nullptr;  // takes no picture of frames for which it returns false
   design::SubDesignMemory* memory = nullptr;
 };
 

@@ -1,6 +1,9 @@
 // `ombre render` draws pictures of a design.
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "base/text/file_ending.h"
 #include "base/text/text.h"
@@ -14,11 +17,14 @@
 #include "jobs/common/session.h"
 #include "jobs/info/result_files.h"
 #include "jobs/picture/picture_choices.h"
+#include "jobs/picture/stored_frames.h"
 #include "load/load.h"
+#include "stores/open_store.h"
 
 namespace ombre::jobs {
 namespace {
 
+namespace fs = std::filesystem;
 using compile::PictureChoices;
 
 constexpr const char* render_footer =
@@ -33,12 +39,32 @@ constexpr const char* render_footer =
     "  ombre render part.vtu --by von_mises --deform 5 --legend  results of ombre fea, displacements five times as "
     "large\n"
     "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n"
+    "  ombre render part.vcad --frames 360 -o turn/ --resume     frame_000.png ..., to go on after an interruption\n"
     "  ombre render part.vcad --frames 36 -o - | ffmpeg -f image2pipe -i - turn.mp4\n";
+
+stores::FolderUse folder_use(const PictureChoices& a) {
+  if (a.force) return stores::FolderUse::replace;
+  return a.resume ? stores::FolderUse::resume : stores::FolderUse::fresh;
+}
+
+// True if the frames go into a folder or an archive, from which a stopped job is resumed.
+bool is_stored(const PictureChoices& a) {
+  const std::string ending = ending_of(a.output);
+  return a.frames > 1 && a.output != "-" && !a.output.empty() && (ending.empty() || ending == ".zip");
+}
+
+void check_output(const PictureChoices& a, const Session& session) {
+  if (a.output == "-" && session.events.prints_among_events())
+    throw WrongArgument("-o - writes the picture to stdout, where " + spelled::option("--json") +
+                        " writes events; give -o a file name");
+  if (a.resume && !is_stored(a))
+    throw WrongArgument(spelled::option("--resume") +
+                        " goes on with frames in a folder or an archive; write for example -o turn/ or -o turn.zip");
+}
 
 // Returns the files: turn.png becomes turn_00.png and so on if there are several frames. Returns none for stdout, where
 // pictures follow each other.
 std::vector<std::string> output_files(const PictureChoices& a) {
-  namespace fs = std::filesystem;
   if (a.output == "-") return {};
   const fs::path path(a.output.empty() ? fs::path(a.design.design).stem().string() + ".png" : a.output);
   if (const std::string ending = ending_of(path); !ending.empty() && ending != ".png")
@@ -46,12 +72,10 @@ std::vector<std::string> output_files(const PictureChoices& a) {
                         fs::path(path).replace_extension(".png").string());
   if (a.frames == 1) return {path.string()};
   std::vector<std::string> files;
-  const size_t digits = std::to_string(a.frames - 1).size();
-  for (int frame = 0; frame < a.frames; ++frame) {
-    std::string number = std::to_string(frame);
-    number.insert(0, digits - number.size(), '0');
-    files.push_back((path.parent_path() / (path.stem().string() + "_" + number + path.extension().string())).string());
-  }
+  for (int frame = 0; frame < a.frames; ++frame)
+    files.push_back((path.parent_path() /
+                     (path.stem().string() + "_" + compile::frame_number(frame, a.frames) + path.extension().string()))
+                        .string());
   return files;
 }
 
@@ -62,7 +86,7 @@ compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diag
     options.stop = &session.stop;
     options.threads = a.work.threads;
     options.cache = &session.cache;
-    const std::filesystem::path path = std::filesystem::path(a.design.design).replace_extension(".vcad");
+    const fs::path path = fs::path(a.design.design).replace_extension(".vcad");
     return compile::load_text(results_as_script(a.design.design, a.by, a.deform), path.string(), options, diagnostics);
   }
   if (a.deform != 0)
@@ -71,41 +95,93 @@ compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diag
   return load_design(a.design, session, diagnostics, a.work.threads);
 }
 
-int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request,
-                  const std::vector<std::string>& files, Session& session) {
+std::string bytes_of(const compile::PictureRequest& request, const compile::Picture& picture) {
+  return formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
+}
+
+using Take = std::function<void(int frame, const compile::Picture& picture)>;
+
+int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request, Session& session,
+                  JobProgress& progress, const Take& take) {
   Diagnostics diagnostics;
-  JobProgress progress(session.events, Counted::steps);
-  const auto take = [&](int frame, const compile::Picture& picture) {
-    const std::string bytes =
-        formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
-    if (files.empty()) return session.events.print(bytes);
-    const std::string& file = files[static_cast<size_t>(frame)];
-    exporting::write_file(file, bytes);
-    progress.finish();
-    session.events.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
-    session.events.event("picture", {{"file", file}, {"pixel_mm", picture.pixel_mm}});
-  };
   const bool is_done = compile::take_pictures(loaded, request, session.stop, take, diagnostics, &progress);
   progress.finish();
   session.events.diagnose(diagnostics);
   return is_done && !diagnostics.has_errors() ? done : wrong_input;
 }
 
+int write_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request,
+                   const std::vector<std::string>& files, Session& session) {
+  JobProgress progress(session.events, Counted::steps);
+  return take_pictures(loaded, request, session, progress, [&](int frame, const compile::Picture& picture) {
+    const std::string bytes = bytes_of(request, picture);
+    if (files.empty()) return session.events.print(bytes);
+    const std::string& file = files[static_cast<size_t>(frame)];
+    exporting::write_file(file, bytes);
+    progress.finish();
+    session.events.say("written to " + file + ", " + format_rounded(picture.pixel_mm, 3) + " mm a pixel");
+    session.events.event("picture", {{"file", file}, {"pixel_mm", picture.pixel_mm}});
+  });
+}
+
+// Returns everything that the pictures depend on: the design, and the options but for those of work and place.
+stores::JobKey key_of(const PictureChoices& a, const compile::Loaded& loaded, const Session& session) {
+  static const std::set<std::string> without{"design", "--output", "--threads", "--memory", "--force", "--resume"};
+  stores::JobKey key;
+  key.add(a.design.design, design::hash(loaded.design).hex());
+  std::map<std::string, std::string> settings;
+  for (const std::string& setting : a.settings) {
+    const std::string name = setting.substr(0, setting.find('='));
+    if (!without.contains(name)) settings[name] += setting + '\n';
+  }
+  for (const auto& [name, setting] : settings) key.add(name, setting);
+  key.add("the version of Ombre", session.program);
+  return key;
+}
+
+int store_frames(const PictureChoices& a, const compile::Loaded& loaded, compile::PictureRequest request,
+                 Session& session) {
+  JobProgress progress(session.events, Counted::steps);
+  const compile::StoredFrames job(a.frames, key_of(a, loaded, session));
+  const auto store = stores::open_store(a.output, job, folder_use(a), {a.work.threads, &progress, &session.stop});
+  const size_t kept = store->finished().size();
+  request.wants = [&](int frame) { return !store->finished().contains(frame); };
+  const auto take = [&](int frame, const compile::Picture& picture) {
+    store->put({frame, {{job.file_name(frame), bytes_of(request, picture)}}, {{"pixel_mm", picture.pixel_mm}}});
+  };
+  try {
+    if (const int code = take_pictures(loaded, request, session, progress, take); code != done) return code;
+  } catch (const Cancelled&) {
+    progress.finish();
+    session.events.say("interrupted; " + format_count(store->finished().size()) + " frames are in " +
+                       stores::pieces_folder(a.output) + ", the same command with --resume goes on");
+    throw;
+  }
+  store->close();
+  session.events.say(format_count(store->finished().size() - kept) + " frames written to " + a.output +
+                     (kept > 0 ? ", " + format_count(kept) + " finished before" : ""));
+  session.events.event("frames", {{"folder", a.output},
+                                  {"frames_written", number(store->finished().size() - kept)},
+                                  {"frames_kept", number(kept)}});
+  return done;
+}
+
 int render_design(const PictureChoices& a, Session& session) {
   const compile::PictureRequest request = a.request();
-  if (a.output == "-" && session.events.prints_among_events())
-    throw WrongArgument("-o - writes the picture to stdout, where " + spelled::option("--json") +
-                        " writes events; give -o a file name");
-  const std::vector<std::string> files = output_files(a);
+  check_output(a, session);
+  const std::vector<std::string> files = is_stored(a) ? std::vector<std::string>() : output_files(a);
   JobSteps<compile::LoadedPtr> steps;
   steps.refuse = [&] {
+    if (is_stored(a)) stores::refuse_used(a.output, folder_use(a), compile::frame_words());
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
     const compile::LoadedPtr loaded = load_pictured(a, session, diagnostics);
     return loaded ? std::optional(loaded) : std::nullopt;
   };
-  steps.run = [&](const compile::LoadedPtr& loaded) { return take_pictures(*loaded, request, files, session); };
+  steps.run = [&](const compile::LoadedPtr& loaded) {
+    return is_stored(a) ? store_frames(a, *loaded, request, session) : write_pictures(*loaded, request, files, session);
+  };
   return take_steps(steps, session);
 }
 

@@ -13,7 +13,7 @@
 #include "jobs/slice/slice_choices.h"
 #include "jobs/slice/slice_report.h"
 #include "jobs/slice/stored_slices.h"
-#include "stores/folder_store.h"
+#include "stores/open_store.h"
 
 namespace ombre::jobs {
 namespace {
@@ -25,6 +25,7 @@ constexpr const char* slice_footer =
     "Examples:\n"
     "  ombre slice part.vcad                                0.1 mm voxels, or those of the design's root()\n"
     "  ombre slice part.vcad --printer j750 -o part/        for a printer (see: ombre printers)\n"
+    "  ombre slice part.vcad -o part.zip                    the layers as an archive\n"
     "  ombre slice part.vcad --dpi 600,300 --layer-height 0.027\n"
     "  ombre slice part.vcad -D wall=1.5 -D lid=false       set variables of the design\n"
     "  ombre slice part.vcad --layers 100:110               a few layers, named as in the whole job\n"
@@ -82,7 +83,7 @@ int write_slices(const compile::Plan& plan, const compile::SliceOptions& options
     return report.stopped_by_check ? check_failed : done;
   } catch (const Cancelled&) {
     progress.finish();
-    session.events.say("interrupted; the finished layers are in " + options.folder +
+    session.events.say("interrupted; the finished layers are in " + stores::pieces_folder(options.folder) +
                        ", the same command with --resume goes on");
     session.events.event("interrupted", {{"folder", options.folder}});
     return interrupted;
@@ -120,7 +121,7 @@ int slice(const SliceChoices& a, Session& session) {
   if (!a.emit.empty()) return emit(a, session);
   JobSteps<compile::Plan> steps;
   steps.refuse = [&] {
-    if (!a.dry_run) stores::refuse_used_folder(a.output_folder(), a.folder_use(), compile::slice_words());
+    if (!a.dry_run) stores::refuse_used(a.output_folder(), a.folder_use(), compile::slice_words());
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::Plan> {
     auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);

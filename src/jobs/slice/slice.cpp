@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 
 #include "base/system/assert.h"
 #include "base/system/stopwatch.h"
@@ -12,7 +13,8 @@
 #include "jobs/slice/forecast.h"
 #include "jobs/slice/slice_work.h"
 #include "jobs/slice/stored_slices.h"
-#include "stores/folder_store.h"
+#include "jobs/slice/stored_stages.h"
+#include "stores/open_store.h"
 
 namespace ombre::compile {
 namespace {
@@ -62,17 +64,19 @@ class SliceRun {
         stop_(stop),
         size_(size_work(request, options)),
         slices_(request),
-        store_(options.folder, slices_, options.use, {size_.threads, progress, stop}),
+        store_(stores::open_store(options.folder, slices_, options.use, {size_.threads, progress, stop})),
+        stages_(stores::pieces_folder(options.folder), options.use, {size_.threads, progress, stop}),
         layers_(requested_layers(request, options)),
-        slabs_(missing_slabs(layers_, store_.finished(), size_.slab_layers)),
+        slabs_(missing_slabs(layers_, store_->finished(), size_.slab_layers)),
         forecast_(slabs_, size_.threads),
         progress_(progress, request, layers_) {}
 
   SliceReport run() {
     count_finished();
     if (!failed_check_ && prepare_stages()) write();
-    store_.close();
-    report_.whole_job_finished = slices_.is_complete(store_.finished());
+    report_.whole_job_finished = slices_.is_complete(store_->finished());
+    if (report_.whole_job_finished) stages_.remove();
+    store_->close();
     if (skipped_ && !failed_check_) throw Cancelled();
     finish_report();
     return std::move(report_);
@@ -85,7 +89,7 @@ class SliceRun {
   };
 
   void count_finished() {
-    for (const auto& [layer, entry] : slices_.layers(store_.finished())) {
+    for (const auto& [layer, entry] : slices_.layers(store_->finished())) {
       if (layer < layers_.begin || layer >= layers_.end) continue;
       ++report_.layers_kept;
       note_checks(entry);
@@ -97,7 +101,9 @@ class SliceRun {
   bool prepare_stages() {
     if (!options_.stages || slabs_.empty()) return true;
     try {
-      options_.stages->prepare(stage_loan(options_, watched_, stop_));
+      StageLoan loan = stage_loan(options_, watched_, stop_);
+      loan.keeper = &stages_;
+      options_.stages->prepare(loan);
     } catch (const Cancelled&) {
       skipped_ = true;
     }
@@ -147,7 +153,7 @@ class SliceRun {
       ++(layer.images.empty() ? report_.layers_dropped : report_.layers_written);
       report_.bytes_written += layer.bytes();
       note_checks(layer.entry);
-      store_.put(slices_.piece(layer.entry, std::move(layer.images)));
+      store_->put(slices_.piece(layer.entry, std::move(layer.images)));
     }
     if (is_whole(range, slab))
       forecast_.add_written(slab.cost, watch.seconds());
@@ -166,7 +172,7 @@ class SliceRun {
     report_.stopped_by_check = failed_check_;
     report_.counts = no_counts(request_);
     CheckSums checks(request_);
-    for (const auto& [layer, entry] : slices_.layers(store_.finished())) {
+    for (const auto& [layer, entry] : slices_.layers(store_->finished())) {
       if (layer < layers_.begin || layer >= layers_.end) continue;
       report_.counts.add(entry.counts);
       checks.add(entry.checks);
@@ -182,7 +188,8 @@ class SliceRun {
   const StopFlag* stop_;
   WorkSize size_;
   StoredSlices slices_;
-  stores::FolderStore store_;
+  std::unique_ptr<stores::Store> store_;
+  StoredStages stages_;
   LayerRange layers_;
   const std::vector<LayerRange> slabs_;  // slabs that are missing
   Forecast forecast_;

@@ -26,8 +26,10 @@ struct SliceChoices {
         group(&SliceChoices::design),
         group(&SliceChoices::sampling),
         group(&SliceChoices::images),
-        option("-o,--output", &SliceChoices::folder, kind::file,
-               "Folder for the layers (default: the design's name and _slices)", "DIR"),
+        option(
+            "-o,--output", &SliceChoices::folder, kind::file,
+            "Folder for the layers, or a .zip archive of them (default: a folder with the design's name and _slices)",
+            "DIR"),
         option("--layers", &SliceChoices::layers, kind::text,
                "Write only these layers: a:b as in Python (b excluded), a:, :b or a", "A:B"),
         option("--box", &SliceChoices::box, kind::box,

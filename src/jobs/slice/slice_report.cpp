@@ -11,6 +11,7 @@
 #include "jobs/common/remarks.h"
 #include "jobs/common/session.h"
 #include "jobs/slice/channel_counts.h"
+#include "stores/open_store.h"
 #include "voxel/image_kinds.h"
 
 namespace ombre::jobs {
@@ -103,7 +104,8 @@ void tell_estimate(const Events& events, const compile::SliceRequest& request, c
 
 void tell_report(const Events& events, const compile::SliceRequest& request, const compile::SliceOptions& options,
                  const compile::SliceReport& report) {
-  std::string text = counted(report.layers_written, "layer") + " written to " + options.folder;
+  std::string text = counted(report.layers_written, "layer") + " written to " +
+                     (report.whole_job_finished ? options.folder : stores::pieces_folder(options.folder));
   if (report.layers_kept > 0) text += ", " + counted(report.layers_kept, "layer") + " finished before";
   if (report.layers_dropped > 0) text += ", " + counted(report.layers_dropped, "empty layer") + " left out";
   const double voxels = static_cast<double>(report.layers_written + report.layers_dropped) *
