@@ -85,7 +85,7 @@ TEST(Conduction, BricksGiveWhatAMatrixGives) {
   EXPECT_GT(free.lost_w, 0.1);
   if (!has_factorisations()) return;
   SolveOptions by_factor{1e-12};
-  by_factor.solver = Solver::direct;
+  by_factor.solver = "direct";
   const Conduction factorised = conduct(model, conditions_from(study, model), by_factor);
   EXPECT_LE(factorised.iterations, 4U);
   for (size_t n = 0; n < free.value.size(); ++n) EXPECT_NEAR(free.value[n], factorised.value[n], 1e-7);

@@ -6,7 +6,7 @@
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "fea/solve/direct.h"
-#include "fea/solve/multigrid.h"
+#include "fea/solve/solvers.h"
 
 namespace ombre::fea {
 namespace {
@@ -53,13 +53,17 @@ Gradients::Gradients(const BrickOperator& stiffness, const SolveOptions& options
       options_(options),
       progress_(progress),
       stop_(stop),
-      may_change_(options.solver == Solver::automatic) {
-  options.solver == Solver::direct ? factorise() : multigrid();
+      may_change_(solver_of(options.solver).may_factorise) {
+  iterate();
+  if (!preconditioner_) factorise();
 }
 
 Gradients::~Gradients() = default;
 
-void Gradients::multigrid() { preconditioner_ = std::make_unique<Multigrid>(stiffness_, stop_); }
+// Makes the preconditioner, if the solver has one.
+void Gradients::iterate() {
+  if (const auto make = solver_of(options_.solver).make) preconditioner_ = make(stiffness_, stop_);
+}
 
 void Gradients::factorise() {
   if (!can_factorise(stiffness_))
@@ -115,7 +119,7 @@ bool Gradients::leave_single() {
   preconditioner_.reset();
   direct_.reset();
   prepared_ = std::make_unique<Factorisation>(stiffness_, progress_, stop_);
-  if (!take_twofold()) multigrid();
+  if (!take_twofold()) iterate();
   return true;
 }
 

@@ -35,7 +35,7 @@ class Gradients {
 
  private:
   void tell(double residual);
-  void multigrid();
+  void iterate();
   void factorise();
   double iterations_left(double residual, double last) const;
   bool change(double iterations);

@@ -2,17 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
+#include <string>
 
 namespace ombre::fea {
-
-// The preconditioner of conjugate gradients on bricks.
-enum class Solver : uint8_t {
-  multigrid,
-  direct,     // a factorisation (direct.h)
-  automatic,  // multigrid at first; a factorisation if that fits and is expected to be quicker
-};
 
 // A factorisation that was made or is about to be made.
 struct DirectUse {
@@ -23,9 +16,9 @@ struct DirectUse {
 struct SolveOptions {
   double tolerance = 1e-8;  // greatest residual, in the norm of the right side
   size_t most_iterations = 20000;
-  int threads = 0;  // 0: all cores
-  Solver solver = Solver::multigrid;
-  double memory_bytes = 8e9;  // memory that a factorisation may take
+  int threads = 0;                   // 0: all cores
+  std::string solver = "multigrid";  // a name of solvers.h
+  double memory_bytes = 8e9;         // memory that a factorisation may take
   std::function<void(const DirectUse&)> announce = {};
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text/file_ending.h"
+#include "fea/solve/solvers.h"
 
 namespace ombre::compile {
 namespace {
@@ -24,7 +25,7 @@ void check_rounds(const FeaChoices& a) {
 }
 
 void check_outputs(const FeaChoices& a) {
-  if (a.own_solver() != fea::Solver::automatic && !a.solves())
+  if (a.chose_solver() && !a.solves())
     throw WrongValue(option("--solver", a.solver) + " does nothing without " + option("--solve"));
   if (a.outputs.empty() && !a.solves())
     throw WrongValue("there is nothing to do: write " + option("-o", "part.inp") + " or " + option("-o", "part.vtu") +
@@ -51,7 +52,7 @@ void check_tetrahedra(const FeaChoices& a) {
   if (a.sections.fill != FeaRequest::Fill::exact)
     throw WrongValue(option("--fill") + " is of bricks; tetrahedra reach up to the surface");
   if (a.cell) throw WrongValue(option("--cell") + " is of bricks; write " + option("--size", "1.5"));
-  if (a.own_solver() && a.own_solver() != fea::Solver::automatic)
+  if (a.has_own_solver() && a.chose_solver())
     throw WrongValue(option("--solver", a.solver) + " is of bricks; leave it out");
   if (a.brick != fea::BrickType::c3d8)
     throw WrongValue(option("--element") + " is of bricks; tetrahedra are C3D4 or C3D10");
@@ -66,16 +67,26 @@ void check_tetrahedra(const FeaChoices& a) {
 }  // namespace
 
 const std::vector<SolverChoice>& solver_choices() {
-  static const std::vector<SolverChoice> table{{"auto", fea::Solver::automatic},
-                                               {"multigrid", fea::Solver::multigrid},
-                                               {"direct", fea::Solver::direct},
-                                               {"calculix", std::nullopt}};
+  static const std::vector<SolverChoice> table = [] {
+    std::vector<SolverChoice> rows;
+    for (const fea::Solver& own : fea::all_solvers()) rows.push_back({own.name, own.help});
+    rows.push_back({"calculix", "runs the program ccx, if it is installed", false});
+    return rows;
+  }();
   return table;
 }
 
-std::optional<fea::Solver> FeaChoices::own_solver() const {
-  return std::ranges::find(solver_choices(), solver, &SolverChoice::name)->own;
+std::string solver_help() {
+  std::string help = "Solver, with --solve (default " + solver_choices().front().name + ")";
+  for (const SolverChoice& choice : solver_choices()) help += "\n" + choice.name + ": " + choice.help;
+  return help;
 }
+
+bool FeaChoices::has_own_solver() const {
+  return std::ranges::find(solver_choices(), solver, &SolverChoice::name)->is_own;
+}
+
+bool FeaChoices::chose_solver() const { return solver != solver_choices().front().name; }
 
 SizeRequest FeaChoices::size() const {
   if (size_by.empty()) return {size_mm, size_mm, ""};

@@ -16,10 +16,11 @@ namespace ombre::compile {
 
 // Who solves the equations, by the word of --solver.
 struct SolverChoice {
-  std::string name;
-  std::optional<fea::Solver> own;  // CalculiX, a program, is none
+  std::string name, help;
+  bool is_own = true;  // CalculiX, a program, is not
 };
 const std::vector<SolverChoice>& solver_choices();  // the first is the default
+std::string solver_help();
 
 struct FeaChoices {
   enum class Elements : uint8_t { brick, tet4, tet10 };
@@ -68,11 +69,7 @@ struct FeaChoices {
         options::list("-o,--output", &F::outputs, kind::file,
                       "A file to write: .inp, .vtu, .xdmf, or .csv with --rounds; may be repeated", "FILE"),
         flag("--solve", &F::solve, "Solve for displacements, stresses and reactions"),
-        choice("--solver", &F::solver, names_in(solver_choices()),
-               "Solver: auto (default), multigrid, direct, or calculix (the program ccx, if it is installed); with "
-               "--solve.\nOn bricks auto begins with multigrid, and factorises the equations (direct) if that is "
-               "slow",
-               "NAME"),
+        choice("--solver", &F::solver, names_in(solver_choices()), solver_help(), "NAME"),
         option("--rounds", &F::rounds, kind::whole,
                "Solve again with the results of the round before in the design, at most this many times", "N")
             .between(1, 1000),
@@ -95,7 +92,8 @@ struct FeaChoices {
 
   bool solves() const { return solve || rounds > 0; }
   // CalculiX is none.
-  std::optional<fea::Solver> own_solver() const;
+  bool has_own_solver() const;
+  bool chose_solver() const;  // not the default
   SizeRequest size() const;
   // Returns the options that decide the voxels of bricks, and the seed.
   SamplingOptions sampling() const;

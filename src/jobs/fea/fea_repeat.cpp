@@ -34,7 +34,7 @@ fea::Conditions repeating_conditions(const fea::ModelView& model, const Box& per
 }
 
 void check_repeats(const compile::FeaChoices& a) {
-  if (a.solves() && a.own_solver())
+  if (a.solves() && a.has_own_solver())
     throw WrongArgument(
         "a cell that repeats is solved by --solver calculix, or, for all strains and without other programs, by ombre "
         "homogenise");

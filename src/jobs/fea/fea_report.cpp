@@ -37,10 +37,10 @@ void tell_quality(const Events& events, const compile::TetraModel& made) {
 }
 
 std::string solved_text(const compile::FeaChoices& a, size_t iterations, bool is_direct, double seconds) {
-  const std::string way = !a.own_solver()   ? "by CalculiX in "
-                          : is_direct       ? "by a factorisation and " + counted(iterations, "iteration") + " in "
-                          : iterations == 0 ? "directly in "
-                                            : "in " + counted(iterations, "iteration") + " and ";
+  const std::string way = !a.has_own_solver() ? "by CalculiX in "
+                          : is_direct         ? "by a factorisation and " + counted(iterations, "iteration") + " in "
+                          : iterations == 0   ? "directly in "
+                                              : "in " + counted(iterations, "iteration") + " and ";
   return "solved " + way + format_rounded(seconds, 3) + " s";
 }
 

@@ -238,13 +238,13 @@ compile::FeaResults solve_case(const FeaChoices& a, const Case& here, Session& s
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
   options.threads = a.work.threads;
-  options.solver = a.own_solver().value_or(fea::Solver::automatic);
+  if (a.has_own_solver()) options.solver = a.solver;
   options.memory_bytes = static_cast<double>(a.work.memory_bytes) - here.solve_bytes();
   options.announce = [&](const fea::DirectUse& use) { tell_factorisation(session.events, use); };
   JobProgress progress(session.events, Counted::steps);
   const fea::ModelView model = here.view();
   compile::FeaResults results;
-  if (!a.own_solver())
+  if (!a.has_own_solver())
     results = solve_elsewhere(a, here, session);
   else if (!here.is_mechanics())
     results.conduction = fea::conduct(model, here.conditions, options, &progress, &session.stop);
@@ -260,7 +260,7 @@ compile::FeaResults solve_case(const FeaChoices& a, const Case& here, Session& s
 }
 
 void check_memory(const FeaChoices& a, const Case& here) {
-  if (!a.solves() || !a.own_solver()) return;
+  if (!a.solves() || !a.has_own_solver()) return;
   const Phrase option = here.tetrahedra() ? spelled::option("--size") : spelled::option("--cell");
   refuse_little_memory(here.solve_bytes(), a.work.memory_bytes, "choose larger elements with " + option);
 }

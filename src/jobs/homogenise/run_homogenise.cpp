@@ -341,7 +341,7 @@ int solve(const HomogeniseChoices& a, const HomogenisePlan& plan, Session& sessi
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
   options.threads = a.work.threads;
-  options.solver = fea::Solver::automatic;
+  options.solver = "auto";
   options.memory_bytes = static_cast<double>(a.work.memory_bytes) - plan.solve_bytes();
   DataList files;
   if (plan.is_mechanics())

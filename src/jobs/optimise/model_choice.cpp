@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text/json.h"
+#include "fea/solve/solvers.h"
 #include "formats/containers/file.h"
 #include "jobs/fea/fea_choices.h"
 #include "options/members.h"
@@ -54,19 +55,6 @@ void read_brick_count(ModelChoice& choice, const Data& data, const MemberReader&
   for (size_t axis = 0; axis < 3; ++axis) (*choice.brick_count)[axis] = static_cast<int64_t>(counts[axis]);
 }
 
-// Reads a solver of Ombre's own.
-std::optional<fea::Solver> read_solver(const Data& data, const MemberReader& reader) {
-  std::vector<std::string> words;
-  std::vector<fea::Solver> solvers;
-  for (const SolverChoice& choice : solver_choices()) {
-    if (!choice.own) continue;
-    words.push_back(choice.name);
-    solvers.push_back(*choice.own);
-  }
-  const auto chosen = reader.choice(data, "solver", words);
-  return chosen ? std::optional(solvers[*chosen]) : std::nullopt;
-}
-
 }  // namespace
 
 Record<ModelChoice> model_record(Solves solves) {
@@ -76,7 +64,7 @@ Record<ModelChoice> model_record(Solves solves) {
       field::special("cell", read_cell), field::special("bricks", read_brick_count)};
   std::vector<Field<SectionOptions>> sections = options::fields_of(SectionOptions::options());
   if (solves == Solves::once)
-    members.push_back(field::value("solver", &M::solver, read_solver));
+    members.push_back(field::choice("solver", &M::solver, names_in(fea::all_solvers())));
   else
     std::erase_if(sections, [](const auto& field) { return field.name == "fill"; });
   return Record<M>("a study", members)

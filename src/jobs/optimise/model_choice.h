@@ -20,7 +20,7 @@ struct ModelChoice {
   std::optional<std::array<int64_t, 3>> brick_count;  // or into how many the design's box is cut along each axis
   // Draws change by leaps where a design changes little, and mean properties do not.
   SectionOptions sections{.assign = FeaRequest::Assign::mix, .sections = 1000};
-  fea::Solver solver = fea::Solver::multigrid;
+  std::string solver = "multigrid";
   fea::Study fea;
 };
 
