@@ -1,8 +1,10 @@
 #include "export/volume_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <filesystem>
 
+#include "base/system/assert.h"
 #include "base/text/json.h"
 #include "formats/volumes/npy.h"
 #include "formats/volumes/nrrd.h"
@@ -14,7 +16,12 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 
 DataList list(Vec3 v) { return {v.x, v.y, v.z}; }
 
-formats::NrrdHeader nrrd_header(const Volume& volume, bool is_gzip) {
+std::string npy_header(const Volume& volume, bool) {
+  const auto& [nx, ny, nz] = volume.count;
+  return formats::npy_header(volume.is_float ? "<f4" : "|u1", {nz, ny, nx});
+}
+
+std::string nrrd_header(const Volume& volume, bool is_gzip) {
   formats::NrrdHeader header;
   header.type = volume.is_float ? "float" : "uint8";
   header.count = volume.count;
@@ -23,20 +30,7 @@ formats::NrrdHeader nrrd_header(const Volume& volume, bool is_gzip) {
   header.is_gzip = is_gzip;
   for (const auto& [key, value] : volume.about)
     header.notes.emplace_back(key, value.string() ? *value.string() : print_json_line(value));
-  return header;
-}
-
-std::string header_of(VolumeFormat format, const Volume& volume) {
-  const auto& [nx, ny, nz] = volume.count;
-  switch (format) {
-    case VolumeFormat::npy:
-      return formats::npy_header(volume.is_float ? "<f4" : "|u1", {nz, ny, nx});
-    case VolumeFormat::nrrd:
-    case VolumeFormat::nrrd_gzip:
-      return formats::nrrd_header(nrrd_header(volume, format == VolumeFormat::nrrd_gzip));
-    default:
-      return "";
-  }
+  return formats::nrrd_header(header);
 }
 
 std::string description(const std::string& path, size_t header_bytes, const Volume& volume) {
@@ -63,16 +57,29 @@ DataMembers describe(const Volume& volume) {
   return members;
 }
 
-bool has_description(VolumeFormat format) { return format == VolumeFormat::raw || format == VolumeFormat::npy; }
+const std::vector<VolumeFormat>& volume_formats() {
+  static const std::vector<VolumeFormat> rows{
+      {".npy", "for NumPy, an array of shape (z, y, x); FILE.json describes it", npy_header, true},
+      {".nrrd", "for 3D Slicer, ParaView and ITK; --gzip compresses", nrrd_header, false, true},
+      {".raw", "numbers alone, x fastest; FILE.json describes them", nullptr, true},
+  };
+  return rows;
+}
+
+const VolumeFormat& volume_format(std::string_view ending) {
+  const auto found = std::ranges::find(volume_formats(), ending, &VolumeFormat::ending);
+  ASSERT(found != volume_formats().end());
+  return *found;
+}
 
 std::string description_path(const std::string& path) { return path + ".json"; }
 
-VolumeFile::VolumeFile(const std::string& path, VolumeFormat format, const Volume& volume) : file_(path) {
-  const std::string header = header_of(format, volume);
+VolumeFile::VolumeFile(const std::string& path, const VolumeFormat& format, const Volume& volume, bool is_gzip)
+    : file_(path) {
+  const std::string header = format.header ? format.header(volume, is_gzip) : "";
   put(header);
-  if (format == VolumeFormat::nrrd_gzip)
-    gzip_.emplace(volume.number_bytes(), volume.number_bytes() * static_cast<uint64_t>(volume.count[0]));
-  if (!has_description(format)) return;
+  if (is_gzip) gzip_.emplace(volume.number_bytes(), volume.number_bytes() * static_cast<uint64_t>(volume.count[0]));
+  if (!format.has_description) return;
   description_.emplace(description_path(path));
   description_->append(description(path, header.size(), volume));
   description_->close();

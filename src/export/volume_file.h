@@ -15,13 +15,6 @@
 
 namespace ombre::exporting {
 
-enum class VolumeFormat {
-  raw,        // only the numbers
-  npy,        // a NumPy array of shape (z, y, x)
-  nrrd,       // with spacing and origin
-  nrrd_gzip,  // compressed
-};
-
 // A grid, x fastest, then y, then z; numbers are little-endian.
 struct Volume {
   bool is_float = false;           // 32-bit floats, else bytes
@@ -39,14 +32,24 @@ struct Volume {
 // Returns a machine-readable description of the numbers: sizes, positions and meaning.
 DataMembers describe(const Volume& volume);
 
-// Returns true if the format cannot hold spacing, origin and names, so that a description is written beside the file.
-bool has_description(VolumeFormat format);
+// A format of files that hold a header and, behind it, the numbers of a grid.
+struct VolumeFormat {
+  std::string ending, help;
+  std::string (*header)(const Volume& volume, bool is_gzip) = nullptr;  // null: there is none
+  // True if it cannot hold spacing, origin and names, so that a description is written beside the file.
+  bool has_description = false;
+  bool can_compress = false;
+};
+const std::vector<VolumeFormat>& volume_formats();
+// Returns the format of files with this ending, which must be a row's.
+const VolumeFormat& volume_format(std::string_view ending);
+
 std::string description_path(const std::string& path);
 
 // A file that appears under its name when it is committed, and is removed otherwise. All functions throw Error.
 class VolumeFile {
  public:
-  VolumeFile(const std::string& path, VolumeFormat format, const Volume& volume);
+  VolumeFile(const std::string& path, const VolumeFormat& format, const Volume& volume, bool is_gzip = false);
 
   // Appends the numbers of the next layers.
   void append(std::string_view numbers);

@@ -224,8 +224,9 @@ TEST(Grids, WhatFloatsCannotHoldIsComputedInDoubles) {
 }
 
 TEST(Grids, FilesAreTheSameOnAnyNumberOfThreads) {
-  for (const auto format : {exporting::VolumeFormat::raw, exporting::VolumeFormat::npy, exporting::VolumeFormat::nrrd,
-                            exporting::VolumeFormat::nrrd_gzip}) {
+  for (const DenseFormat& format :
+       {DenseFormat{&exporting::volume_format(".raw")}, DenseFormat{&exporting::volume_format(".npy")},
+        DenseFormat{&exporting::volume_format(".nrrd")}, DenseFormat{&exporting::volume_format(".nrrd"), true}}) {
     const GridJob job = plan_text(graded, {{false, true, true, false}, pitch(0.12), {}, 1}).value();
     const auto paths = volume_paths(temporary("part.grid"), job.grids);
     ASSERT_EQ(paths.size(), 4u);
@@ -248,7 +249,8 @@ TEST(Grids, NothingIsLeftOfWhatWasStopped) {
   const std::string path = temporary("stopped.raw");
   StopFlag stop;
   stop.request();
-  EXPECT_THROW(write_volumes(job, {path}, exporting::VolumeFormat::raw, 2, nullptr, &stop), Cancelled);
+  EXPECT_THROW(write_volumes(job, {path}, DenseFormat{&exporting::volume_format(".raw")}, 2, nullptr, &stop),
+               Cancelled);
   for (const char* ending : {"", ".part", ".json", ".json.part"})
     EXPECT_THROW(formats::read_file(path + ending), Error);
 }

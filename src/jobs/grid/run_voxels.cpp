@@ -29,14 +29,7 @@ namespace {
 
 using compile::GridChoices;
 
-constexpr const char* voxels_footer =
-    "Lengths are millimetres in the design's space.\n\n"
-    "FILE ends in\n"
-    "  .raw    numbers alone, x fastest; FILE.json describes them\n"
-    "  .npy    for NumPy, an array of shape (z, y, x); FILE.json describes it\n"
-    "  .nrrd   for 3D Slicer, ParaView and ITK; --gzip compresses\n"
-    "  .vti    image data of VTK, for ParaView: all grids in one file, vectors and colours as such\n"
-    "  .vdb    sparse grids of OpenVDB, for Blender, Houdini and others; .nvdb the same for NanoVDB\n\n"
+constexpr const char* usual_footer =
     "--what is\n"
     "  materials   the number of the material that ombre slice puts there, 0 is void; a byte a voxel\n"
     "  fractions   a grid for each material: its fraction in each voxel before dithering, 0 outside\n"
@@ -58,30 +51,48 @@ constexpr const char* voxels_footer =
     "  ombre voxels scan.nii -o small.nrrd --voxel 1 --box 0,0,0,50,50,40   a scan, on other voxels and cropped; its\n"
     "              number between voxels, or with --what nearest that of the nearest, for labels\n";
 
-// Formats by the ending of the file: dense numbers, or sparse grids.
 struct VtiFormat {};
-using Format = std::variant<exporting::VolumeFormat, vdb::FileFormat, VtiFormat>;
+using Format = std::variant<compile::DenseFormat, vdb::FileFormat, VtiFormat>;
 
-const std::vector<std::pair<std::string, Format>>& written_formats() {
-  static const std::vector<std::pair<std::string, Format>> formats{{".npy", exporting::VolumeFormat::npy},
-                                                                   {".nrrd", exporting::VolumeFormat::nrrd},
-                                                                   {".vti", VtiFormat{}},
-                                                                   {".raw", exporting::VolumeFormat::raw},
-                                                                   {".vdb", vdb::FileFormat::vdb},
-                                                                   {".nvdb", vdb::FileFormat::nvdb}};
+struct WrittenFormat {
+  std::string ending, help;
+  Format format;
+};
+
+const std::vector<WrittenFormat>& written_formats() {
+  static const std::vector<WrittenFormat> formats = [] {
+    std::vector<WrittenFormat> rows;
+    for (const exporting::VolumeFormat& dense : exporting::volume_formats())
+      rows.push_back({dense.ending, dense.help, compile::DenseFormat{&dense}});
+    rows.push_back(
+        {".vti", "image data of VTK, for ParaView: all grids in one file, vectors and colours as such", VtiFormat{}});
+    rows.push_back({".vdb", "sparse grids of OpenVDB, for Blender, Houdini and others", vdb::FileFormat::vdb});
+    rows.push_back({".nvdb", "the same for NanoVDB", vdb::FileFormat::nvdb});
+    return rows;
+  }();
   return formats;
+}
+
+std::string voxels_footer() {
+  std::string text = "Lengths are millimetres in the design's space.\n\nFILE ends in\n";
+  for (const WrittenFormat& format : written_formats())
+    text += "  " + format.ending + std::string(8 - format.ending.size(), ' ') + format.help + "\n";
+  return text + "\n" + usual_footer;
 }
 
 Format chosen_format(const GridChoices& a) {
   const std::string ending = ending_of(a.output);
-  if (a.gzip && ending != ".nrrd")
-    throw WrongArgument(spelled::option("--gzip") + " is for .nrrd files; leave it out, or write " +
-                        spelled::option("-o", "part.nrrd"));
-  if (a.gzip) return exporting::VolumeFormat::nrrd_gzip;
   std::vector<std::string> endings;
-  for (const auto& [known, format] : written_formats()) {
-    if (known == ending) return format;
-    endings.push_back(known);
+  for (const WrittenFormat& row : written_formats()) {
+    endings.push_back(row.ending);
+    if (row.ending != ending) continue;
+    Format format = row.format;
+    auto* const dense = std::get_if<compile::DenseFormat>(&format);
+    if (a.gzip && !(dense && dense->format->can_compress))
+      throw WrongArgument(spelled::option("--gzip") + " is for .nrrd files; leave it out, or write " +
+                          spelled::option("-o", "part.nrrd"));
+    if (dense) dense->is_gzip = a.gzip;
+    return format;
   }
   throw WrongArgument(spelled::option("-o", a.output) + " does not say a format; let it end in " + words_text(endings));
 }
@@ -130,22 +141,22 @@ void warn_of_metric(const Events& events, const compile::GridJob& job) {
 
 // Returns the files of a grid, without descriptions beside them.
 std::vector<std::string> paths_of(const GridChoices& a, const compile::GridJob& job, const Format& format) {
-  const bool is_dense = std::holds_alternative<exporting::VolumeFormat>(format);
+  const bool is_dense = std::holds_alternative<compile::DenseFormat>(format);
   return is_dense ? compile::volume_paths(a.output, job.grids) : std::vector{a.output};
 }
 
 // Refuses to overwrite files of the grid, and those beside them.
 void refuse_to_overwrite_any(const std::vector<std::string>& paths, const Format& format, bool force) {
-  const auto* dense = std::get_if<exporting::VolumeFormat>(&format);
+  const auto* dense = std::get_if<compile::DenseFormat>(&format);
   for (const std::string& path : paths) {
     refuse_to_overwrite(path, force);
-    if (dense && exporting::has_description(*dense)) refuse_to_overwrite(exporting::description_path(path), force);
+    if (dense && dense->format->has_description) refuse_to_overwrite(exporting::description_path(path), force);
   }
 }
 
 // True if one file is certain; otherwise only the design says how many grids of fractions and attributes there are.
 bool has_one_file(const Format& format, const compile::GridQuery& query) {
-  if (!std::holds_alternative<exporting::VolumeFormat>(format)) return true;
+  if (!std::holds_alternative<compile::DenseFormat>(format)) return true;
   const bool is_one = query.materials != query.distance;
   return is_one && !query.fractions && !query.all_attributes && query.attributes.empty();
 }
@@ -157,8 +168,8 @@ void check(const GridChoices& a, const compile::GridJob& job, const Format& form
   warn_of_metric(session.events, job);
   if (is_sparse(format)) return tell_plan(session.events, job, a.work.threads, paths, "sparse");
   const auto bytes = static_cast<double>(compile::volume_bytes(job));
-  const auto* dense = std::get_if<exporting::VolumeFormat>(&format);
-  const bool is_compressed = dense && *dense == exporting::VolumeFormat::nrrd_gzip;
+  const auto* dense = std::get_if<compile::DenseFormat>(&format);
+  const bool is_compressed = dense && dense->is_gzip;
   if (!a.force && !is_compressed)
     refuse_small_disk(a.output, bytes, "the grid", "choose larger voxels with " + spelled::option("--voxel"));
   tell_plan(session.events, job, a.work.threads, paths, (is_compressed ? "at most " : "") + format_bytes(bytes));
@@ -172,7 +183,7 @@ int write(const GridChoices& a, const compile::GridJob& job, const Format& forma
       return compile::write_sparse(job, a.output, *sparse, threads, &progress, &session.stop);
     if (std::holds_alternative<VtiFormat>(format))
       return compile::write_vti(job, a.output, threads, &progress, &session.stop);
-    return compile::write_volumes(job, paths_of(a, job, format), std::get<exporting::VolumeFormat>(format), threads,
+    return compile::write_volumes(job, paths_of(a, job, format), std::get<compile::DenseFormat>(format), threads,
                                   &progress, &session.stop);
   };
   const compile::GridReport report = written();
@@ -231,8 +242,8 @@ int make_voxels(const GridChoices& a, Session& session, std::vector<compile::Vol
 }
 
 JobKind voxels_kind() {
-  JobKind kind = job_kind<GridChoices>("voxels", "Write a voxel grid for other programs", voxels_footer, voxels);
-  for (const auto& [ending, format] : written_formats()) kind.endings.push_back(ending);
+  JobKind kind = job_kind<GridChoices>("voxels", "Write a voxel grid for other programs", voxels_footer(), voxels);
+  for (const WrittenFormat& format : written_formats()) kind.endings.push_back(format.ending);
   return kind;
 }
 

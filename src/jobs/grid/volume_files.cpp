@@ -153,13 +153,14 @@ uint64_t volume_bytes(const GridJob& job) {
   return bytes;
 }
 
-GridReport write_volumes(const GridJob& job, const std::vector<std::string>& paths, exporting::VolumeFormat format,
+GridReport write_volumes(const GridJob& job, const std::vector<std::string>& paths, const DenseFormat& format,
                          int threads, Progress* progress, const StopFlag* stop) {
   const Stopwatch watch;
   GridReport report{paths, 0, false, 0};
   std::vector<std::unique_ptr<exporting::VolumeFile>> files;
   for (size_t n = 0; n < paths.size(); ++n)
-    files.push_back(std::make_unique<exporting::VolumeFile>(paths[n], format, volume_of(job, job.grids[n])));
+    files.push_back(std::make_unique<exporting::VolumeFile>(paths[n], *format.format, volume_of(job, job.grids[n]),
+                                                            format.is_gzip));
   const auto take = [&](const GridSlab& slab) {
     for (size_t n = 0; n < files.size(); ++n) {
       SlabNumbers numbers(slab.box, job.grids[n].kind != GridKind::material);

@@ -17,9 +17,15 @@ std::vector<std::string> volume_paths(const std::string& path, const std::vector
 // Returns the bytes of all files, without headers and before compression.
 uint64_t volume_bytes(const GridJob& job);
 
+// A format of dense files.
+struct DenseFormat {
+  const exporting::VolumeFormat* format = nullptr;
+  bool is_gzip = false;
+};
+
 // Writes the files, and keeps a few layers in memory. Files get their names when all are complete. Throws Error and
 // Cancelled, and leaves nothing then.
-GridReport write_volumes(const GridJob& job, const std::vector<std::string>& paths, exporting::VolumeFormat format,
+GridReport write_volumes(const GridJob& job, const std::vector<std::string>& paths, const DenseFormat& format,
                          int threads, Progress* progress = nullptr, const StopFlag* stop = nullptr);
 
 // A grid of the job, and its numbers as a file has them.

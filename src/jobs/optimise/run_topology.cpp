@@ -82,7 +82,7 @@ void write_density(const std::string& path, const fea::Bricks& bricks, const std
   }
   std::string bytes(grid.size() * sizeof(float), '\0');
   std::memcpy(bytes.data(), grid.data(), bytes.size());
-  exporting::VolumeFile file(path, exporting::VolumeFormat::nrrd, volume);
+  exporting::VolumeFile file(path, exporting::volume_format(".nrrd"), volume);
   file.append(bytes);
   file.close();
   file.commit();
