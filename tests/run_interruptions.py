@@ -253,7 +253,7 @@ def archives_hold_what_the_folder_holds(job):
     expect(not (job.path / "part.zip.pieces").exists(), "the folder of the layers stayed")
     refused = job.slice("part.zip", *SMALL, status=2).stderr
     expect("part.zip exists already; replace it with --force" in refused, refused)
-    job.slice("part.zip", *SMALL, "--force", "--voxel", "0.2")
+    job.slice("part.zip", "--voxel", "0.2", "--force")
     expect(len(unpacked(job.path / "part.zip")) == 2 + 50, "the archive was not replaced")
 
 
@@ -285,7 +285,7 @@ def frames_resume(job):
     job.write("ball.vcad", BALL.replace("0.5", "0.6"))
     refused = render(job, "stopped", "--resume", status=2).stderr
     expect("holds other frames, since" in refused and "ball.vcad differs" in refused, refused)
-    refused = render(job, "turn.png", "--resume", status=2).stderr
+    refused = render(job, "turn.png", "--resume", status=1).stderr
     expect("goes on with frames in a folder or an archive; write for example -o turn/" in refused, refused)
 
 

@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -36,28 +37,34 @@ constexpr const char* program_footer =
     "Exit codes: 0 done, 1 the design or the arguments are wrong, 2 a file or the machine failed,\n"
     "3 a check failed, 130 interrupted.\n";
 
-// A job on the command line, whose options are set while the arguments are read.
+// A job on the command line, whose options are set while the arguments are read. There are many options, so they are
+// added only to the command that is read, described or completed.
 struct JobCommand {
   CLI::App* app = nullptr;
+  std::function<void()> add_options;
   const jobs::JobKind* kind = nullptr;
   std::shared_ptr<void> job;
   std::shared_ptr<std::string> saved;  // file that the job is saved in; empty: the job is run
 };
 
 JobCommand add_job(CLI::App& program, const jobs::JobKind& kind, OutputOptions& output) {
-  JobCommand command{program.add_subcommand(kind.name, kind.help), &kind, kind.make(), std::make_shared<std::string>()};
-  add_options(*command.app, kind.options, command.job.get());
-  command.app->add_option("--save-job", *command.saved, "Write the job to a file, which ombre job runs, and do nothing")
-      ->type_name("FILE");
-  add_output_options(*command.app, output);
-  if (!kind.footer.empty()) command.app->footer(kind.footer);
+  CLI::App& app = *program.add_subcommand(kind.name, kind.help);
+  JobCommand command{&app, {}, &kind, kind.make(), std::make_shared<std::string>()};
+  command.add_options = [&app, &kind, &output, job = command.job, saved = command.saved] {
+    add_options(app, kind.options(), job.get());
+    app.add_option("--save-job", *saved, "Write the job to a file, which ombre job runs, and do nothing")
+        ->type_name("FILE");
+    add_output_options(app, output);
+    if (!kind.footer.empty()) app.footer(kind.footer);
+  };
+  app.preparse_callback([add = command.add_options](size_t) { add(); });
   return command;
 }
 
 // Returns the options that were given, as texts.
 DataMembers given_options(const CLI::App& app, const jobs::JobKind& kind) {
   DataMembers given;
-  for (const options::Option& option : kind.options) {
+  for (const options::Option& option : kind.options()) {
     const CLI::Option* known = app.get_option(option.name());
     if (known->count() == 0) continue;
     const std::vector<std::string> texts = known->results();
@@ -80,9 +87,9 @@ DataList described_options(const CLI::App& app, const jobs::JobKind* kind) {
                           {"type", option->get_type_name()},
                           {"is_flag", option->get_items_expected_max() == 0},
                           {"is_list", option->get_items_expected_max() > 1}};
-    const auto row = kind ? std::ranges::find(kind->options, option->get_name(), &options::Option::name)
+    const auto row = kind ? std::ranges::find(kind->options(), option->get_name(), &options::Option::name)
                           : std::vector<options::Option>::const_iterator();
-    if (kind && row != kind->options.end()) {  // only options of jobs have a kind of value
+    if (kind && row != kind->options().end()) {  // only options of jobs have a kind of value
       described.emplace_back("kind", row->kind);
       described.emplace_back("choices", DataList(row->choices.begin(), row->choices.end()));
     }
@@ -114,7 +121,10 @@ class CommandLine {
       list.emplace_back(DataMembers{
           {"name", app.get_name()}, {"help", app.get_description()}, {"options", described_options(app, kind)}});
     };
-    for (const JobCommand& job : jobs_) add(*job.app, job.kind);
+    for (const JobCommand& job : jobs_) {
+      job.add_options();
+      add(*job.app, job.kind);
+    }
     for (const Command& command : commands_) add(*command.app, nullptr);
     return list;
   }
@@ -201,6 +211,8 @@ class CommandLine {
   // Prints the words that may come next, each with its description, one on a line. The scripts of `ombre completion`
   // read them.
   int complete(const std::vector<std::string>& words) const {
+    for (const JobCommand& job : jobs_)
+      if (!words.empty() && job.kind->name == words.front()) job.add_options();
     std::string text;
     for (const Completion& c : completions(program_, words))
       text += c.word + (c.description.empty() ? "" : '\t' + c.description) + '\n';

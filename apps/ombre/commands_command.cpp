@@ -21,7 +21,7 @@ std::string cell(const std::string& text) {
 
 std::string table_of(const jobs::JobKind& kind) {
   std::string text = "\n## " + kind.name + "\n\n" + kind.help + ".\n\n| option | takes | |\n| --- | --- | --- |\n";
-  for (const options::Option& option : kind.options) {
+  for (const options::Option& option : kind.options()) {
     const std::string takes = option.choices.empty() ? option.placeholder : join(option.choices, ", ");
     text += "| `" + option.names + "` | " + (takes.empty() ? "" : "`" + cell(takes) + "`") +
             (option.takes == options::Takes::several ? ", several times" : "") + " | " + cell(option.help) +
@@ -48,7 +48,7 @@ void list_commands(const CommandSession& session) {
     std::string name = kind.name;
     if (session.console.wants_data())
       session.console.event("command",
-                            {{"name", name}, {"help", kind.help}, {"options", options::describe(kind.options)}});
+                            {{"name", name}, {"help", kind.help}, {"options", options::describe(kind.options())}});
     else
       session.console.print(name.append(width + 2 - name.size(), ' ') + kind.help + '\n');
   }

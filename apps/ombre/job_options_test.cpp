@@ -17,7 +17,7 @@ using Rows = std::vector<options::Option>;
 const std::map<std::string, Rows>& rows_of_jobs() {
   static const std::map<std::string, Rows> rows = [] {
     std::map<std::string, Rows> made;
-    for (const jobs::JobKind& kind : jobs::all_jobs()) made.emplace(kind.name, kind.options);
+    for (const jobs::JobKind& kind : jobs::all_jobs()) made.emplace(kind.name, kind.options());
     return made;
   }();
   return rows;

@@ -104,7 +104,7 @@ DataMembers Exports::start(const ExportRequest& request) {
 // Changes the request to one that continues earlier work, if its kind supports that.
 void Exports::go_on(ExportRequest& request) {
   if (!request.kind) return;
-  const auto& options = request.kind->options;
+  const auto& options = request.kind->options();
   if (std::ranges::find(options, "--resume", &options::Option::name) == options.end()) return;
   std::erase_if(request.members,
                 [](const auto& member) { return member.first == "force" || member.first == "resume"; });
@@ -243,7 +243,7 @@ void Exports::run_kind(Job& job, const StopFlag& stop) {
   const ExportRequest& request = job.request;
   const jobs::JobKind& kind = *request.kind;
   const std::shared_ptr<void> made = kind.make();
-  options::read_members(kind.options, made.get(), request.members);
+  options::read_members(kind.options(), made.get(), request.members);
   std::string printed;
   const jobs::DataEvents events(
       FrontEnd::studio, [&](const DataMembers& event) { take(job, event); },

@@ -14,7 +14,7 @@ bool is_offered(const jobs::JobKind& kind) {
   const auto is_needed = [](const options::Option& option) {
     return option.is_required && (option.names == "design" || option.names == "file" || option.names == "folder");
   };
-  return kind.name != "slice" && std::ranges::any_of(kind.options, is_needed);
+  return kind.name != "slice" && std::ranges::any_of(kind.options(), is_needed);
 }
 
 const jobs::JobKind& kind_of(const Request& request) {
@@ -26,8 +26,8 @@ const jobs::JobKind& kind_of(const Request& request) {
 
 const options::Option* find(const jobs::JobKind& kind, std::string_view name) {
   const auto found =
-      std::ranges::find_if(kind.options, [&](const auto& o) { return options::member_name(o.name()) == name; });
-  return found == kind.options.end() ? nullptr : &*found;
+      std::ranges::find_if(kind.options(), [&](const auto& o) { return options::member_name(o.name()) == name; });
+  return found == kind.options().end() ? nullptr : &*found;
 }
 
 // Replaces paths by those in the workspace, also in lists.
@@ -49,7 +49,7 @@ DataList describe_kinds() {
   for (const jobs::JobKind& kind : jobs::all_jobs()) {
     if (!is_offered(kind)) continue;
     std::vector<options::Option> shown;
-    for (const options::Option& option : kind.options)
+    for (const options::Option& option : kind.options())
       if (option.names != "design" && option.name() != "--resume") shown.push_back(option);
     list.emplace_back(DataMembers{{"name", kind.name}, {"help", kind.help}, {"options", options::describe(shown)}});
   }
@@ -82,7 +82,7 @@ ExportRequest kind_request(const Request& request, const Workspace& workspace,
   made.folder = has_output ? workspace.path(made.name).string() : made.name;
   const std::shared_ptr<void> tried = kind.make();
   try {
-    options::read_members(kind.options, tried.get(), made.members);
+    options::read_members(kind.options(), tried.get(), made.members);
   } catch (const options::WrongValue& error) {
     throw wrong_value(error);
   }

@@ -57,7 +57,7 @@ std::optional<SavedJob> read_saved_job(const SourcePtr& source, Diagnostics& dia
 
 int run_saved_job(const SavedJob& saved, Session& session) {
   const std::shared_ptr<void> job = saved.kind->make();
-  options::read_members(saved.kind->options, job.get(), saved.options);
+  options::read_members(saved.kind->options(), job.get(), saved.options);
   return saved.kind->run(job.get(), session);
 }
 

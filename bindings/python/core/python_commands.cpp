@@ -143,7 +143,7 @@ py::tuple run_kind(const CachePtr& cache, const std::string& kind, const py::dic
   const auto running = std::make_shared<RunningJob>();
   running->run = [found, members = members_of(options)](jobs::Session& session) {
     const std::shared_ptr<void> job = found->make();
-    options::read_members(found->options, job.get(), members);
+    options::read_members(found->options(), job.get(), members);
     return found->run(job.get(), session);
   };
   run_to_end(running, cache, design, on_event);
@@ -176,7 +176,7 @@ py::list describe_jobs() {
   for (const jobs::JobKind& kind : jobs::all_jobs())
     list.append(to_python(DataMembers{{"name", kind.name},
                                       {"help", kind.help},
-                                      {"options", options::describe(kind.options)},
+                                      {"options", options::describe(kind.options())},
                                       {"endings", DataList(kind.endings.begin(), kind.endings.end())}}));
   return list;
 }

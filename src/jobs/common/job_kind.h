@@ -14,9 +14,9 @@ namespace ombre::jobs {
 
 struct JobKind {
   std::string name;
-  std::string help;    // one sentence
-  std::string footer;  // text of the help below the options: units, examples
-  std::vector<options::Option> options;
+  std::string help;                                  // one sentence
+  std::string footer;                                // text of the help below the options: units, examples
+  const std::vector<options::Option>& (*options)();  // made at the first call
   // Makes a job with default values of its options. The functions of the options take its address.
   std::function<std::shared_ptr<void>()> make;
   // Plans, checks, runs and reports the job at this address. Returns an exit code. Throws WrongArgument, Error and
@@ -33,7 +33,7 @@ JobKind job_kind(std::string name, std::string help, std::string footer, int (*r
   return {std::move(name),
           std::move(help),
           std::move(footer),
-          Choices::options().options(),
+          []() -> const std::vector<options::Option>& { return Choices::options().options(); },
           [] { return std::make_shared<Choices>(); },
           [run](const void* job, Session& session) { return run(*static_cast<const Choices*>(job), session); }};
 }
