@@ -56,12 +56,23 @@ bool deform(Results& results, double factor);
 struct ResultsFile {
   std::string name;
   std::string_view bytes;
+  std::string written = {};  // its name as the other file has it
 };
 
-// Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. `values` is the .csv file with the fields of an .inp
-// mesh, or the HDF5 file with the numbers of an .xdmf file, or null. Returns null, with diagnostics, if a file is
-// invalid.
-std::optional<Results> read_results(const std::string& name, std::string_view bytes,
-                                    const std::optional<ResultsFile>& values, Diagnostics& diagnostics);
+// The files beside a file of results.
+struct ResultsBeside {
+  // The .csv file with the fields of an .inp mesh, or the HDF5 file with the numbers of an .xdmf file.
+  std::optional<ResultsFile> values = {};
+  std::vector<ResultsFile> named = {};  // those that files_named_in() returns, and those that they name
+};
+
+// Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. Returns null, with diagnostics, if a file is invalid.
+std::optional<Results> read_results(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                                    Diagnostics& diagnostics);
+
+// Returns false if the ending of the path says that such a file names no others.
+bool may_name_files(const std::string& path);
+// Returns the names of other files in a file of results, as they are written there.
+std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes);
 
 }  // namespace ombre::formats

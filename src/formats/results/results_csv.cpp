@@ -152,6 +152,9 @@ void add_csv_values(const std::string& name, std::string_view bytes, NumberedRes
   // In a table without names, three values are a displacement.
   if (!table.has_names && table.names.size() == 4) table.names = {"node", "dx", "dy", "dz"};
   if (!table.has_names && table.names.size() == 2) table.names = {"node", "value"};
+  if (mesh.is_of_several_parts)
+    scanner.fail_at(0, 0, "the deck has several parts or instances, so that a number may stand for several nodes",
+                    "take the results from a .vtu, .frd or .xdmf file");
   const bool is_of_elements = to_lower(table.names[0]).starts_with("el");
   const auto& known = is_of_elements ? mesh.element_places : mesh.node_places;
   const std::string what = is_of_elements ? "element" : "node";

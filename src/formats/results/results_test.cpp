@@ -166,7 +166,7 @@ std::optional<Results> read_with(const std::string& text, const std::string& tab
   Diagnostics diagnostics;
   std::optional<ResultsFile> values;
   if (!table.empty()) values = {"a.csv", table};
-  auto results = read_results("a.inp", text, values, diagnostics);
+  auto results = read_results("a.inp", text, {values, {}}, diagnostics);
   said = to_text(diagnostics);
   return results;
 }

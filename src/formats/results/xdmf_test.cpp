@@ -28,7 +28,7 @@ struct GridText {
 std::optional<Results> read_grid(const GridText& grid, Diagnostics& diagnostics, const std::string& numbers = "") {
   std::optional<ResultsFile> file;
   if (!numbers.empty()) file = ResultsFile{"a.h5", numbers};
-  return read_results("a.xdmf", grid.text(), file, diagnostics);
+  return read_results("a.xdmf", grid.text(), {file, {}}, diagnostics);
 }
 
 std::string grid_error(const GridText& grid, const std::string& numbers = "") {
