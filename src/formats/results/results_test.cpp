@@ -252,6 +252,56 @@ TEST(Results, WrongDecksAndTablesAreReported) {
   says("node,v\n1,2\n", "", "columns x, y and z");
 }
 
+TEST(Results, TablesOfOtherPrograms) {
+  const auto expect_read = [](const std::string& table) {
+    std::string said;
+    const auto results = read_with(table, "", said);
+    ASSERT_TRUE(results) << said << table;
+    EXPECT_EQ(results->points, (std::vector<Vec3>{{1, 2, 3.5}, {4, 5, 6}})) << table;
+    ASSERT_EQ(results->fields.size(), 2U) << table;
+    EXPECT_EQ(results->fields[0].name, "t");
+    EXPECT_EQ(results->fields[0].values, (std::vector<double>{20, 30}));
+    EXPECT_EQ(results->fields[1].components, 3U) << table;
+    EXPECT_EQ(results->fields[1].values, (std::vector<double>{7, 8, 9, 10, 11, 12}));
+  };
+  const std::string plain = "x,y,z,t,move_x,move_y,move_z\n1,2,3.5,20,7,8,9\n4,5,6,30,10,11,12\n";
+  expect_read(plain);
+  expect_read("\xEF\xBB\xBF" + plain);
+  expect_read("x;y;z;t;move_x;move_y;move_z\n1;2;3,5;20;7;8;9\n4;5;6;30;10;11;12\n");
+  expect_read("x,y,z,kind,t,move_x,move_y,move_z\n1,2,3.5,PLA,20,7,8,9\n4,5,6,,30,10,11,12\n");
+  for (const std::string separator : {":", "_"}) {
+    const auto three = [&](const std::string& name) {
+      return '"' + name + separator + "0\",\"" + name + separator + "1\",\"" + name + separator + "2\"";
+    };
+    expect_read("\"t\"," + three("move") + "," + three("Points") + "\n20,7,8,9,1,2,3.5\n30,10,11,12,4,5,6\n");
+  }
+  std::string said;
+  EXPECT_FALSE(read_with("x,y,z,t\n1,2,3,20\n4,5,6,warm\n", "", said));
+  EXPECT_NE(said.find(":3:1: error: \"warm\" is no number"), std::string::npos) << said;
+  EXPECT_FALSE(read_with("x,y,z,t\n1,2,3,warm\n4,5,6,20\n", "", said));
+  EXPECT_NE(said.find(":3:1: error: the column \"t\" has words, and here a number"), std::string::npos) << said;
+}
+
+TEST(Results, LagrangeCellsOfVtuAreTheKnownOnes) {
+  const Results results = read_good(vtu_of_tetrahedron("", text_points, "71"));
+  EXPECT_EQ(results.kinds, std::vector<ElementKind>{ElementKind::tetrahedron4});
+  EXPECT_NE(error_of(vtu_of_tetrahedron("", text_points, "72")).find("has not the 8 nodes of its type"),
+            std::string::npos);
+  EXPECT_NE(error_of(vtu_of_tetrahedron("", text_points, "73")).find("is of VTK's type 73"), std::string::npos);
+}
+
+TEST(Results, WideFieldsOfVtuAreLeftOut) {
+  std::string file = vtu_of_tetrahedron("", text_points);
+  const std::string six = "NumberOfComponents=\"6\" format=\"ascii\">10 0 0 0 0 0<";
+  file.replace(file.find(six), six.size(), "NumberOfComponents=\"12\" format=\"ascii\">1 2 3 4 5 6 7 8 9 10 11 12<");
+  Diagnostics diagnostics;
+  const auto results = read_results("a.vtu", file, {}, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(results->fields.size(), 1U);
+  EXPECT_NE(to_text(diagnostics).find("fields of more than 9 numbers (stress) are left out"), std::string::npos)
+      << to_text(diagnostics);
+}
+
 TEST(Results, PointsInTables) {
   std::string said;
   const auto results = read_with("# points\nx,y,z,temperature,vx,vy,vz\n1,2,3,20,1,0,0\n4,5,6,30,0,1,0\n", "", said);
