@@ -30,8 +30,8 @@ std::optional<size_t> solid_nodes(std::string_view type) {
 }
 
 std::optional<ElementKind> kind_of_nodes(size_t count) {
-  for (const ElementKind kind :
-       {ElementKind::tetrahedron4, ElementKind::tetrahedron10, ElementKind::brick8, ElementKind::brick20})
+  for (const ElementKind kind : {ElementKind::tetrahedron4, ElementKind::tetrahedron10, ElementKind::brick8,
+                                 ElementKind::brick20, ElementKind::wedge6, ElementKind::pyramid5})
     if (node_count(kind) == count) return kind;
   return std::nullopt;
 }
@@ -169,7 +169,7 @@ class InpReader : public DeckListener {
     kind_ = nodes ? kind_of_nodes(*nodes) : std::nullopt;
     if (nodes && !kind_)
       keyword_.line.fail("elements of the type " + quoted(type) + " are not read",
-                         "read are C3D4, C3D10, C3D8 and C3D20");
+                         "read are C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5");
     if (!nodes) left_out_.insert(keyword_.value("type"));
   }
 

@@ -13,11 +13,13 @@
 
 namespace ombre::formats {
 
-// The kinds of elements; nodes are in the order of Abaqus' C3D4, C3D10, C3D8 and C3D20, which is also VTK's.
-enum class ElementKind : uint8_t { tetrahedron4, tetrahedron10, brick8, brick20 };
+// The kinds of elements; nodes are in the order of Abaqus' C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5, which is also VTK's,
+// except that either triangle of a wedge may come first.
+enum class ElementKind : uint8_t { tetrahedron4, tetrahedron10, brick8, brick20, wedge6, pyramid5 };
+inline constexpr size_t element_kinds = 6;
 
 inline size_t node_count(ElementKind kind) {
-  constexpr std::array<size_t, 4> counts{4, 10, 8, 20};
+  constexpr std::array<size_t, element_kinds> counts{4, 10, 8, 20, 6, 5};
   return counts[static_cast<size_t>(kind)];
 }
 
@@ -36,6 +38,7 @@ struct Results {
   std::vector<uint32_t> nodes;      // numbers of points
   std::vector<ResultField> fields;  // names are unique
 
+  // The nodes must be there. Puts the triangle of a wedge first from which the other lies above.
   void add_element(ElementKind kind, const uint32_t* first_node);
 };
 

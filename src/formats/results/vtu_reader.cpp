@@ -26,10 +26,11 @@ struct CellKind {
 };
 // Lagrange cells (71, 72) of the first order, and tetrahedra of the second, have the nodes of others.
 const std::vector<CellKind>& cell_kinds() {
-  static const std::vector<CellKind> rows{{10, ElementKind::tetrahedron4},  {11, ElementKind::brick8, true},
-                                          {12, ElementKind::brick8},        {24, ElementKind::tetrahedron10},
-                                          {25, ElementKind::brick20},       {71, ElementKind::tetrahedron4},
-                                          {71, ElementKind::tetrahedron10}, {72, ElementKind::brick8}};
+  static const std::vector<CellKind> rows{
+      {10, ElementKind::tetrahedron4},  {11, ElementKind::brick8, true}, {12, ElementKind::brick8},
+      {24, ElementKind::tetrahedron10}, {25, ElementKind::brick20},      {71, ElementKind::tetrahedron4},
+      {71, ElementKind::tetrahedron10}, {72, ElementKind::brick8},       {13, ElementKind::wedge6},
+      {73, ElementKind::wedge6},        {14, ElementKind::pyramid5},     {74, ElementKind::pyramid5}};
   return rows;
 }
 // Returns the row of the type, of several rows that with so many nodes; null if there is none.
@@ -118,7 +119,8 @@ class VtuReader {
       }
       if (!kind)
         file_.fail_at(list, "cell " + std::to_string(n) + " is of VTK's type " + format_number(types[n]) +
-                                "; read are tetrahedra (10, 24, 71), hexahedra (12, 25, 72) and voxels (11)");
+                                "; read are tetrahedra (10, 24, 71), hexahedra (12, 25, 72), voxels (11), wedges (13, "
+                                "73) and pyramids (14, 74)");
       const size_t size = node_count(kind->kind);
       if (!(begin >= 0) || begin + static_cast<double>(size) != ends[n] || ends[n] > ends.back())
         file_.fail_at(list,

@@ -24,6 +24,8 @@ std::optional<ElementKind> element_kind(std::string_view topology) {
   if (name == "tetrahedron_10" || name == "tet_10") return ElementKind::tetrahedron10;
   if (name == "hexahedron") return ElementKind::brick8;
   if (name == "hexahedron_20" || name == "hex_20") return ElementKind::brick20;
+  if (name == "wedge") return ElementKind::wedge6;
+  if (name == "pyramid") return ElementKind::pyramid5;
   return std::nullopt;
 }
 
@@ -39,6 +41,8 @@ std::optional<MixedKind> mixed_kind(double code) {
                                                  {4, {3}},
                                                  {5, {4}},
                                                  {6, {4, ElementKind::tetrahedron4}},
+                                                 {7, {5, ElementKind::pyramid5}},
+                                                 {8, {6, ElementKind::wedge6}},
                                                  {9, {8, ElementKind::brick8}},
                                                  {34, {3}},
                                                  {35, {9}},
@@ -137,8 +141,8 @@ class XdmfReader {
     const auto kind = element_kind(type);
     if (!kind)
       file_.fail_at(topology, "elements of the type " + quoted(type) +
-                                  " are not read; read are Tetrahedron, Tetrahedron_10, Hexahedron, Hexahedron_20 and "
-                                  "Mixed");
+                                  " are not read; read are Tetrahedron, Tetrahedron_10, Hexahedron, Hexahedron_20, "
+                                  "Wedge, Pyramid and Mixed");
     const std::vector<double> numbers = numbers_of(topology);
     const size_t each = node_count(*kind);
     if (numbers.empty() || numbers.size() % each != 0)
@@ -166,7 +170,8 @@ class XdmfReader {
       const auto kind = mixed_kind(numbers[n]);
       if (!kind)
         file_.fail_at(topology, "element " + std::to_string(is_kept_.size()) + " is of XDMF's type " +
-                                    format_number(numbers[n]) + "; read are tetrahedra (6, 38) and hexahedra (9, 48)");
+                                    format_number(numbers[n]) +
+                                    "; read are tetrahedra (6, 38), hexahedra (9, 48), wedges (8) and pyramids (7)");
       size_t nodes = kind->nodes;
       if (++n < numbers.size() && nodes == 0)
         nodes = numbers[n] >= 0 ? static_cast<size_t>(std::min(numbers[n++], 1e9)) : 0;

@@ -66,12 +66,12 @@ TEST(Xdmf, MixedElementsWithoutVolumeAreLeftOut) {
 
 TEST(Xdmf, WhatIsWrongIsSaid) {
   GridText wedge, short_nodes, far, series, short_field, without, odd;
-  wedge.topology = "Wedge";
-  EXPECT_NE(grid_error(wedge).find("\"Wedge\" are not read"), std::string::npos);
+  wedge.topology = "Wedge_15";
+  EXPECT_NE(grid_error(wedge).find("\"Wedge_15\" are not read"), std::string::npos);
   GridText mixed;
   mixed.topology = "Mixed";
-  mixed.nodes = item("8 0 1 2 3 0 1");
-  EXPECT_NE(grid_error(mixed).find("element 0 is of XDMF's type 8"), std::string::npos);
+  mixed.nodes = item("40 0 1 2 3 0 1");
+  EXPECT_NE(grid_error(mixed).find("element 0 is of XDMF's type 40"), std::string::npos);
   mixed.nodes = item("6 0 1 2 3 6 0 1");
   EXPECT_NE(grid_error(mixed).find("has not the 4 nodes of its type"), std::string::npos);
   short_nodes.nodes = item("0 1 2");

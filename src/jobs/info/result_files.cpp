@@ -17,10 +17,11 @@
 namespace ombre::jobs {
 namespace {
 
-constexpr std::array<std::string_view, 4> kind_names{"C3D4", "C3D10", "C3D8", "C3D20"};
+constexpr std::array<std::string_view, formats::element_kinds> kind_names{"C3D4",  "C3D10", "C3D8",
+                                                                          "C3D20", "C3D6",  "C3D5"};
 
-std::array<size_t, 4> counts_of_kinds(const formats::Results& results) {
-  std::array<size_t, 4> counts{};
+std::array<size_t, formats::element_kinds> counts_of_kinds(const formats::Results& results) {
+  std::array<size_t, formats::element_kinds> counts{};
   for (const formats::ElementKind kind : results.kinds) ++counts[static_cast<size_t>(kind)];
   return counts;
 }
