@@ -15,6 +15,7 @@
 #include "formats/containers/file.h"
 #include "formats/results/results.h"
 #include "sources/result_border.h"
+#include "sources/result_files.h"
 #include "studio/designs.h"
 #include "studio/scans.h"
 
@@ -33,8 +34,10 @@ formats::Results read_results(const std::string& path) {
   const std::string bytes = formats::read_file(path);
   const std::string beside = sources::numbers_beside(path);
   const std::string numbers = beside.empty() ? "" : formats::read_file(beside);
-  const auto file = beside.empty() ? std::nullopt : std::optional(formats::ResultsFile{beside, numbers});
-  auto results = formats::read_results(path, bytes, file, diagnostics);
+  const sources::ResultFiles named = sources::result_files(path, bytes);
+  formats::ResultsBeside files{{}, named.files()};
+  if (!beside.empty()) files.values = formats::ResultsFile{beside, numbers};
+  auto results = formats::read_results(path, bytes, files, diagnostics);
   if (!results) throw design_error(diagnostics);
   return std::move(*results);
 }

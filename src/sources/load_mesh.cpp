@@ -12,6 +12,7 @@
 #include "sources/mesh_closing.h"
 #include "sources/mesh_materials.h"
 #include "sources/result_border.h"
+#include "sources/result_files.h"
 
 namespace ombre::design {
 namespace {
@@ -106,17 +107,17 @@ MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all,
   return {};
 }
 
-// The contents of a requested file; for grids also the other file with their numbers.
+// The contents of a requested file; for grids also the other files.
 struct MeshFiles {
   std::string_view bytes;
-  std::optional<formats::ResultsFile> numbers;
-  Hash content;  // hash of both
+  formats::ResultsBeside beside;
+  Hash content;  // hash of all
 };
 
 MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const Reader& reader) {
   const std::string& path = request.file.path;
   auto mesh = sources::has_elements(path)
-                  ? sources::result_border(path, files.bytes, files.numbers, request.deform, reader.diagnostics)
+                  ? sources::result_border(path, files.bytes, files.beside, request.deform, reader.diagnostics)
                   : formats::read_mesh(path, files.bytes, reader.diagnostics);
   const Hash content =
       request.deform == 0 ? files.content : sources::Key("deformed").add(files.content).add(request.deform).hash();
@@ -174,6 +175,7 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   FilePath numbers{sources::numbers_beside(file.path), {}};
   const bool has_numbers = !numbers.path.empty();
   if (!loading.read_content(file) || (has_numbers && !loading.read_content(numbers))) return nullptr;
+  const sources::ResultFiles named = sources::result_files(file, loading);
   const Hash content =
       has_numbers ? sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash() : file.content;
   sources::Key key("mesh");
@@ -182,8 +184,8 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
     const auto bytes = loading.bytes(file);
     const auto beside = has_numbers ? loading.bytes(numbers) : nullptr;
-    MeshFiles files{*bytes, std::nullopt, content};
-    if (beside) files.numbers = formats::ResultsFile{numbers.path, *beside};
+    MeshFiles files{*bytes, {{}, named.files()}, content};
+    if (beside) files.beside.values = formats::ResultsFile{numbers.path, *beside};
     return read_parts(*this, files, reader);
   });
 }

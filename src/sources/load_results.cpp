@@ -6,6 +6,7 @@
 #include "import/fields/result_source.h"
 #include "sources/loading.h"
 #include "sources/result_border.h"
+#include "sources/result_files.h"
 
 namespace ombre::design {
 namespace {
@@ -50,16 +51,18 @@ struct LoadedResults {
 };
 
 // Reads the file and the table of values, if there is one. Null, with diagnostics, if a file is invalid.
-std::optional<formats::Results> read_files(const ResultsRequest& request, Loading& loading, const Reader& reader) {
+std::optional<formats::Results> read_files(const ResultsRequest& request, const sources::ResultFiles& named,
+                                           Loading& loading, const Reader& reader) {
   const auto bytes = loading.bytes(request.file);
-  if (request.values.path.empty()) return formats::read_results(request.file.path, *bytes, {}, reader.diagnostics);
-  const auto values = loading.bytes(request.values);
-  return formats::read_results(request.file.path, *bytes, formats::ResultsFile{request.values.path, *values},
-                               reader.diagnostics);
+  formats::ResultsBeside beside{{}, named.files()};
+  const auto values = request.values.path.empty() ? nullptr : loading.bytes(request.values);
+  if (values) beside.values = formats::ResultsFile{request.values.path, *values};
+  return formats::read_results(request.file.path, *bytes, beside, reader.diagnostics);
 }
 
-Loading::Made<LoadedResults> make_results(const ResultsRequest& request, Loading& loading, const Reader& reader) {
-  auto results = read_files(request, loading, reader);
+Loading::Made<LoadedResults> make_results(const ResultsRequest& request, const sources::ResultFiles& named,
+                                          Loading& loading, const Reader& reader) {
+  auto results = read_files(request, named, loading, reader);
   if (!results) {
     reader.diagnostics.note(reader.where, "the file is used here");
     return {};
@@ -81,11 +84,12 @@ Loading::Made<LoadedResults> make_results(const ResultsRequest& request, Loading
   return {loaded, loaded->mesh->bytes()};
 }
 
-std::shared_ptr<const LoadedResults> results_of(const ResultsRequest& request, Loading& loading) {
+std::shared_ptr<const LoadedResults> results_of(const ResultsRequest& request, const sources::ResultFiles& named,
+                                                Loading& loading) {
   const Hash key =
       sources::Key("result mesh").add(request.file.content).add(request.values.content).add(request.deform).hash();
-  return loading.cached<LoadedResults>(key, request.file.path,
-                                       [&](const Reader& reader) { return make_results(request, loading, reader); });
+  return loading.cached<LoadedResults>(
+      key, request.file.path, [&](const Reader& reader) { return make_results(request, named, loading, reader); });
 }
 
 importing::OutsideRule rule_of(const ResultsRequest& request) {
@@ -133,7 +137,8 @@ std::shared_ptr<const ResultNumbers> ResultsRequest::load(Loading& loading) {
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   if (values.path.empty()) values.path = sources::numbers_beside(file.path);
   if (!values.path.empty() && (!loading.find(values) || !loading.read_content(values))) return nullptr;
-  const auto loaded = results_of(*this, loading);
+  const sources::ResultFiles named = sources::result_files(file, loading);
+  const auto loaded = results_of(*this, named, loading);
   const formats::ResultField* wanted = loaded ? field_of(loaded->results(), *this, loading.reader()) : nullptr;
   if (!wanted || !fits_rule(*this, *loaded, loading.reader())) return nullptr;
   auto numbers = std::make_shared<ResultNumbers>();

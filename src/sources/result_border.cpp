@@ -23,9 +23,9 @@ std::string numbers_beside(const std::string& path) {
 }
 
 std::optional<formats::Mesh> result_border(const std::string& name, std::string_view bytes,
-                                           const std::optional<formats::ResultsFile>& numbers, double deform,
+                                           const formats::ResultsBeside& beside, double deform,
                                            Diagnostics& diagnostics) {
-  auto results = formats::read_results(name, bytes, numbers, diagnostics);
+  auto results = formats::read_results(name, bytes, beside, diagnostics);
   if (!results) return std::nullopt;
   if (results->kinds.empty()) {
     diagnostics.error({make_source(name, ""), 0, 0}, "the file has no elements that enclose space");

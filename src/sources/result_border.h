@@ -17,10 +17,9 @@ bool has_elements(const std::string& path);
 std::string numbers_beside(const std::string& path);
 
 // Returns the outer sides of a mesh of results, moved by its displacement times `deform`; closed if elements share
-// nodes. `numbers` is the HDF5 file of an .xdmf file. Null, with diagnostics, if the file is invalid or has no
-// elements.
+// nodes. Null, with diagnostics, if the file is invalid or has no elements.
 std::optional<formats::Mesh> result_border(const std::string& name, std::string_view bytes,
-                                           const std::optional<formats::ResultsFile>& numbers, double deform,
+                                           const formats::ResultsBeside& beside, double deform,
                                            Diagnostics& diagnostics);
 
 }  // namespace ombre::sources

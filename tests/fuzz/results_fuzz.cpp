@@ -23,9 +23,10 @@ void ask(const program::FieldSource& source, const Box& box) {
 
 void exercise(const std::string& bytes, const std::string* table) {
   Diagnostics diagnostics;
-  std::optional<formats::ResultsFile> values;
-  if (table) values = {"fuzz.csv", *table};
-  auto results = formats::read_results("fuzz", bytes, values, diagnostics);
+  formats::ResultsBeside beside;
+  if (table) beside.values = {"fuzz.csv", *table};
+  if (table) beside.named = {{"fuzz.inp", *table, "fuzz.inp"}};
+  auto results = formats::read_results("fuzz", bytes, beside, diagnostics);
   if (!results) {
     if (!diagnostics.has_errors()) std::abort();
     return;

@@ -1,142 +1,326 @@
-// Reads meshes of Abaqus and CalculiX decks (.inp): nodes and solid elements; everything else is ignored.
+// Reads meshes of Abaqus and CalculiX decks (.inp): nodes and solid elements, with parts and their instances. What does
+// not change the mesh is ignored.
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <set>
 
+#include "base/math/degrees.h"
 #include "base/text/text.h"
-#include "formats/containers/text_scanner.h"
+#include "formats/results/deck_part.h"
 #include "formats/results/results_readers.h"
 
 namespace ombre::formats {
 namespace {
 
-// Returns the number of nodes of a solid element type such as "C3D10M" or "DC3D4", or null for other types. Solid types
-// have one or two digits.
+// Families of solid elements, by what stands before the number of nodes in names such as "C3D10M", "DC3D4", "SC8R".
+constexpr auto solid_families = std::to_array<std::string_view>({"c3d", "q3d", "sc", "coh3d", "gk3d", "css"});
+
+// Returns the number of nodes of a solid element type; null for other types. Solid types have one or two digits.
 std::optional<size_t> solid_nodes(std::string_view type) {
-  const size_t at = type.find("c3d");
-  if (at == std::string_view::npos) return std::nullopt;
-  std::string_view digits = type.substr(at + 3);
-  digits = digits.substr(0, digits.find_first_not_of("0123456789"));
-  const auto count = digits.size() <= 2 ? parse_number(digits) : std::nullopt;
-  return count ? std::optional(static_cast<size_t>(*count)) : std::nullopt;
+  for (const std::string_view family : solid_families) {
+    const size_t at = type.find(family);
+    if (at == std::string_view::npos || (family != "c3d" && at != 0)) continue;
+    std::string_view digits = type.substr(at + family.size());
+    digits = digits.substr(0, digits.find_first_not_of("0123456789"));
+    const auto count = digits.size() <= 2 ? parse_number(digits) : std::nullopt;
+    if (count) return static_cast<size_t>(*count);
+  }
+  return std::nullopt;
 }
 
 std::optional<ElementKind> kind_of_nodes(size_t count) {
-  for (const ElementKind kind :
-       {ElementKind::tetrahedron4, ElementKind::tetrahedron10, ElementKind::brick8, ElementKind::brick20})
+  for (const ElementKind kind : {ElementKind::tetrahedron4, ElementKind::tetrahedron10, ElementKind::brick8,
+                                 ElementKind::brick20, ElementKind::wedge6, ElementKind::pyramid5})
     if (node_count(kind) == count) return kind;
   return std::nullopt;
 }
 
-class InpReader {
- public:
-  InpReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
-      : name_(name), bytes_(bytes), diagnostics_(diagnostics), scanner_(name, bytes, diagnostics) {}
+// Keywords that change the mesh, and are not read.
+constexpr auto unread_keywords =
+    std::to_array<std::string_view>({"*nmap", "*imperfection", "*symmetric model generation", "*import"});
 
-  NumberedResults run() {
-    for (size_t begin = 0; begin < bytes_.size();) {
-      const size_t end = std::min(bytes_.find('\n', begin), bytes_.size());
-      line_ = trim(bytes_.substr(begin, end - begin));
-      begin_ = begin;
-      end_ = end;
-      begin = end + 1;
-      if (line_.empty() || line_.starts_with("**")) continue;
-      if (line_.starts_with('*'))
-        begin_keyword();
-      else if (block_ == Block::nodes)
-        add_node();
-      else if (block_ == Block::elements)
-        add_element_numbers();
-      else if (block_ == Block::flat)
-        ++flat_;
-    }
-    finish_element();
-    if (flat_ > 0)
-      diagnostics_.warning({make_source(name_, ""), 0, 0},
-                           format_count(flat_) + " lines of elements that are no solids are left out");
-    return std::move(result_);
+// A system of coordinates in which nodes are given (*SYSTEM): points a, b on its x axis, c in its xy plane.
+Affine system_of(const DeckLine& line, const std::vector<double>& numbers) {
+  const auto point = [&](size_t n) {
+    const auto at = [&](size_t i) { return i < numbers.size() ? numbers[i] : 0.0; };
+    return Vec3{at(3 * n), at(3 * n + 1), at(3 * n + 2)};
+  };
+  if (numbers.size() <= 3) return Affine::translation(point(0));
+  const Vec3 origin = point(0), along = point(1) - origin;
+  const Vec3 other = numbers.size() > 6 ? point(2) - origin : Vec3{-along.y, along.x, 0};
+  const Vec3 up = cross(along, other);
+  if (!(length(along) > 0) || !(length(up) > 0)) line.fail("the points of the system lie on a line");
+  const Vec3 x = 1 / length(along) * along, z = 1 / length(up) * up, y = cross(z, x);
+  return {{Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}}, origin};
+}
+
+// Returns the turn about the axis from one point to another that a line of *INSTANCE or *NCOPY describes.
+Affine turn_of(const DeckLine& line, const std::vector<double>& numbers) {
+  if (numbers.size() < 7) line.fail("expected two points of the axis and an angle in degrees");
+  const Vec3 a{numbers[0], numbers[1], numbers[2]}, b{numbers[3], numbers[4], numbers[5]};
+  if (!(length(b - a) > 0)) line.fail("the two points of the axis are the same");
+  return Affine::translation(a) * Affine::rotation(b - a, numbers[6]) * Affine::translation(-a);
+}
+
+struct DeckInstance {
+  std::string part;
+  Affine move;
+  DeckLine line;
+  DeckPart own;  // nodes and elements that stand in the instance itself
+};
+
+class InpReader : public DeckListener {
+ public:
+  InpReader(const std::string& name, Diagnostics& diagnostics) : name_(name), diagnostics_(diagnostics) {}
+
+  NumberedResults take() { return std::move(result_); }
+
+  void keyword(const Keyword& keyword) override {
+    finish_block();
+    keyword_ = keyword;
+    data_lines_ = 0;
+    if (std::ranges::find(unread_keywords, keyword.name) != unread_keywords.end())
+      keyword.line.fail(keyword.name + " changes the mesh and is not read", "save the mesh that it makes");
+    enter_scope();
+    if (keyword.name == "*node") system_here_ = system_letter();
+    if (keyword.name == "*element") begin_elements();
+    if (keyword.name == "*system") part().system = Affine();
+    if (keyword.name == "*elcopy") mesh().copy_elements(keyword);
+    if (keyword.name == "*model change" && keyword.has("remove")) ++removed_;
+  }
+
+  void data(const DeckLine& line) override {
+    ++data_lines_;
+    const std::string& name = keyword_.name;
+    if (name == "*node")
+      add_node(line);
+    else if (name == "*element")
+      add_element_numbers(line);
+    else if (name == "*instance")
+      move_instance(line);
+    else if (name == "*system" || name == "*ncopy")
+      block_.emplace_back(line);
+    else if (name == "*nset")
+      mesh().add_to_node_set(keyword_, line);
+    else if (name == "*elset")
+      mesh().add_to_element_set(keyword_, line);
+    else if (name == "*ngen")
+      mesh().generate_nodes(keyword_, line);
+    else if (name == "*nfill")
+      mesh().fill_nodes(keyword_, line);
+    else if (name == "*elgen")
+      generate_elements(line);
+  }
+
+  void end() override {
+    finish_block();
+    if (instances_.empty())
+      for (Part& part : parts_) add(part.mesh, Affine());
+    else
+      add_instances();
+    tell_left_out();
   }
 
  private:
-  enum class Block : uint8_t { other, nodes, elements, flat };
+  struct Part {
+    std::string name;  // empty: what stands in no part
+    DeckPart mesh;
+    Affine system;  // in which nodes are given
+  };
 
-  [[noreturn]] void fail_line(const std::string& message, const std::string& hint = "") const {
-    scanner_.fail_at(begin_, end_, message, hint);
+  Part& part() {
+    if (parts_.empty()) parts_.push_back({});
+    return parts_[in_instance_ ? 0 : current_];
+  }
+  DeckPart& mesh() { return in_instance_ ? instances_.back().own : part().mesh; }
+
+  // Parts, instances and the assembly begin and end with keywords.
+  void enter_scope() {
+    if (parts_.empty()) parts_.push_back({});
+    const std::string& name = keyword_.name;
+    if (name == "*part") {
+      parts_.push_back({keyword_.name_of("name"), {}, {}});
+      current_ = parts_.size() - 1;
+    } else if (name == "*end part") {
+      current_ = 0;
+    } else if (name == "*instance") {
+      if (keyword_.has("library") || keyword_.has("instance"))
+        keyword_.line.fail("the instance comes from another analysis, which is not read",
+                           "save the deck with all of its parts");
+      instances_.push_back({keyword_.name_of("part"), {}, keyword_.line, {}});
+      in_instance_ = true;
+    } else if (name == "*end instance") {
+      in_instance_ = false;
+    }
   }
 
-  void begin_keyword() {
-    finish_element();
-    const std::vector<std::string> words = split(to_lower(line_), ',');
-    const std::string keyword(trim(words.front()));
-    block_ = keyword == "*node" ? Block::nodes : keyword == "*element" ? Block::elements : Block::other;
-    if (keyword == "*include")
-      fail_line("the deck includes another file, which is not read", "save the mesh in one file");
-    if (block_ != Block::elements) return;
-    std::string type;
-    for (const std::string& word : words)
-      if (const size_t equals = word.find('='); equals != std::string::npos && trim(word.substr(0, equals)) == "type")
-        type = trim(word.substr(equals + 1));
+  // Returns the letter of the system of *NODE: rectangular, cylindrical or spherical.
+  char system_letter() const {
+    const std::string system = keyword_.name_of("system");
+    if (system.empty()) return 'r';
+    if (system == "r" || system == "c" || system == "s") return system[0];
+    keyword_.line.fail("expected SYSTEM=R, C or S, found " + quoted(system));
+  }
+
+  void begin_elements() {
+    const std::string type = keyword_.name_of("type");
     const auto nodes = solid_nodes(type);
-    if (!nodes) {
-      block_ = Block::flat;
+    kind_ = nodes ? kind_of_nodes(*nodes) : std::nullopt;
+    if (nodes && !kind_)
+      keyword_.line.fail("elements of the type " + quoted(type) + " are not read",
+                         "read are C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5");
+    if (!nodes) left_out_.insert(keyword_.value("type"));
+  }
+
+  void add_node(const DeckLine& line) {
+    const std::vector<double> list = line.numbers();
+    if (list.size() < 2) line.fail("expected the number of a node and its coordinates");
+    const auto at = [&](size_t n) { return n < list.size() ? list[n] : 0.0; };
+    mesh().add_node(line, deck_number(line, list[0]), part().system(point({at(1), at(2), at(3)})),
+                    keyword_.name_of("nset"));
+  }
+
+  // Angles are degrees. Source: Abaqus keywords reference guide, *NODE.
+  Vec3 point(Vec3 given) const {
+    using degrees::cosine, degrees::sine;
+    if (system_here_ == 'r') return given;
+    if (system_here_ == 'c') return {given.x * cosine(given.y), given.x * sine(given.y), given.z};
+    return {given.x * cosine(given.z) * cosine(given.y), given.x * cosine(given.z) * sine(given.y),
+            given.x * sine(given.z)};
+  }
+
+  void add_element_numbers(const DeckLine& line) {
+    if (!kind_) {
+      ++flat_;
       return;
     }
-    const auto kind = kind_of_nodes(*nodes);
-    if (!kind)
-      fail_line("elements of the type " + formats::quoted(type) + " are not read",
-                "read are C3D4, C3D10, C3D8 and C3D20");
-    kind_ = *kind;
-  }
-
-  std::vector<double> numbers() const {
-    std::vector<double> list;
-    for (const std::string& word : split(std::string(line_), ',')) {
-      const std::string_view text = trim(word);
-      if (text.empty()) continue;
-      const auto value = parse_number(text);
-      if (!value) fail_line("expected a number, found " + formats::quoted(text));
-      list.push_back(*value);
-    }
-    return list;
-  }
-
-  uint64_t id_of(double number) const {
-    if (number >= 1 && number < 1e15 && number == static_cast<double>(static_cast<uint64_t>(number)))
-      return static_cast<uint64_t>(number);
-    fail_line("expected the number of a node or element, found " + format_number(number));
-  }
-
-  void add_node() {
-    const std::vector<double> list = numbers();
-    if (list.size() < 3) fail_line("expected the number of a node and its coordinates");
-    const Vec3 point{list[1], list[2], list.size() > 3 ? list[3] : 0};
-    if (!result_.add_node(id_of(list[0]), point)) fail_line("node " + format_number(list[0]) + " comes twice");
-  }
-
-  void add_element_numbers() {
-    for (const double number : numbers()) element_.push_back(id_of(number));
-    if (element_.size() > node_count(kind_)) finish_element();
+    if (element_.empty()) element_line_ = line;
+    for (const double number : line.numbers()) element_.push_back(deck_number(line, number));
+    if (element_.size() > node_count(*kind_)) finish_element();
   }
 
   void finish_element() {
     if (element_.empty()) return;
-    if (element_.size() != node_count(kind_) + 1)
-      fail_line("element " + std::to_string(element_[0]) + " has " + std::to_string(element_.size() - 1) +
-                " nodes; its type has " + std::to_string(node_count(kind_)));
-    const std::string wrong = result_.add_element(kind_, element_[0], {element_.data() + 1, element_.size() - 1});
-    if (!wrong.empty()) fail_line(wrong);
+    if (element_.size() != node_count(*kind_) + 1)
+      element_line_.fail("element " + std::to_string(element_[0]) + " has " + std::to_string(element_.size() - 1) +
+                         " nodes; its type has " + std::to_string(node_count(*kind_)));
+    mesh().add_element(element_line_, element_[0], *kind_, std::span(element_).subspan(1), keyword_.name_of("elset"));
     element_.clear();
   }
 
+  // Masters that are no solids have been left out, and so are the elements that they generate.
+  void generate_elements(const DeckLine& line) {
+    const auto master = line.numbers();
+    if (!master.empty() && !left_out_.empty() && !mesh().has_element(deck_number(line, master[0])))
+      ++flat_;
+    else
+      mesh().generate_elements(keyword_, line);
+  }
+
+  // The first line moves the instance, the second one turns it after that.
+  void move_instance(const DeckLine& line) {
+    Affine& move = instances_.back().move;
+    const std::vector<double> list = line.numbers();
+    if (data_lines_ == 1) {
+      const auto at = [&](size_t n) { return n < list.size() ? list[n] : 0.0; };
+      move = Affine::translation({at(0), at(1), at(2)});
+    } else if (data_lines_ == 2) {
+      move = turn_of(line, list) * move;
+    }
+  }
+
+  void finish_block() {
+    finish_element();
+    if (keyword_.name == "*system" && !block_.empty()) {
+      std::vector<double> numbers;
+      for (const DeckLine& line : block_)
+        for (const double number : line.numbers()) numbers.push_back(number);
+      part().system = system_of(block_.front(), numbers);
+    }
+    if (keyword_.name == "*ncopy") mesh().copy_nodes(keyword_, copy_move());
+    block_.clear();
+  }
+
+  // Returns how *NCOPY moves nodes: by the first line, and turned by the second after that.
+  Affine copy_move() const {
+    if (!keyword_.has("shift") || keyword_.has("multiple"))
+      keyword_.line.fail("*ncopy is read with SHIFT alone", "write out the nodes that it makes");
+    Affine move;
+    if (!block_.empty()) {
+      std::vector<double> by = block_[0].numbers();
+      by.resize(3, 0.0);
+      move = Affine::translation({by[0], by[1], by[2]});
+    }
+    return block_.size() > 1 ? turn_of(block_[1], block_[1].numbers()) * move : move;
+  }
+
+  void add_instances() {
+    std::vector<bool> is_used(parts_.size());
+    for (DeckInstance& instance : instances_) {
+      const auto part = std::ranges::find(parts_, instance.part, &Part::name);
+      if (part == parts_.end() && instance.own.nodes().empty())
+        instance.line.fail("there is no part " + quoted(instance.part));
+      if (part != parts_.end()) {
+        is_used[static_cast<size_t>(part - parts_.begin())] = true;
+        add(part->mesh, instance.move);
+      }
+      add(instance.own, instance.move);
+    }
+    for (size_t n = 0; n < parts_.size(); ++n) {
+      if (parts_[n].name.empty())
+        add(parts_[n].mesh, Affine());
+      else if (!is_used[n] && !parts_[n].mesh.elements().empty())
+        ++unused_parts_;
+    }
+  }
+
+  // Adds a copy of the part to the result.
+  void add(const DeckPart& mesh, const Affine& move) {
+    if (mesh.nodes().empty() && mesh.elements().empty()) return;
+    if (!result_.results.points.empty()) result_.is_of_several_parts = true;
+    const auto first = static_cast<uint32_t>(result_.results.points.size());
+    for (const DeckPart::Node& node : mesh.nodes()) {
+      result_.node_places.try_emplace(node.number, static_cast<uint32_t>(result_.results.points.size()));
+      result_.results.points.push_back(move(node.at));
+    }
+    for (const DeckPart::Element& element : mesh.elements()) {
+      std::array<uint32_t, 20> places{};
+      size_t n = 0;
+      for (const uint64_t node : mesh.nodes_of(element)) places[n++] = first + mesh.place_of(element, node);
+      result_.element_places.try_emplace(element.number, static_cast<uint32_t>(result_.results.kinds.size()));
+      result_.results.add_element(element.kind, places.data());
+    }
+  }
+
+  void tell_left_out() const {
+    const auto warn = [&](const std::string& message) {
+      diagnostics_.warning({make_source(name_, ""), 0, 0}, message);
+    };
+    if (flat_ > 0)
+      warn(format_count(flat_) + " lines of elements that are no solids (" +
+           join(std::vector<std::string>(left_out_.begin(), left_out_.end()), ", ") + ") are left out");
+    if (unused_parts_ > 0)
+      warn(format_count(unused_parts_) + " parts of which the assembly has no instance are left out");
+    if (removed_ > 0) warn("*model change removes elements in a step; they are read");
+  }
+
   const std::string& name_;
-  std::string_view bytes_, line_;
   Diagnostics& diagnostics_;
-  TextScanner scanner_;
-  size_t begin_ = 0, end_ = 0;
-  Block block_ = Block::other;
-  ElementKind kind_ = ElementKind::brick8;
-  std::vector<uint64_t> element_;  // number of the element, followed by those of its nodes
+  Keyword keyword_;  // of the lines of data that follow
+  std::vector<DeckLine> block_;
+  size_t data_lines_ = 0;
+  std::vector<Part> parts_;  // the first is what stands in no part
+  size_t current_ = 0;
+  std::vector<DeckInstance> instances_;
+  bool in_instance_ = false;
+  char system_here_ = 'r';
+  std::optional<ElementKind> kind_;  // null: no solid
+  std::vector<uint64_t> element_;    // number of the element, followed by those of its nodes
+  DeckLine element_line_;
+  uint64_t flat_ = 0, unused_parts_ = 0, removed_ = 0;
+  std::set<std::string> left_out_;  // types of elements
   NumberedResults result_;
-  uint64_t flat_ = 0;
 };
 
 }  // namespace
@@ -161,8 +345,11 @@ std::string NumberedResults::add_element(ElementKind kind, uint64_t number, std:
   return "";
 }
 
-NumberedResults read_inp(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  return InpReader(name, bytes, diagnostics).run();
+NumberedResults read_inp(const std::string& name, std::string_view bytes, const std::vector<ResultsFile>& beside,
+                         Diagnostics& diagnostics) {
+  InpReader reader(name, diagnostics);
+  read_cards(name, bytes, beside, reader, diagnostics);
+  return reader.take();
 }
 
 }  // namespace ombre::formats

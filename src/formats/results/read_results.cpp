@@ -39,20 +39,20 @@ void fill_up_fields(Results& results) {
   }
 }
 
-Results read_any(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
+Results read_any(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                  Diagnostics& diagnostics) {
   const std::string_view text = trim(bytes.substr(0, std::min<size_t>(bytes.size(), 4096)));
   const auto rows = result_formats();
   const auto found = std::ranges::find_if(rows, [&](const ResultFormat& row) { return row.recognises(text); });
-  return found->read(name, bytes, values, diagnostics);
+  return found->read(name, bytes, beside, diagnostics);
 }
 
 }  // namespace
 
-std::optional<Results> read_results(const std::string& name, std::string_view bytes,
-                                    const std::optional<ResultsFile>& values, Diagnostics& diagnostics) {
+std::optional<Results> read_results(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                                    Diagnostics& diagnostics) {
   try {
-    Results results = read_any(name, bytes, values, diagnostics);
+    Results results = read_any(name, bytes, beside, diagnostics);
     if (results.points.empty()) fail(diagnostics, name, "the file holds no points");
     fill_up_fields(results);
     make_names_unique(results.fields);

@@ -1,6 +1,10 @@
 #include "formats/results/result_formats.h"
 
+#include <algorithm>
+
+#include "base/text/file_ending.h"
 #include "formats/containers/text_scanner.h"
+#include "formats/results/deck.h"
 #include "formats/results/results_readers.h"
 
 namespace ombre::formats {
@@ -9,22 +13,32 @@ namespace {
 bool is_xdmf(std::string_view text) { return text.starts_with('<') && text.find("<Xdmf") != std::string_view::npos; }
 bool is_xml(std::string_view text) { return text.starts_with('<'); }
 bool is_frd(std::string_view text) { return text.starts_with("1C"); }
-bool is_deck(std::string_view text) { return text.starts_with('*'); }
+bool is_deck(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  return text.starts_with('*');
+}
 bool is_anything(std::string_view) { return true; }
 
 // A format of one file.
 template <Results read(const std::string&, std::string_view, Diagnostics&)>
-Results read_alone(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
+Results read_alone(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                    Diagnostics& diagnostics) {
-  if (values) fail(diagnostics, name, "a table of values belongs to a mesh in an .inp file", "leave \"values\" out");
+  if (beside.values)
+    fail(diagnostics, name, "a table of values belongs to a mesh in an .inp file", "leave \"values\" out");
   return read(name, bytes, diagnostics);
 }
 
-Results read_deck(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
+Results read_with_numbers(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                          Diagnostics& diagnostics) {
+  return read_xdmf(name, bytes, beside.values, diagnostics);
+}
+
+Results read_deck(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics) {
-  NumberedResults mesh = read_inp(name, bytes, diagnostics);
+  NumberedResults mesh = read_inp(name, bytes, beside.named, diagnostics);
   if (mesh.results.kinds.empty()) fail(diagnostics, name, "the deck has no solid elements");
-  if (values) add_csv_values(values->name, values->bytes, mesh, diagnostics);
+  if (beside.values) add_csv_values(beside.values->name, beside.values->bytes, mesh, diagnostics);
   return std::move(mesh.results);
 }
 
@@ -32,13 +46,28 @@ Results read_deck(const std::string& name, std::string_view bytes, const std::op
 
 std::span<const ResultFormat> result_formats() {
   static const std::vector<ResultFormat> rows{
-      {{"XDMF", {".xdmf"}, Content::results, true, true}, true, is_xdmf, read_xdmf},
+      {{"XDMF", {".xdmf"}, Content::results, true, true}, true, is_xdmf, read_with_numbers},
       {{"VTK unstructured grid", {".vtu"}, Content::results, true, true}, true, is_xml, read_alone<read_vtu>},
       {{"CalculiX results", {".frd"}, Content::results, true}, true, is_frd, read_alone<read_frd>},
-      {{"Abaqus and CalculiX deck", {".inp"}, Content::elements, true, true}, true, is_deck, read_deck},
+      {{"Abaqus and CalculiX deck", {".inp"}, Content::elements, true, true},
+       true,
+       is_deck,
+       read_deck,
+       files_named_in_deck},
       {{"table of points", {".csv"}, Content::table, true}, false, is_anything, read_alone<read_csv_points>},
   };
   return rows;
+}
+
+bool may_name_files(const std::string& path) {
+  return std::ranges::any_of(result_formats(),
+                             [&](const ResultFormat& row) { return row.named && has_ending(path, row.file); });
+}
+
+std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes) {
+  for (const ResultFormat& row : result_formats())
+    if (row.named && (has_ending(path, row.file) || row.recognises(bytes))) return row.named(bytes);
+  return {};
 }
 
 }  // namespace ombre::formats

@@ -13,10 +13,11 @@ struct ResultFormat {
   bool has_elements = true;  // else points alone
   // `text` is the beginning of the file, without blanks.
   bool (*recognises)(std::string_view text) = nullptr;
-  // `values` is the second file, for formats that have one; others refuse it. Throws DesignError, and diagnostics say
-  // why.
-  Results (*read)(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& values,
+  // Formats that have no second file refuse one. Throws DesignError, and diagnostics say why.
+  Results (*read)(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics) = nullptr;
+  // Returns the names of other files, for formats that have them.
+  std::vector<std::string> (*named)(std::string_view bytes) = nullptr;
 };
 
 // A file that no other row recognises is read as the last one, a table of points.

@@ -1,5 +1,6 @@
 #include "formats/results/results.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text/text.h"
@@ -10,6 +11,11 @@ void Results::add_element(ElementKind kind, const uint32_t* first_node) {
   kinds.push_back(kind);
   first.push_back(nodes.size());
   nodes.insert(nodes.end(), first_node, first_node + node_count(kind));
+  if (kind != ElementKind::wedge6) return;
+  uint32_t* const own = nodes.data() + first.back();
+  const Vec3 a = points[own[0]];
+  const bool is_upside_down = dot(cross(points[own[1]] - a, points[own[2]] - a), points[own[3]] - a) < 0;
+  if (is_upside_down) std::swap_ranges(own, own + 3, own + 3);
 }
 
 void set_name(ResultField& field, std::string_view text) {

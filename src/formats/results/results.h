@@ -13,11 +13,13 @@
 
 namespace ombre::formats {
 
-// The kinds of elements; nodes are in the order of Abaqus' C3D4, C3D10, C3D8 and C3D20, which is also VTK's.
-enum class ElementKind : uint8_t { tetrahedron4, tetrahedron10, brick8, brick20 };
+// The kinds of elements; nodes are in the order of Abaqus' C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5, which is also VTK's,
+// except that either triangle of a wedge may come first.
+enum class ElementKind : uint8_t { tetrahedron4, tetrahedron10, brick8, brick20, wedge6, pyramid5 };
+inline constexpr size_t element_kinds = 6;
 
 inline size_t node_count(ElementKind kind) {
-  constexpr std::array<size_t, 4> counts{4, 10, 8, 20};
+  constexpr std::array<size_t, element_kinds> counts{4, 10, 8, 20, 6, 5};
   return counts[static_cast<size_t>(kind)];
 }
 
@@ -36,6 +38,7 @@ struct Results {
   std::vector<uint32_t> nodes;      // numbers of points
   std::vector<ResultField> fields;  // names are unique
 
+  // The nodes must be there. Puts the triangle of a wedge first from which the other lies above.
   void add_element(ElementKind kind, const uint32_t* first_node);
 };
 
@@ -56,12 +59,23 @@ bool deform(Results& results, double factor);
 struct ResultsFile {
   std::string name;
   std::string_view bytes;
+  std::string written = {};  // its name as the other file has it
 };
 
-// Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. `values` is the .csv file with the fields of an .inp
-// mesh, or the HDF5 file with the numbers of an .xdmf file, or null. Returns null, with diagnostics, if a file is
-// invalid.
-std::optional<Results> read_results(const std::string& name, std::string_view bytes,
-                                    const std::optional<ResultsFile>& values, Diagnostics& diagnostics);
+// The files beside a file of results.
+struct ResultsBeside {
+  // The .csv file with the fields of an .inp mesh, or the HDF5 file with the numbers of an .xdmf file.
+  std::optional<ResultsFile> values = {};
+  std::vector<ResultsFile> named = {};  // those that files_named_in() returns, and those that they name
+};
+
+// Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. Returns null, with diagnostics, if a file is invalid.
+std::optional<Results> read_results(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                                    Diagnostics& diagnostics);
+
+// Returns false if the ending of the path says that such a file names no others.
+bool may_name_files(const std::string& path);
+// Returns the names of other files in a file of results, as they are written there.
+std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes);
 
 }  // namespace ombre::formats

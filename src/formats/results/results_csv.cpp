@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/text/text.h"
 #include "formats/containers/text_scanner.h"
@@ -25,23 +26,26 @@ class CsvReader {
       : scanner_(name, bytes, diagnostics), bytes_(bytes) {}
 
   CsvTable run() {
-    for (size_t begin = 0; begin < bytes_.size();) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    for (size_t begin = bytes_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; begin < bytes_.size();) {
       const size_t end = std::min(bytes_.find('\n', begin), bytes_.size());
       const std::string_view line = trim(bytes_.substr(begin, end - begin));
       if (!line.empty() && line.front() != '#') take(line, begin, end);
       begin = end + 1;
     }
     if (table_.rows.empty()) scanner_.fail_at(0, 0, "the table holds no numbers");
+    leave_out_words();
     return std::move(table_);
   }
 
  private:
   void take(std::string_view line, size_t begin, size_t end) {
-    if (table_.names.empty()) separator_ = line.find(';') != std::string_view::npos ? ';' : ',';
+    if (table_.names.empty()) separator_ = separator_of(line);
     std::vector<std::string> words;
     for (const std::string& word : split(std::string(line), separator_)) words.emplace_back(unquoted(trim(word)));
     if (table_.names.empty()) {
-      table_.has_names = !parse_number(words.front());
+      table_.has_names = !number_in(words.front());
+      is_of_words_.assign(words.size(), false);
       for (size_t n = 0; n < words.size(); ++n)
         table_.names.push_back(table_.has_names ? words[n] : "column " + std::to_string(n + 1));
       if (table_.has_names) return;
@@ -51,13 +55,38 @@ class CsvReader {
                        "this line has " + std::to_string(words.size()) + " values, the first has " +
                            std::to_string(table_.names.size()));
     std::vector<double> row;
-    for (const std::string& word : words) {
-      const auto value = parse_number(word);
-      if (!value) scanner_.fail_at(begin, end, quoted(word) + " is no number");
-      row.push_back(*value);
+    for (size_t n = 0; n < words.size(); ++n) {
+      const auto value = number_in(words[n]);
+      if (table_.rows.empty()) is_of_words_[n] = !value && !words[n].empty();
+      if (!value && !is_of_words_[n]) scanner_.fail_at(begin, end, quoted(words[n]) + " is no number");
+      if (value && is_of_words_[n])
+        scanner_.fail_at(begin, end, "the column " + quoted(table_.names[n]) + " has words, and here a number");
+      row.push_back(value.value_or(0));
     }
     table_.rows.push_back(std::move(row));
     table_.places.emplace_back(begin, end);
+  }
+
+  static char separator_of(std::string_view line) {
+    for (const char separator : {';', '\t'})
+      if (line.find(separator) != std::string_view::npos) return separator;
+    return ',';
+  }
+
+  // Where commas do not separate, they are decimal.
+  std::optional<double> number_in(std::string word) const {
+    if (separator_ != ',') std::ranges::replace(word, ',', '.');
+    return parse_number(word);
+  }
+
+  // Columns of words cannot be asked for.
+  void leave_out_words() {
+    const auto erase = [&](auto& list) {
+      size_t n = 0;
+      std::erase_if(list, [&](const auto&) { return is_of_words_[n++]; });
+    };
+    erase(table_.names);
+    for (std::vector<double>& row : table_.rows) erase(row);
   }
 
   static std::string_view unquoted(std::string_view word) {
@@ -68,6 +97,7 @@ class CsvReader {
   TextScanner scanner_;
   std::string_view bytes_;
   char separator_ = ',';
+  std::vector<bool> is_of_words_;  // by column: true if its first row has a word
   CsvTable table_;
 };
 
@@ -90,8 +120,7 @@ std::string common_stem(const std::vector<std::string>& names, size_t first, con
     if (n > 0 && own != stem) return "";
     stem = own;
   }
-  while (!stem.empty() && (stem.back() == '.' || stem.back() == '_' || stem.back() == '-' || stem.back() == ' '))
-    stem.pop_back();
+  while (!stem.empty() && std::string_view("._-: ").find(stem.back()) != std::string_view::npos) stem.pop_back();
   return stem;
 }
 
@@ -109,6 +138,10 @@ std::vector<ColumnGroup> groups_of(const std::vector<std::string>& names, size_t
   static const std::vector<Pattern> patterns{{{"xx", "yy", "zz", "xy", "yz", "zx"}, {0, 1, 2, 3, 4, 5}},
                                              {{"xx", "yy", "zz", "xy", "xz", "yz"}, {0, 1, 2, 3, 5, 4}},
                                              {{"11", "22", "33", "12", "13", "23"}, {0, 1, 2, 3, 5, 4}},
+                                             {{":0", ":1", ":2", ":3", ":4", ":5"}, {0, 1, 2, 3, 4, 5}},
+                                             {{":0", ":1", ":2"}, {0, 1, 2}},
+                                             {{"_0", "_1", "_2", "_3", "_4", "_5"}, {0, 1, 2, 3, 4, 5}},
+                                             {{"_0", "_1", "_2"}, {0, 1, 2}},
                                              {{"x", "y", "z"}, {0, 1, 2}},
                                              {{"1", "2", "3"}, {0, 1, 2}}};
   std::vector<ColumnGroup> groups;
@@ -152,6 +185,9 @@ void add_csv_values(const std::string& name, std::string_view bytes, NumberedRes
   // In a table without names, three values are a displacement.
   if (!table.has_names && table.names.size() == 4) table.names = {"node", "dx", "dy", "dz"};
   if (!table.has_names && table.names.size() == 2) table.names = {"node", "value"};
+  if (mesh.is_of_several_parts)
+    scanner.fail_at(0, 0, "the deck has several parts or instances, so that a number may stand for several nodes",
+                    "take the results from a .vtu, .frd or .xdmf file");
   const bool is_of_elements = to_lower(table.names[0]).starts_with("el");
   const auto& known = is_of_elements ? mesh.element_places : mesh.node_places;
   const std::string what = is_of_elements ? "element" : "node";
@@ -170,9 +206,34 @@ void add_csv_values(const std::string& name, std::string_view bytes, NumberedRes
   add_fields(table, 1, places, is_given.size(), is_of_elements, mesh.results);
 }
 
+namespace {
+
+// Moves the columns of coordinates, which ParaView names Points:0 to Points:2 or Points_0 to Points_2, to the front.
+void put_points_first(CsvTable& table) {
+  for (const char* separator : {":", "_"})
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto is_point = [&](const std::string& name) {
+        return to_lower(name) == "points" + (separator + std::to_string(axis));
+      };
+      const auto found = std::ranges::find_if(table.names, is_point);
+      if (found == table.names.end()) break;
+      const auto place = found - table.names.begin();
+      const auto move = [&](auto& list) {
+        const auto to = list.begin() + static_cast<ptrdiff_t>(axis);
+        if (list.begin() + place > to) std::rotate(to, list.begin() + place, list.begin() + place + 1);
+      };
+      move(table.names);
+      for (std::vector<double>& row : table.rows) move(row);
+      table.names[axis] = std::string(1, "xyz"[axis]);
+    }
+}
+
+}  // namespace
+
 Results read_csv_points(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
   CsvTable table = CsvReader(name, bytes, diagnostics).run();
   const TextScanner scanner(name, bytes, diagnostics);
+  put_points_first(table);
   if (table.names.size() < 4) scanner.fail_at(0, 0, "expected the columns x, y and z, and columns of values");
   for (size_t axis = 0; axis < 3 && table.has_names; ++axis)
     if (to_lower(table.names[axis]).substr(0, 1) != std::string(1, "xyz"[axis]))

@@ -22,14 +22,16 @@ Results read_frd(const std::string& name, std::string_view bytes, Diagnostics& d
 struct NumberedResults {
   Results results;
   std::unordered_map<uint64_t, uint32_t> node_places, element_places;
+  bool is_of_several_parts = false;  // numbers may stand for several nodes and elements
 
   // Adds a node. Returns false if the number is already used.
   bool add_node(uint64_t number, Vec3 point);
   // Adds an element. Returns an error message, or an empty text.
   std::string add_element(ElementKind kind, uint64_t number, std::span<const uint64_t> nodes);
 };
-// Reads the mesh of an Abaqus or CalculiX deck.
-NumberedResults read_inp(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+// Reads the mesh of an Abaqus or CalculiX deck. `beside` has the files that it includes.
+NumberedResults read_inp(const std::string& name, std::string_view bytes, const std::vector<ResultsFile>& beside,
+                         Diagnostics& diagnostics);
 
 // Reads a CSV file whose first column contains numbers of nodes ("node") or elements ("element") of the mesh.
 void add_csv_values(const std::string& name, std::string_view bytes, NumberedResults& mesh, Diagnostics& diagnostics);

@@ -107,7 +107,7 @@ TEST(Results, WhatIsWrongIsSaid) {
   };
   says("<nothing", "XML");
   says(with("UnstructuredGrid", "ImageData"), "no unstructured grid");
-  says(with(">10<", ">14<"), "type 14");
+  says(with(">10<", ">26<"), "type 26");
   says(with(">10<", ">12<"), "8 nodes");
   says(with("0 1 2 3", "0 1 2 4"), "names point 4");
   says(with("0 1 2 3", "0 1 2"), "cut off");
@@ -166,7 +166,7 @@ std::optional<Results> read_with(const std::string& text, const std::string& tab
   Diagnostics diagnostics;
   std::optional<ResultsFile> values;
   if (!table.empty()) values = {"a.csv", table};
-  auto results = read_results("a.inp", text, values, diagnostics);
+  auto results = read_results("a.inp", text, {values, {}}, diagnostics);
   said = to_text(diagnostics);
   return results;
 }
@@ -241,7 +241,7 @@ TEST(Results, WrongDecksAndTablesAreReported) {
   says(with("7, 0,2,0", "1, 0,2,0"), "", "a.inp:6:1: error: node 1 comes twice");
   says(with("7, 9\n", "77, 9\n"), "", "names node 77");
   says(with("4, 5, 7, 9, 10", "4, 5, 7"), "", "has 2 nodes");
-  says(with("C3D4H", "C3D6"), "", "not read");
+  says(with("C3D4H", "C3D15"), "", "not read");
   says(with("C3D4H", "C3D" + std::string(30, '8')), "", "no solid elements");
   says(with("0,0,3", "0,zero,3"), "", "\"zero\"");
   says("*NODE\n1,0,0,0\n", "", "no solid elements");
@@ -250,6 +250,56 @@ TEST(Results, WrongDecksAndTablesAreReported) {
   says(deck, "node,v\n1\n", "has 1 values");
   says("1,2,3,4", "node,v\n1,1\n", "belongs to a mesh");
   says("node,v\n1,2\n", "", "columns x, y and z");
+}
+
+TEST(Results, TablesOfOtherPrograms) {
+  const auto expect_read = [](const std::string& table) {
+    std::string said;
+    const auto results = read_with(table, "", said);
+    ASSERT_TRUE(results) << said << table;
+    EXPECT_EQ(results->points, (std::vector<Vec3>{{1, 2, 3.5}, {4, 5, 6}})) << table;
+    ASSERT_EQ(results->fields.size(), 2U) << table;
+    EXPECT_EQ(results->fields[0].name, "t");
+    EXPECT_EQ(results->fields[0].values, (std::vector<double>{20, 30}));
+    EXPECT_EQ(results->fields[1].components, 3U) << table;
+    EXPECT_EQ(results->fields[1].values, (std::vector<double>{7, 8, 9, 10, 11, 12}));
+  };
+  const std::string plain = "x,y,z,t,move_x,move_y,move_z\n1,2,3.5,20,7,8,9\n4,5,6,30,10,11,12\n";
+  expect_read(plain);
+  expect_read("\xEF\xBB\xBF" + plain);
+  expect_read("x;y;z;t;move_x;move_y;move_z\n1;2;3,5;20;7;8;9\n4;5;6;30;10;11;12\n");
+  expect_read("x,y,z,kind,t,move_x,move_y,move_z\n1,2,3.5,PLA,20,7,8,9\n4,5,6,,30,10,11,12\n");
+  for (const std::string separator : {":", "_"}) {
+    const auto three = [&](const std::string& name) {
+      return '"' + name + separator + "0\",\"" + name + separator + "1\",\"" + name + separator + "2\"";
+    };
+    expect_read("\"t\"," + three("move") + "," + three("Points") + "\n20,7,8,9,1,2,3.5\n30,10,11,12,4,5,6\n");
+  }
+  std::string said;
+  EXPECT_FALSE(read_with("x,y,z,t\n1,2,3,20\n4,5,6,warm\n", "", said));
+  EXPECT_NE(said.find(":3:1: error: \"warm\" is no number"), std::string::npos) << said;
+  EXPECT_FALSE(read_with("x,y,z,t\n1,2,3,warm\n4,5,6,20\n", "", said));
+  EXPECT_NE(said.find(":3:1: error: the column \"t\" has words, and here a number"), std::string::npos) << said;
+}
+
+TEST(Results, LagrangeCellsOfVtuAreTheKnownOnes) {
+  const Results results = read_good(vtu_of_tetrahedron("", text_points, "71"));
+  EXPECT_EQ(results.kinds, std::vector<ElementKind>{ElementKind::tetrahedron4});
+  EXPECT_NE(error_of(vtu_of_tetrahedron("", text_points, "72")).find("has not the 8 nodes of its type"),
+            std::string::npos);
+  EXPECT_NE(error_of(vtu_of_tetrahedron("", text_points, "26")).find("is of VTK's type 26"), std::string::npos);
+}
+
+TEST(Results, WideFieldsOfVtuAreLeftOut) {
+  std::string file = vtu_of_tetrahedron("", text_points);
+  const std::string six = "NumberOfComponents=\"6\" format=\"ascii\">10 0 0 0 0 0<";
+  file.replace(file.find(six), six.size(), "NumberOfComponents=\"12\" format=\"ascii\">1 2 3 4 5 6 7 8 9 10 11 12<");
+  Diagnostics diagnostics;
+  const auto results = read_results("a.vtu", file, {}, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(results->fields.size(), 1U);
+  EXPECT_NE(to_text(diagnostics).find("fields of more than 9 numbers (stress) are left out"), std::string::npos)
+      << to_text(diagnostics);
 }
 
 TEST(Results, PointsInTables) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 
 #include "base/text/text.h"
 #include "formats/containers/text_scanner.h"
@@ -16,24 +16,38 @@ namespace {
 
 using pugi::xml_node;
 
-constexpr size_t most_fields = 1000;
+constexpr size_t most_fields = 1000, most_components = 9;
 
 // The supported elements, by VTK's numbers.
 struct CellKind {
+  double type;
   ElementKind kind;
-  bool has_crossed_rows;  // nodes are ordered by x, then y, then z
+  bool has_crossed_rows = false;  // nodes are ordered by x, then y, then z
 };
-std::optional<CellKind> cell_kind(double type) {
-  static const std::map<double, CellKind> kinds{{10, {ElementKind::tetrahedron4, false}},
-                                                {11, {ElementKind::brick8, true}},
-                                                {12, {ElementKind::brick8, false}},
-                                                {24, {ElementKind::tetrahedron10, false}},
-                                                {25, {ElementKind::brick20, false}}};
-  const auto found = kinds.find(type);
-  return found == kinds.end() ? std::nullopt : std::optional(found->second);
+// Lagrange cells (71, 72) of the first order, and tetrahedra of the second, have the nodes of others.
+const std::vector<CellKind>& cell_kinds() {
+  static const std::vector<CellKind> rows{
+      {10, ElementKind::tetrahedron4},  {11, ElementKind::brick8, true}, {12, ElementKind::brick8},
+      {24, ElementKind::tetrahedron10}, {25, ElementKind::brick20},      {71, ElementKind::tetrahedron4},
+      {71, ElementKind::tetrahedron10}, {72, ElementKind::brick8},       {13, ElementKind::wedge6},
+      {73, ElementKind::wedge6},        {14, ElementKind::pyramid5},     {74, ElementKind::pyramid5}};
+  return rows;
+}
+// Returns the row of the type, of several rows that with so many nodes; null if there is none.
+const CellKind* cell_kind(double type, double nodes) {
+  const CellKind* of_type = nullptr;
+  for (const CellKind& row : cell_kinds()) {
+    if (row.type != type) continue;
+    of_type = &row;
+    if (static_cast<double>(node_count(row.kind)) == nodes) break;
+  }
+  return of_type;
 }
 // Returns true for points, lines and faces, which have no volume.
-bool is_flat_cell(double type) { return (type >= 0 && type <= 9) || (type >= 21 && type <= 23) || type == 28; }
+bool is_flat_cell(double type) {
+  return (type >= 0 && type <= 9) || (type >= 21 && type <= 23) || type == 28 || type == 30 ||
+         (type >= 34 && type <= 36) || (type >= 68 && type <= 70);
+}
 
 class VtuReader {
  public:
@@ -47,7 +61,7 @@ class VtuReader {
                     "save the results as .vtu");
     arrays_.read_settings(root);
     for (const xml_node piece : root.child("UnstructuredGrid").children("Piece")) add_piece(piece);
-    warn_of_flat_cells();
+    warn_of_left_out();
     return std::move(results_);
   }
 
@@ -98,14 +112,15 @@ class VtuReader {
     std::array<uint32_t, 20> nodes{};
     for (size_t n = 0; n < count; ++n) {
       const double begin = n == 0 ? 0 : ends[n - 1];
-      const auto kind = cell_kind(types[n]);
+      const CellKind* const kind = cell_kind(types[n], ends[n] - begin);
       if (!kind && is_flat_cell(types[n])) {
         ++flat_cells_;
         continue;
       }
       if (!kind)
         file_.fail_at(list, "cell " + std::to_string(n) + " is of VTK's type " + format_number(types[n]) +
-                                "; read are tetrahedra (10, 24), hexahedra (12, 25) and voxels (11)");
+                                "; read are tetrahedra (10, 24, 71), hexahedra (12, 25, 72), voxels (11), wedges (13, "
+                                "73) and pyramids (14, 74)");
       const size_t size = node_count(kind->kind);
       if (!(begin >= 0) || begin + static_cast<double>(size) != ends[n] || ends[n] > ends.back())
         file_.fail_at(list,
@@ -136,9 +151,10 @@ class VtuReader {
       field.is_of_elements = is_of_elements;
       field.components =
           file_.count(array, file_.attribute(array, "NumberOfComponents").value_or("1"), "a number of components");
-      if (field.components < 1 || field.components > 9)
-        file_.fail_at(array, "the field " + formats::quoted(field.name) + " has " + std::to_string(field.components) +
-                                 " components; 1 to 9 are read");
+      if (field.components < 1 || field.components > most_components) {
+        wide_fields_.insert(field.name);
+        continue;
+      }
       const std::vector<double> numbers = numbers_of(array, field.components * is_kept.size());
       ResultField& all = field_of(field, before);
       for (size_t n = 0; n < is_kept.size(); ++n)
@@ -171,10 +187,14 @@ class VtuReader {
       if (field.is_of_elements == is_of_elements) field.values.resize(count * field.components, std::nan(""));
   }
 
-  void warn_of_flat_cells() const {
-    if (flat_cells_ == 0) return;
-    file_.diagnostics().warning({make_source(file_.name(), ""), 0, 0},
-                                format_count(flat_cells_) + " points, lines or faces of the grid are left out");
+  void warn_of_left_out() const {
+    const auto warn = [&](const std::string& what) {
+      file_.diagnostics().warning({make_source(file_.name(), ""), 0, 0}, what + " are left out");
+    };
+    if (flat_cells_ > 0) warn(format_count(flat_cells_) + " points, lines or faces of the grid");
+    if (!wide_fields_.empty())
+      warn("fields of more than " + std::to_string(most_components) + " numbers (" +
+           join(std::vector<std::string>(wide_fields_.begin(), wide_fields_.end()), ", ") + ")");
   }
 
   std::vector<double> numbers_of(xml_node array, uint64_t count) const { return arrays_.numbers(array, count); }
@@ -184,6 +204,7 @@ class VtuReader {
   std::string_view bytes_;
   Results results_;
   uint64_t flat_cells_ = 0;
+  std::set<std::string> wide_fields_;  // names
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Reads uniform grids of XDMF 3, whose numbers are in the text or in an HDF5 file.
 #ifdef OMBRE_3MF
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/text/error.h"
 #include "base/text/text.h"
@@ -22,7 +24,34 @@ std::optional<ElementKind> element_kind(std::string_view topology) {
   if (name == "tetrahedron_10" || name == "tet_10") return ElementKind::tetrahedron10;
   if (name == "hexahedron") return ElementKind::brick8;
   if (name == "hexahedron_20" || name == "hex_20") return ElementKind::brick20;
+  if (name == "wedge") return ElementKind::wedge6;
+  if (name == "pyramid") return ElementKind::pyramid5;
   return std::nullopt;
+}
+
+// The codes of elements in a topology of the type Mixed (XdmfTopologyType). Those without a kind have no volume.
+struct MixedKind {
+  size_t nodes = 0;  // 0: the list says how many
+  std::optional<ElementKind> kind = {};
+};
+std::optional<MixedKind> mixed_kind(double code) {
+  static const std::map<double, MixedKind> kinds{{1, {}},
+                                                 {2, {}},
+                                                 {3, {}},
+                                                 {4, {3}},
+                                                 {5, {4}},
+                                                 {6, {4, ElementKind::tetrahedron4}},
+                                                 {7, {5, ElementKind::pyramid5}},
+                                                 {8, {6, ElementKind::wedge6}},
+                                                 {9, {8, ElementKind::brick8}},
+                                                 {34, {3}},
+                                                 {35, {9}},
+                                                 {36, {6}},
+                                                 {37, {8}},
+                                                 {38, {10, ElementKind::tetrahedron10}},
+                                                 {48, {20, ElementKind::brick20}}};
+  const auto found = kinds.find(code);
+  return found == kinds.end() ? std::nullopt : std::optional(found->second);
 }
 
 class XdmfReader {
@@ -43,6 +72,10 @@ class XdmfReader {
     add_points(child_of(grid, "Geometry"));
     add_elements(child_of(grid, "Topology"));
     for (const xml_node attribute : grid.children("Attribute")) add_field(attribute);
+    if (const auto flat = std::ranges::count(is_kept_, false); flat > 0)
+      file_.diagnostics().warning(
+          {make_source(file_.name(), ""), 0, 0},
+          format_count(static_cast<uint64_t>(flat)) + " points, lines or faces of the grid are left out");
     return std::move(results_);
   }
 
@@ -104,25 +137,51 @@ class XdmfReader {
 
   void add_elements(xml_node topology) {
     const std::string_view type = file_.required(topology, "TopologyType");
+    if (to_lower(type) == "mixed") return add_mixed(topology, numbers_of(topology));
     const auto kind = element_kind(type);
     if (!kind)
       file_.fail_at(topology, "elements of the type " + quoted(type) +
-                                  " are not read; read are Tetrahedron, Tetrahedron_10, Hexahedron and Hexahedron_20");
+                                  " are not read; read are Tetrahedron, Tetrahedron_10, Hexahedron, Hexahedron_20, "
+                                  "Wedge, Pyramid and Mixed");
     const std::vector<double> numbers = numbers_of(topology);
     const size_t each = node_count(*kind);
     if (numbers.empty() || numbers.size() % each != 0)
       file_.fail_at(topology, "expected " + std::to_string(each) + " nodes for each element, found " +
                                   std::to_string(numbers.size()));
+    for (size_t n = 0; n < numbers.size(); n += each) add_element(topology, *kind, &numbers[n]);
+  }
+
+  void add_element(xml_node topology, ElementKind kind, const double* numbers) {
     std::array<uint32_t, 20> nodes{};
-    for (size_t n = 0; n < numbers.size(); n += each) {
-      for (size_t c = 0; c < each; ++c) {
-        if (!(numbers[n + c] >= 0 && numbers[n + c] < static_cast<double>(results_.points.size())))
-          file_.fail_at(topology, "element " + std::to_string(n / each) + " names point " +
-                                      format_number(numbers[n + c]) + "; there are " +
-                                      std::to_string(results_.points.size()));
-        nodes[c] = static_cast<uint32_t>(numbers[n + c]);
-      }
-      results_.add_element(*kind, nodes.data());
+    for (size_t c = 0; c < node_count(kind); ++c) {
+      if (!(numbers[c] >= 0 && numbers[c] < static_cast<double>(results_.points.size())))
+        file_.fail_at(topology, "element " + std::to_string(is_kept_.size()) + " names point " +
+                                    format_number(numbers[c]) + "; there are " +
+                                    std::to_string(results_.points.size()));
+      nodes[c] = static_cast<uint32_t>(numbers[c]);
+    }
+    results_.add_element(kind, nodes.data());
+    is_kept_.push_back(true);
+  }
+
+  // Adds elements from a list in which each has its code before its nodes.
+  void add_mixed(xml_node topology, const std::vector<double>& numbers) {
+    for (size_t n = 0; n < numbers.size();) {
+      const auto kind = mixed_kind(numbers[n]);
+      if (!kind)
+        file_.fail_at(topology, "element " + std::to_string(is_kept_.size()) + " is of XDMF's type " +
+                                    format_number(numbers[n]) +
+                                    "; read are tetrahedra (6, 38), hexahedra (9, 48), wedges (8) and pyramids (7)");
+      size_t nodes = kind->nodes;
+      if (++n < numbers.size() && nodes == 0)
+        nodes = numbers[n] >= 0 ? static_cast<size_t>(std::min(numbers[n++], 1e9)) : 0;
+      if (n + nodes > numbers.size())
+        file_.fail_at(topology, "the last element has not the " + std::to_string(nodes) + " nodes of its type");
+      if (kind->kind)
+        add_element(topology, *kind->kind, &numbers[n]);
+      else
+        is_kept_.push_back(false);
+      n += nodes;
     }
   }
 
@@ -133,14 +192,20 @@ class XdmfReader {
     if (centre != "Node" && centre != "Cell") return;
     field.is_of_elements = centre == "Cell";
     field.values = numbers_of(attribute);
-    const size_t count = field.is_of_elements ? results_.kinds.size() : results_.points.size();
+    const size_t count = field.is_of_elements ? is_kept_.size() : results_.points.size();
     field.components = count == 0 ? 0 : field.values.size() / count;
     if (field.components < 1 || field.components > 9 || field.components * count != field.values.size())
       file_.fail_at(attribute, "the field " + quoted(field.name) + " has " + std::to_string(field.values.size()) +
                                    " numbers for " + std::to_string(count) +
                                    (field.is_of_elements ? " elements" : " nodes"));
     if (file_.attribute(attribute, "AttributeType").value_or("") == "Tensor6") reorder(field);
+    if (field.is_of_elements) leave_out_flat(field);
     results_.fields.push_back(std::move(field));
+  }
+
+  void leave_out_flat(ResultField& field) const {
+    size_t n = 0;
+    std::erase_if(field.values, [&](double) { return !is_kept_[n++ / field.components]; });
   }
 
   // Reorders xx, xy, xz, yy, yz, zz to xx, yy, zz, xy, yz, zx.
@@ -156,6 +221,7 @@ class XdmfReader {
   XmlFile file_;
   const std::optional<ResultsFile>& numbers_;
   Results results_;
+  std::vector<bool> is_kept_;  // by element of the file: false if it has no volume
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ struct GridText {
 std::optional<Results> read_grid(const GridText& grid, Diagnostics& diagnostics, const std::string& numbers = "") {
   std::optional<ResultsFile> file;
   if (!numbers.empty()) file = ResultsFile{"a.h5", numbers};
-  return read_results("a.xdmf", grid.text(), file, diagnostics);
+  return read_results("a.xdmf", grid.text(), {file, {}}, diagnostics);
 }
 
 std::string grid_error(const GridText& grid, const std::string& numbers = "") {
@@ -50,10 +50,30 @@ TEST(Xdmf, NumbersAsText) {
   EXPECT_EQ(find_field(*results, "stress")->unit, "MPa");
 }
 
-TEST(Xdmf, WhatIsWrongIsSaid) {
-  GridText mixed, short_nodes, far, series, short_field, without, odd;
+// A triangle and a line of the surface stand before the tetrahedron.
+TEST(Xdmf, MixedElementsWithoutVolumeAreLeftOut) {
+  GridText mixed;
   mixed.topology = "Mixed";
-  EXPECT_NE(grid_error(mixed).find("\"Mixed\" are not read"), std::string::npos);
+  mixed.nodes = item("4 0 1 2 2 2 0 1 6 0 1 2 3");
+  mixed.stress = item("9 9 9 9 9 9 8 8 8 8 8 8 1 4 6 2 5 3");
+  Diagnostics diagnostics;
+  const auto results = read_grid(mixed, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(results->nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(find_field(*results, "stress")->values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  EXPECT_NE(to_text(diagnostics).find("2 points, lines or faces of the grid are left out"), std::string::npos);
+}
+
+TEST(Xdmf, WhatIsWrongIsSaid) {
+  GridText wedge, short_nodes, far, series, short_field, without, odd;
+  wedge.topology = "Wedge_15";
+  EXPECT_NE(grid_error(wedge).find("\"Wedge_15\" are not read"), std::string::npos);
+  GridText mixed;
+  mixed.topology = "Mixed";
+  mixed.nodes = item("40 0 1 2 3 0 1");
+  EXPECT_NE(grid_error(mixed).find("element 0 is of XDMF's type 40"), std::string::npos);
+  mixed.nodes = item("6 0 1 2 3 6 0 1");
+  EXPECT_NE(grid_error(mixed).find("has not the 4 nodes of its type"), std::string::npos);
   short_nodes.nodes = item("0 1 2");
   EXPECT_NE(grid_error(short_nodes).find("expected 4 nodes for each element, found 3"), std::string::npos);
   far.nodes = item("0 1 2 4");

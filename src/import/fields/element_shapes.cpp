@@ -30,9 +30,24 @@ constexpr std::array<Vec3, 20> brick_places{{{-1, -1, -1}, {1, -1, -1}, {1, 1, -
                                              {0, 1, -1},   {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},   {0, 1, 1},
                                              {-1, 0, 1},   {-1, -1, 0}, {1, -1, 0}, {1, 1, 0},   {-1, 1, 0}}};
 
+constexpr std::array<Vec3, 6> wedge_places{{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+constexpr std::array<Vec3, 5> pyramid_places{{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {0, 0, 1}}};
+
 // Returns the barycentric coordinates of a point in a tetrahedron.
 std::array<double, 4> shares(Vec3 at) { return {1 - at.x - at.y - at.z, at.x, at.y, at.z}; }
 constexpr std::array<Vec3, 4> share_slopes{{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+// The weights of a wedge's nodes are those of a triangle's corners in x and y, times those of a line's ends in z.
+std::array<double, 3> triangle_shares(Vec3 at) { return {1 - at.x - at.y, at.x, at.y}; }
+constexpr std::array<Vec3, 3> triangle_slopes{{{-1, -1, 0}, {1, 0, 0}, {0, 1, 0}}};
+double end_share(Vec3 at, Vec3 node) { return 0.5 * (1 + at.z * node.z); }
+
+double wedge_weight(Vec3 at, size_t n) { return triangle_shares(at)[n % 3] * end_share(at, wedge_places[n]); }
+Vec3 wedge_slope(Vec3 at, size_t n) {
+  Vec3 slope = end_share(at, wedge_places[n]) * triangle_slopes[n % 3];
+  slope.z = 0.5 * wedge_places[n].z * triangle_shares(at)[n % 3];
+  return slope;
+}
 
 // Returns 1 + a*b for each axis, for a node at b.
 Vec3 factors(Vec3 at, Vec3 node) { return {1 + at.x * node.x, 1 + at.y * node.y, 1 + at.z * node.z}; }
@@ -41,6 +56,14 @@ double product(Vec3 f) { return f.x * f.y * f.z; }
 Vec3 product_slope(Vec3 f, Vec3 node) { return {node.x * f.y * f.z, node.y * f.x * f.z, node.z * f.x * f.y}; }
 // Returns the axis along which a node lies between corners: its factor there is 1 - a*a.
 int free_axis(Vec3 node) { return node.x == 0 ? 0 : node.y == 0 ? 1 : 2; }
+
+double pyramid_weight(Vec3 at, size_t n) {
+  return n == 4 ? end_share(at, {0, 0, 1}) : 0.125 * product(factors(at, pyramid_places[n]));
+}
+Vec3 pyramid_slope(Vec3 at, size_t n) {
+  if (n == 4) return {0, 0, 0.5};
+  return 0.125 * product_slope(factors(at, pyramid_places[n]), pyramid_places[n]);
+}
 
 double brick20_weight(Vec3 at, size_t n) {
   const Vec3 node = brick_places[n];
@@ -136,6 +159,16 @@ Sides make_brick_sides(bool is_quadratic) {
   return sides;
 }
 
+// Makes sides of elements without nodes between corners; sides of four corners are cut along the first diagonal.
+Sides make_flat_sides(const std::vector<std::vector<uint8_t>>& corners) {
+  Sides sides;
+  for (const std::vector<uint8_t>& side : corners) {
+    sides.push_back({side, {{side[0], side[1], side[2]}}});
+    if (side.size() == 4) sides.back().triangles.push_back({side[0], side[2], side[3]});
+  }
+  return sides;
+}
+
 // Solves a linear system of three equations with these columns. Returns false if the columns are linearly dependent.
 bool solve(const std::array<Vec3, 3>& columns, Vec3 right, Vec3& solution) {
   const Vec3 normal = cross(columns[1], columns[2]);
@@ -158,7 +191,10 @@ void shape_weights(ElementKind kind, Vec3 at, std::span<double> weights) {
     return;
   }
   for (size_t n = 0; n < node_count(kind); ++n)
-    weights[n] = kind == ElementKind::brick8 ? 0.125 * product(factors(at, brick_places[n])) : brick20_weight(at, n);
+    weights[n] = kind == ElementKind::brick8     ? 0.125 * product(factors(at, brick_places[n]))
+                 : kind == ElementKind::wedge6   ? wedge_weight(at, n)
+                 : kind == ElementKind::pyramid5 ? pyramid_weight(at, n)
+                                                 : brick20_weight(at, n);
 }
 
 void shape_slopes(ElementKind kind, Vec3 at, std::span<Vec3> slopes) {
@@ -173,18 +209,29 @@ void shape_slopes(ElementKind kind, Vec3 at, std::span<Vec3> slopes) {
     return;
   }
   for (size_t n = 0; n < node_count(kind); ++n)
-    slopes[n] = kind == ElementKind::brick8 ? 0.125 * product_slope(factors(at, brick_places[n]), brick_places[n])
-                                            : brick20_slope(at, n);
+    slopes[n] = kind == ElementKind::brick8     ? 0.125 * product_slope(factors(at, brick_places[n]), brick_places[n])
+                : kind == ElementKind::wedge6   ? wedge_slope(at, n)
+                : kind == ElementKind::pyramid5 ? pyramid_slope(at, n)
+                                                : brick20_slope(at, n);
 }
 
-Vec3 middle_of(ElementKind kind) { return is_tetrahedron(kind) ? Vec3{0.25, 0.25, 0.25} : Vec3{}; }
+Vec3 middle_of(ElementKind kind) {
+  if (kind == ElementKind::wedge6) return {1.0 / 3, 1.0 / 3, 0};
+  return is_tetrahedron(kind) ? Vec3{0.25, 0.25, 0.25} : Vec3{};
+}
 
 bool is_in_element(ElementKind kind, Vec3 at, double room) {
   if (is_tetrahedron(kind)) return std::ranges::all_of(shares(at), [&](double share) { return share >= -room; });
+  if (kind == ElementKind::wedge6)
+    return std::abs(at.z) <= 1 + room && std::ranges::all_of(triangle_shares(at), [&](double s) { return s >= -room; });
   return std::abs(at.x) <= 1 + room && std::abs(at.y) <= 1 + room && std::abs(at.z) <= 1 + room;
 }
 
 Vec3 clamped_to(ElementKind kind, Vec3 at) {
+  if (kind == ElementKind::wedge6) {
+    const double x = std::max(at.x, 0.0), y = std::max(at.y, 0.0), sum = std::max(x + y, 1.0);
+    return {x / sum, y / sum, std::clamp(at.z, -1.0, 1.0)};
+  }
   if (!is_tetrahedron(kind))
     return {std::clamp(at.x, -1.0, 1.0), std::clamp(at.y, -1.0, 1.0), std::clamp(at.z, -1.0, 1.0)};
   const Vec3 kept{std::max(at.x, 0.0), std::max(at.y, 0.0), std::max(at.z, 0.0)};
@@ -193,6 +240,8 @@ Vec3 clamped_to(ElementKind kind, Vec3 at) {
 }
 
 std::span<const Vec3> node_places(ElementKind kind) {
+  if (kind == ElementKind::wedge6) return wedge_places;
+  if (kind == ElementKind::pyramid5) return pyramid_places;
   const std::span<const Vec3> all = is_tetrahedron(kind) ? std::span<const Vec3>(tetrahedron_places) : brick_places;
   return all.first(node_count(kind));
 }
@@ -220,7 +269,7 @@ bool place_in_element(ElementKind kind, std::span<const Vec3> nodes, Vec3 target
         columns[axis] = columns[axis] + slopes[n][static_cast<int>(axis)] * nodes[n];
     }
     Vec3 change;
-    if (!solve(columns, target - here, change)) return false;
+    if (!solve(columns, target - here, change)) break;  // as at the tip of a pyramid
     at = at + change;
     if (kind == ElementKind::tetrahedron4) return true;
     const double size = length(change);
@@ -242,13 +291,14 @@ namespace {
 
 // Returns the neighbours of the first node along each reference axis.
 std::array<size_t, 3> nodes_along_axes(ElementKind kind) {
-  if (is_tetrahedron(kind)) return {1, 2, 3};
+  if (is_tetrahedron(kind) || kind == ElementKind::wedge6) return {1, 2, 3};
   return {1, 3, 4};
 }
 
 }  // namespace
 
 bool is_affine(ElementKind kind, std::span<const Vec3> nodes) {
+  if (kind == ElementKind::pyramid5) return false;
   constexpr double rounding = 1e-13;
   const auto along = nodes_along_axes(kind);
   const std::span<const Vec3> places = node_places(kind);
@@ -274,12 +324,18 @@ bool place_in_affine_element(ElementKind kind, std::span<const Vec3> nodes, Vec3
   Vec3 shares;
   if (!solve(edges, target - nodes[0], shares)) return false;
   at = is_tetrahedron(kind) ? shares : 2 * shares - Vec3{1, 1, 1};
+  if (kind == ElementKind::wedge6) at = {shares.x, shares.y, 2 * shares.z - 1};
   return true;
 }
 
 const std::vector<ElementSide>& sides_of(ElementKind kind) {
-  static const std::array<Sides, 4> all{make_tetrahedron_sides(false), make_tetrahedron_sides(true),
-                                        make_brick_sides(false), make_brick_sides(true)};
+  static const std::array<Sides, formats::element_kinds> all{
+      make_tetrahedron_sides(false),
+      make_tetrahedron_sides(true),
+      make_brick_sides(false),
+      make_brick_sides(true),
+      make_flat_sides({{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}),
+      make_flat_sides({{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}})};
   return all[static_cast<size_t>(kind)];
 }
 

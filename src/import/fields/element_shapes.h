@@ -1,7 +1,8 @@
 // Shape functions of finite elements, which interpolate values at the nodes within the element.
 //
 // Places in an element are reference coordinates: from -1 to 1 along each axis of a brick; in a tetrahedron, the
-// barycentric coordinates of nodes 2, 3 and 4. Source: T. J. R. Hughes, The Finite Element Method, 2000, chapter 3.
+// barycentric coordinates of nodes 2, 3 and 4. Along z a wedge is a brick, and a tetrahedron across; a pyramid is a
+// brick whose upper nodes are one. Source: T. J. R. Hughes, The Finite Element Method, 2000, chapter 3.
 #pragma once
 
 #include <span>

@@ -12,14 +12,16 @@
 #include "formats/results/results.h"
 #include "jobs/common/session.h"
 #include "sources/result_border.h"
+#include "sources/result_files.h"
 
 namespace ombre::jobs {
 namespace {
 
-constexpr std::array<std::string_view, 4> kind_names{"C3D4", "C3D10", "C3D8", "C3D20"};
+constexpr std::array<std::string_view, formats::element_kinds> kind_names{"C3D4",  "C3D10", "C3D8",
+                                                                          "C3D20", "C3D6",  "C3D5"};
 
-std::array<size_t, 4> counts_of_kinds(const formats::Results& results) {
-  std::array<size_t, 4> counts{};
+std::array<size_t, formats::element_kinds> counts_of_kinds(const formats::Results& results) {
+  std::array<size_t, formats::element_kinds> counts{};
   for (const formats::ElementKind kind : results.kinds) ++counts[static_cast<size_t>(kind)];
   return counts;
 }
@@ -94,11 +96,12 @@ bool is_results(const std::string& path) { return sources::has_elements(path); }
 int show_results(const std::string& path, Session& session) {
   Diagnostics diagnostics;
   const std::string bytes = formats::read_file(path);
-  std::optional<formats::ResultsFile> numbers;
+  const sources::ResultFiles named = sources::result_files(path, bytes);
+  formats::ResultsBeside files{{}, named.files()};
   const std::string beside = sources::numbers_beside(path);
   const std::string beside_bytes = beside.empty() ? "" : formats::read_file(beside);
-  if (!beside.empty()) numbers = formats::ResultsFile{beside, beside_bytes};
-  const auto results = formats::read_results(path, bytes, numbers, diagnostics);
+  if (!beside.empty()) files.values = formats::ResultsFile{beside, beside_bytes};
+  const auto results = formats::read_results(path, bytes, files, diagnostics);
   session.events.diagnose(diagnostics);
   if (!results) return wrong_input;
   if (session.events.wants_data())

@@ -1,0 +1,72 @@
+// A part of a deck: its nodes, elements and sets, and what generates more of them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "formats/results/deck.h"
+
+namespace ombre::formats {
+
+class DeckPart {
+ public:
+  using Set = std::vector<uint64_t>;
+
+  struct Node {
+    uint64_t number = 0;
+    Vec3 at;
+  };
+  struct Element {
+    uint64_t number = 0;
+    size_t first = 0;  // of its nodes
+    ElementKind kind = ElementKind::brick8;
+    DeckLine line;
+  };
+
+  // Both stand in the order in which they were added.
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Element>& elements() const { return elements_; }
+  // Returns the numbers of the element's nodes, which need not be there.
+  std::span<const uint64_t> nodes_of(const Element& element) const;
+  // Returns the place of a node in nodes(). Reports an error at the element's line if the node is not there.
+  uint32_t place_of(const Element& element, uint64_t node) const;
+  bool has_element(uint64_t number) const { return element_places_.contains(number); }
+
+  // These report an error at the line if the number is taken. The name of the set may be empty.
+  void add_node(const DeckLine& line, uint64_t number, Vec3 at, const std::string& set);
+  void add_element(const DeckLine& line, uint64_t number, ElementKind kind, std::span<const uint64_t> nodes,
+                   const std::string& set);
+
+  // Each takes a line of data below the keyword.
+  void add_to_node_set(const Keyword& nset, const DeckLine& line);
+  void add_to_element_set(const Keyword& elset, const DeckLine& line);
+  void generate_nodes(const Keyword& ngen, const DeckLine& line);
+  void fill_nodes(const Keyword& nfill, const DeckLine& line);
+  void generate_elements(const Keyword& elgen, const DeckLine& line);
+
+  void copy_nodes(const Keyword& ncopy, const Affine& move);
+  void copy_elements(const Keyword& elcopy);
+
+ private:
+  using Sets = std::map<std::string, Set, std::less<>>;
+
+  // Returns the set, or the one node whose number the name is. Sets are sorted unless they say that they are not.
+  Set node_set(const DeckLine& line, std::string_view name) const;
+  Vec3 node_at(const DeckLine& line, uint64_t number) const;
+  Element element_at(const DeckLine& line, uint64_t number) const;
+  void copy_element(const DeckLine& line, const Element& master, int64_t by, int64_t nodes_by, const std::string& set);
+
+  std::vector<Node> nodes_;
+  std::vector<Element> elements_;
+  std::vector<uint64_t> element_nodes_;
+  std::unordered_map<uint64_t, uint32_t> node_places_, element_places_;
+  Sets node_sets_, element_sets_;
+  std::set<std::string> unsorted_sets_;
+};
+
+}  // namespace ombre::formats

@@ -1,0 +1,194 @@
+// Tests decks: assemblies, systems, generators, included files, and what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math/box.h"
+#include "formats/results/results.h"
+
+namespace ombre::formats {
+namespace {
+
+const std::string cube_nodes =
+    "1, 0, 0, 0\n2, 10, 0, 0\n3, 10, 10, 0\n4, 0, 10, 0\n5, 0, 0, 10\n6, 10, 0, 10\n7, 10, 10, 10\n8, 0, 10, 10\n";
+const std::string cube_element = "1, 1, 2, 3, 4, 5, 6, 7, 8\n";
+const std::string cube = "*NODE\n" + cube_nodes + "*ELEMENT, TYPE=C3D8\n" + cube_element;
+
+struct Deck {
+  std::optional<Results> results;
+  std::string said;
+
+  explicit Deck(const std::string& text, const std::vector<ResultsFile>& named = {},
+                const std::optional<ResultsFile>& values = {}) {
+    Diagnostics diagnostics;
+    results = read_results("a.inp", text, {values, named}, diagnostics);
+    said = to_text(diagnostics);
+  }
+
+  size_t elements() const { return results ? results->kinds.size() : 0; }
+  Box box_of(size_t element) const {
+    Box box;
+    for (size_t n = 0; n < node_count(results->kinds[element]); ++n) {
+      const Vec3 p = results->points[results->nodes[results->first[element] + n]];
+      box = hull(box, Box{p, p});
+    }
+    return box;
+  }
+};
+
+void expect_box(const Box& box, Vec3 lo, Vec3 hi) {
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(box.lo[axis], lo[axis], 1e-9);
+    EXPECT_NEAR(box.hi[axis], hi[axis], 1e-9);
+  }
+}
+
+// Checks that the deck is one cube of 10 mm whose least corner is this.
+void expect_cube(const std::string& text, Vec3 lo = {}) {
+  const Deck deck(text);
+  ASSERT_EQ(deck.elements(), 1U) << deck.said << text;
+  expect_box(deck.box_of(0), lo, lo + Vec3{10, 10, 10});
+}
+
+void expect_refused(const std::string& text, const std::string& what) {
+  const Deck deck(text);
+  EXPECT_FALSE(deck.results) << text;
+  EXPECT_NE(deck.said.find(what), std::string::npos) << deck.said;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST(Decks, AreReadInAllSpellings) {
+  expect_cube("\xEF\xBB\xBF" + cube);
+  expect_cube(replaced(cube, "1, 0, 0, 0", "1, , , 0"));
+  expect_cube(replaced(cube, "2, 10, 0, 0", "2, 1.0D+01, 0, 0."));
+  expect_cube(replaced(cube, "2, 10, 0, 0", "2, 1.0+1"));
+  expect_cube(replaced(cube, "TYPE=C3D8", "ELSET=body,\n  TYPE = C3D8"));
+  expect_cube("*ELEMENT, TYPE=C3D8\n" + cube_element + "* NODE , NSET=all\n" + cube_nodes);
+  expect_cube(replaced(cube, "1, 1, 2, 3, 4, 5,", "1, 1, 2, 3, 4,\n5,"));
+}
+
+TEST(Decks, SolidFamiliesAreBricks) {
+  for (const char* type : {"C3D8R", "DC3D8", "SC8R", "COH3D8", "GK3D8", "c3d8i"})
+    expect_cube(replaced(cube, "C3D8", type));
+  for (const char* type : {"S4R", "SFM3D8", "CONN3D2"})
+    expect_refused(replaced(cube, "C3D8", type), "(" + std::string(type) + ") are left out");
+  expect_refused(replaced(cube, "C3D8", "C3D27"), "elements of the type \"c3d27\" are not read");
+}
+
+TEST(Decks, InstancesAreMovedAndTurned) {
+  const std::string part = "*PART, NAME=block\n" + cube + "*END PART\n*ASSEMBLY, NAME=all\n";
+  const Deck deck(
+      part + "*INSTANCE, NAME=a, PART=Block\n*END INSTANCE\n*INSTANCE, NAME=b, PART=block\n20.\n" +
+      // The turn about the z axis through (20, 0, 0) takes x from 20 ... 30 to y from 0 ... 10, and y to -x.
+      "*END INSTANCE\n*INSTANCE, NAME=c, PART=block\n20., 0., 0.\n20, 0, 0, 20, 0, 1, 90\n*END INSTANCE\n"
+      "*END ASSEMBLY\n");
+  ASSERT_EQ(deck.elements(), 3U) << deck.said;
+  expect_box(deck.box_of(0), {0, 0, 0}, {10, 10, 10});
+  expect_box(deck.box_of(1), {20, 0, 0}, {30, 10, 10});
+  expect_box(deck.box_of(2), {10, 0, 0}, {20, 10, 10});
+  expect_refused(part + "*INSTANCE, NAME=a, PART=rod\n*END INSTANCE\n", "a.inp:15:1: error: there is no part \"rod\"");
+  expect_refused(part + "*INSTANCE, LIBRARY=old, INSTANCE=a\n", "comes from another analysis");
+}
+
+TEST(Decks, PartsMayShareNumbers) {
+  const std::string parts =
+      "*PART, NAME=a\n" + cube + "*END PART\n*PART, NAME=b\n*SYSTEM\n20, 0, 0\n" + cube + "*END PART\n";
+  const Deck both(parts);
+  ASSERT_EQ(both.elements(), 2U) << both.said;
+  expect_box(both.box_of(1), {20, 0, 0}, {30, 10, 10});
+  const Deck one(parts + "*ASSEMBLY, NAME=all\n*INSTANCE, NAME=b-1, PART=b\n*END INSTANCE\n*END ASSEMBLY\n");
+  ASSERT_EQ(one.elements(), 1U) << one.said;
+  EXPECT_NE(one.said.find("1 parts of which the assembly has no instance are left out"), std::string::npos) << one.said;
+  const Deck with_values(parts, {}, ResultsFile{"a.csv", "node,v\n1,2\n"});
+  EXPECT_NE(with_values.said.find("a number may stand for several nodes"), std::string::npos) << with_values.said;
+}
+
+TEST(Decks, MeshesMayStandInTheInstance) {
+  const Deck deck("*PART, NAME=a\n*END PART\n*ASSEMBLY, NAME=all\n*INSTANCE, NAME=a-1, PART=a\n5, 0, 0\n" + cube +
+                  "*END INSTANCE\n*END ASSEMBLY\n");
+  ASSERT_EQ(deck.elements(), 1U) << deck.said;
+  expect_box(deck.box_of(0), {5, 0, 0}, {15, 10, 10});
+}
+
+TEST(Decks, SystemsHoldForTheNodesThatFollow) {
+  expect_cube("*SYSTEM\n100., 0., 0.\n" + cube, {100, 0, 0});
+  expect_cube("*SYSTEM\n100., 0., 0.\n*SYSTEM\n" + cube);
+  // The x axis of the system is y, its y axis is -x.
+  expect_cube("*SYSTEM\n0, 0, 0, 0, 1, 0\n-1, 0, 0\n" + cube, {-10, 0, 0});
+  expect_refused("*SYSTEM\n0, 0, 0, 1, 0, 0\n2, 0, 0\n" + cube, "lie on a line");
+}
+
+TEST(Decks, NodesMayBeCylindricalAndSpherical) {
+  const Deck round(
+      "*NODE, SYSTEM=C\n1, 2, 90, 3\n*NODE, SYSTEM=S\n2, 2, 90, 30\n*NODE\n3, 5\n4, 0, 5\n"
+      "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n");
+  ASSERT_TRUE(round.results) << round.said;
+  EXPECT_NEAR(length(round.results->points[0] - Vec3{0, 2, 3}), 0, 1e-12);
+  EXPECT_NEAR(length(round.results->points[1] - Vec3{0, std::sqrt(3.0), 1}), 0, 1e-12);
+  expect_refused("*NODE, SYSTEM=Q\n1, 0, 0, 0\n", "expected SYSTEM=R, C or S");
+}
+
+// A bar of four bricks from its two end faces.
+TEST(Decks, GeneratorsMakeNodesAndElements) {
+  const std::string ends =
+      "*NODE, NSET=left\n1, 0, 0, 0\n2, 0, 1, 0\n3, 0, 1, 1\n4, 0, 0, 1\n*NODE, NSET=right\n41, 4, 0, 0\n42, 4, 1, 0\n"
+      "43, 4, 1, 1\n44, 4, 0, 1\n";
+  const std::string bricks = "*ELEMENT, TYPE=C3D8, ELSET=all\n1, 1, 11, 12, 2, 4, 14, 13, 3\n";
+  const std::string row = "*ELGEN, ELSET=all\n1, 4, 10, 1\n";
+  for (const std::string& between : {std::string("*NFILL\nleft, right, 4, 10\n"),
+                                     std::string("*NGEN\n1, 41, 10\n2, 42, 10\n3, 43, 10\n4, 44, 10\n")}) {
+    const Deck deck(ends + between + bricks + row);
+    ASSERT_EQ(deck.elements(), 4U) << deck.said;
+    for (size_t n = 0; n < 4; ++n) {
+      const auto x = static_cast<double>(n);
+      expect_box(deck.box_of(n), {x, 0, 0}, {x + 1, 1, 1});
+    }
+  }
+  const Deck copied(ends + "*NFILL, NSET=middle\nleft, right, 4, 10\n" + bricks + row +
+                    "*NSET, NSET=every\nleft, middle, right\n"
+                    "*NCOPY, CHANGE NUMBER=100, OLD SET=every, SHIFT, NEW SET=far\n0, 5, 0\n"
+                    "*ELCOPY, ELEMENT SHIFT=10, OLD SET=all, SHIFT NODES=100\n");
+  ASSERT_EQ(copied.elements(), 8U) << copied.said;
+  expect_box(copied.box_of(7), {3, 5, 0}, {4, 6, 1});
+  expect_refused(ends + "*NGEN, LINE=C\n1, 41, 10\n", "*ngen with line is not read");
+  expect_refused(ends + "*NGEN\n1, 41, 7\n", "steps of 7 do not lead from node 1 to node 41");
+  expect_refused(ends + "*NFILL, BIAS=2\nleft, right, 4, 10\n", "*nfill with bias is not read");
+  expect_refused(ends + "*NFILL\nleft, top, 4, 10\n", "there is no set of nodes \"top\"");
+  expect_refused(ends + "*NCOPY, OLD SET=left, REFLECT=MIRROR\n", "*ncopy is read with SHIFT alone");
+  expect_refused(ends + "*ELGEN\n1, 4\n", "there is no element 1");
+}
+
+TEST(Decks, ReadTheFilesThatTheyInclude) {
+  const std::string deck = "*NODE, INPUT=\"my nodes.txt\"\n*INCLUDE, INPUT=elements.inp\n*AMPLITUDE, INPUT=none.txt\n";
+  EXPECT_EQ(files_named_in("a.inp", deck), (std::vector<std::string>{"my nodes.txt", "elements.inp"}));
+  const std::string elements = "*ELEMENT, TYPE=C3D8\n" + cube_element;
+  const Deck whole(deck, {{"my nodes.txt", cube_nodes, "my nodes.txt"}, {"elements.inp", elements, "elements.inp"}});
+  ASSERT_EQ(whole.elements(), 1U) << whole.said;
+  expect_box(whole.box_of(0), {0, 0, 0}, {10, 10, 10});
+  // Lines of an included file continue the data above.
+  const Deck data("*NODE\n1, 0, 0, 0\n*INCLUDE, INPUT=rest.txt\n*ELEMENT, TYPE=C3D8\n" + cube_element,
+                  {{"rest.txt", std::string_view(cube_nodes).substr(cube_nodes.find('\n') + 1), "rest.txt"}});
+  EXPECT_EQ(data.elements(), 1U) << data.said;
+  expect_refused(deck, "a.inp:1:1: error: the file \"my nodes.txt\", which the deck includes, cannot be read");
+  const Deck circle("*INCLUDE, INPUT=b.inp\n", {{"b.inp", "*INCLUDE, INPUT=b.inp\n", "b.inp"}});
+  EXPECT_NE(circle.said.find("b.inp:1:1: error: the file \"b.inp\" includes itself"), std::string::npos) << circle.said;
+}
+
+TEST(Decks, KeywordsThatChangeTheMeshAreRefused) {
+  for (const char* keyword : {"*NMAP, TYPE=RECTANGULAR", "*IMPERFECTION, FILE=a", "*SYMMETRIC MODEL GENERATION"})
+    expect_refused(cube + keyword + "\n1, 2\n", "changes the mesh and is not read");
+  const Deck removed(cube + "*STEP\n*MODEL CHANGE, REMOVE\nall\n*END STEP\n");
+  EXPECT_EQ(removed.elements(), 1U);
+  EXPECT_NE(removed.said.find("removes elements in a step"), std::string::npos) << removed.said;
+  expect_cube(cube + "*TRANSFORM, NSET=all, TYPE=C\n0, 0, 0, 0, 0, 1\n");
+}
+
+}  // namespace ombre::formats

@@ -1,0 +1,60 @@
+#include "sources/result_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "formats/containers/file.h"
+#include "formats/results/result_formats.h"
+
+namespace ombre::sources {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t most_files = 1000;
+
+}  // namespace
+
+ResultFiles::ResultFiles(const std::string& path, std::string_view bytes, const Read& read)
+    : folder_(fs::path(path).parent_path().string()) {
+  add(path, bytes, read);
+}
+
+void ResultFiles::add(const std::string& path, std::string_view bytes, const Read& read) {
+  for (const std::string& written : formats::files_named_in(path, bytes)) {
+    const bool is_known = std::ranges::find(files_, written, &formats::ResultsFile::written) != files_.end();
+    if (is_known || files_.size() >= most_files) continue;
+    const std::string named = (fs::path(folder_) / written).lexically_normal().string();
+    const auto own = read(named);
+    if (!own) continue;
+    bytes_.push_back(own);
+    files_.push_back({named, *own, written});
+    add(named, *own, read);
+  }
+}
+
+ResultFiles result_files(const std::string& path, std::string_view bytes) {
+  return {path, bytes, [](const std::string& named) -> std::shared_ptr<const std::string> {
+            std::error_code ignored;
+            if (!fs::is_regular_file(named, ignored)) return nullptr;
+            return std::make_shared<const std::string>(formats::read_file(named));
+          }};
+}
+
+ResultFiles result_files(design::FilePath& file, Loading& loading) {
+  if (!formats::may_name_files(file.path)) return {file.path, "", nullptr};
+  Key content("file and those that it names");
+  content.add(file.content);
+  ResultFiles files(file.path, *loading.bytes(file),
+                    [&](const std::string& named) -> std::shared_ptr<const std::string> {
+                      design::FilePath other{named, {}};
+                      std::error_code ignored;
+                      if (!fs::is_regular_file(named, ignored) || !loading.read_content(other)) return nullptr;
+                      content.add(other.content);
+                      return loading.bytes(other);
+                    });
+  if (!files.files().empty()) file.content = content.hash();
+  return files;
+}
+
+}  // namespace ombre::sources

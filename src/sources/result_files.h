@@ -1,0 +1,39 @@
+// The files that a file of results names, such as those that a deck includes.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/results/results.h"
+#include "sources/loading.h"
+
+namespace ombre::sources {
+
+class ResultFiles {
+ public:
+  // Returns the bytes of a file, or null if there is none.
+  using Read = std::function<std::shared_ptr<const std::string>(const std::string& path)>;
+
+  // Reads the files that this one names, and those that they name. Paths begin in the folder of the first one. The
+  // reader of the format reports those that are missing.
+  ResultFiles(const std::string& path, std::string_view bytes, const Read& read);
+
+  const std::vector<formats::ResultsFile>& files() const { return files_; }
+
+ private:
+  void add(const std::string& path, std::string_view bytes, const Read& read);
+
+  std::string folder_;
+  std::vector<std::shared_ptr<const std::string>> bytes_;
+  std::vector<formats::ResultsFile> files_;
+};
+
+// Reads the files from the disk.
+ResultFiles result_files(const std::string& path, std::string_view bytes);
+// Reads the files for a design. The content of `file`, which must be known, becomes that of all of them.
+ResultFiles result_files(design::FilePath& file, Loading& loading);
+
+}  // namespace ombre::sources
