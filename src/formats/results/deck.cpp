@@ -128,10 +128,11 @@ class DeckFiles {
     const std::string& written = keyword.value("input");
     const auto file = std::ranges::find(beside_, written, &ResultsFile::written);
     if (file == beside_.end())
-      keyword.line.fail("the file " + quoted(written) + ", which the deck includes, cannot be read",
+      keyword.line.fail("the file " + formats::quoted(written) + ", which the deck includes, cannot be read",
                         "put it beside the deck");
     const auto is_this = [&](const std::string* name) { return *name == file->name; };
-    if (std::ranges::any_of(open_, is_this)) keyword.line.fail("the file " + quoted(written) + " includes itself");
+    if (std::ranges::any_of(open_, is_this))
+      keyword.line.fail("the file " + formats::quoted(written) + " includes itself");
     read(file->name, file->bytes);
   }
 
@@ -159,7 +160,7 @@ std::vector<double> DeckLine::numbers() const {
   std::vector<double> list;
   for (const std::string_view field : fields()) {
     const auto number = field.empty() ? std::optional(0.0) : number_in(field);
-    if (!number) fail("expected a number, found " + quoted(field));
+    if (!number) fail("expected a number, found " + formats::quoted(field));
     list.push_back(*number);
   }
   return list;

@@ -16,7 +16,7 @@ int64_t whole_field(const DeckLine& line, const std::vector<std::string_view>& f
   if (n >= fields.size() || fields[n].empty()) return otherwise;
   const auto number = parse_number(fields[n]);
   if (!number || *number != std::floor(*number) || std::abs(*number) > 1e15)
-    line.fail("expected a whole number, found " + quoted(fields[n]));
+    line.fail("expected a whole number, found " + formats::quoted(fields[n]));
   return static_cast<int64_t>(*number);
 }
 
@@ -188,7 +188,7 @@ void DeckPart::copy_elements(const Keyword& elcopy) {
   refuse_parameters(elcopy, {"reflect"});
   const std::string old_set = elcopy.name_of("old set"), set = elcopy.name_of("new set");
   const auto found = element_sets_.find(old_set);
-  if (found == element_sets_.end()) elcopy.line.fail("there is no set of elements " + quoted(old_set));
+  if (found == element_sets_.end()) elcopy.line.fail("there is no set of elements " + formats::quoted(old_set));
   for (const uint64_t number : sorted(found->second))
     copy_element(elcopy.line, element_at(elcopy.line, number), whole_parameter(elcopy, "element shift", 0),
                  whole_parameter(elcopy, "shift nodes", 0), set);
@@ -206,7 +206,7 @@ void DeckPart::copy_element(const DeckLine& line, const Element& master, int64_t
 DeckPart::Set DeckPart::node_set(const DeckLine& line, std::string_view name) const {
   if (const auto number = parse_number(name)) return {deck_number(line, *number)};
   const auto found = node_sets_.find(to_lower(name));
-  if (found == node_sets_.end()) line.fail("there is no set of nodes " + quoted(name));
+  if (found == node_sets_.end()) line.fail("there is no set of nodes " + formats::quoted(name));
   return unsorted_sets_.contains(found->first) ? found->second : sorted(found->second);
 }
 

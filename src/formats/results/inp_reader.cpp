@@ -160,7 +160,7 @@ class InpReader : public DeckListener {
     const std::string system = keyword_.name_of("system");
     if (system.empty()) return 'r';
     if (system == "r" || system == "c" || system == "s") return system[0];
-    keyword_.line.fail("expected SYSTEM=R, C or S, found " + quoted(system));
+    keyword_.line.fail("expected SYSTEM=R, C or S, found " + formats::quoted(system));
   }
 
   void begin_elements() {
@@ -168,7 +168,7 @@ class InpReader : public DeckListener {
     const auto nodes = solid_nodes(type);
     kind_ = nodes ? kind_of_nodes(*nodes) : std::nullopt;
     if (nodes && !kind_)
-      keyword_.line.fail("elements of the type " + quoted(type) + " are not read",
+      keyword_.line.fail("elements of the type " + formats::quoted(type) + " are not read",
                          "read are C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5");
     if (!nodes) left_out_.insert(keyword_.value("type"));
   }
@@ -260,7 +260,7 @@ class InpReader : public DeckListener {
     for (DeckInstance& instance : instances_) {
       const auto part = std::ranges::find(parts_, instance.part, &Part::name);
       if (part == parts_.end() && instance.own.nodes().empty())
-        instance.line.fail("there is no part " + quoted(instance.part));
+        instance.line.fail("there is no part " + formats::quoted(instance.part));
       if (part != parts_.end()) {
         is_used[static_cast<size_t>(part - parts_.begin())] = true;
         add(part->mesh, instance.move);

@@ -58,9 +58,10 @@ class CsvReader {
     for (size_t n = 0; n < words.size(); ++n) {
       const auto value = number_in(words[n]);
       if (table_.rows.empty()) is_of_words_[n] = !value && !words[n].empty();
-      if (!value && !is_of_words_[n]) scanner_.fail_at(begin, end, quoted(words[n]) + " is no number");
+      if (!value && !is_of_words_[n]) scanner_.fail_at(begin, end, formats::quoted(words[n]) + " is no number");
       if (value && is_of_words_[n])
-        scanner_.fail_at(begin, end, "the column " + quoted(table_.names[n]) + " has words, and here a number");
+        scanner_.fail_at(begin, end,
+                         "the column " + formats::quoted(table_.names[n]) + " has words, and here a number");
       row.push_back(value.value_or(0));
     }
     table_.rows.push_back(std::move(row));
@@ -237,7 +238,7 @@ Results read_csv_points(const std::string& name, std::string_view bytes, Diagnos
   if (table.names.size() < 4) scanner.fail_at(0, 0, "expected the columns x, y and z, and columns of values");
   for (size_t axis = 0; axis < 3 && table.has_names; ++axis)
     if (to_lower(table.names[axis]).substr(0, 1) != std::string(1, "xyz"[axis]))
-      scanner.fail_at(0, 0, "expected the columns x, y and z first, found " + quoted(table.names[axis]),
+      scanner.fail_at(0, 0, "expected the columns x, y and z first, found " + formats::quoted(table.names[axis]),
                       "numbers of nodes need the mesh as well: results(\"mesh.inp\", values=\"" + name + "\")");
   if (!table.has_names && table.names.size() == 4) table.names[3] = "value";
   Results results;

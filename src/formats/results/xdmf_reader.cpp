@@ -67,7 +67,7 @@ class XdmfReader {
     if (grid.next_sibling("Grid")) file_.fail_at(grid.next_sibling("Grid"), "several grids are not read");
     const std::string_view type = file_.attribute(grid, "GridType").value_or("Uniform");
     if (type != "Uniform")
-      file_.fail_at(grid, "a grid of the type " + quoted(type) + " is not read, as of several steps or pieces",
+      file_.fail_at(grid, "a grid of the type " + formats::quoted(type) + " is not read, as of several steps or pieces",
                     "save one step as one grid, GridType=\"Uniform\"");
     add_points(child_of(grid, "Geometry"));
     add_elements(child_of(grid, "Topology"));
@@ -82,7 +82,7 @@ class XdmfReader {
  private:
   xml_node child_of(xml_node parent, const char* name) const {
     const xml_node child = parent.child(name);
-    if (!child) file_.fail_at(parent, "expected " + quoted(name) + " in the grid");
+    if (!child) file_.fail_at(parent, "expected " + formats::quoted(name) + " in the grid");
     return child;
   }
 
@@ -91,7 +91,7 @@ class XdmfReader {
     if (!item) file_.fail_at(parent, "expected a DataItem");
     const std::string_view format = file_.attribute(item, "Format").value_or("XML");
     if (format == "XML") return numbers_in_text(item);
-    if (format != "HDF") file_.fail_at(item, "expected the format XML or HDF, found " + quoted(format));
+    if (format != "HDF") file_.fail_at(item, "expected the format XML or HDF, found " + formats::quoted(format));
     return numbers_in_hdf5(item);
   }
 
@@ -108,16 +108,19 @@ class XdmfReader {
     const std::string_view place = trim(std::string_view(item.text().get()));
     const size_t colon = place.rfind(":/");
     if (colon == std::string_view::npos)
-      file_.fail_at(item, "expected a file and a path in it, as part.h5:/Mesh/geometry, found " + quoted(place));
+      file_.fail_at(item,
+                    "expected a file and a path in it, as part.h5:/Mesh/geometry, found " + formats::quoted(place));
     if (!numbers_)
-      file_.fail_at(item, "the numbers are in the file " + quoted(place.substr(0, colon)), "name it by values=\"...\"");
+      file_.fail_at(item, "the numbers are in the file " + formats::quoted(place.substr(0, colon)),
+                    "name it by values=\"...\"");
     try {
       auto found = hdf5_numbers(numbers_->bytes, std::string(place.substr(colon + 1)));
       if (found) return std::move(found->values);
     } catch (const Error& error) {
       file_.fail_at(item, numbers_->name + ": " + error.what());
     }
-    file_.fail_at(item, quoted(numbers_->name) + " has no numbers at " + quoted(place.substr(colon + 1)));
+    file_.fail_at(item,
+                  formats::quoted(numbers_->name) + " has no numbers at " + formats::quoted(place.substr(colon + 1)));
   }
 
   void add_points(xml_node geometry) {
@@ -140,7 +143,7 @@ class XdmfReader {
     if (to_lower(type) == "mixed") return add_mixed(topology, numbers_of(topology));
     const auto kind = element_kind(type);
     if (!kind)
-      file_.fail_at(topology, "elements of the type " + quoted(type) +
+      file_.fail_at(topology, "elements of the type " + formats::quoted(type) +
                                   " are not read; read are Tetrahedron, Tetrahedron_10, Hexahedron, Hexahedron_20, "
                                   "Wedge, Pyramid and Mixed");
     const std::vector<double> numbers = numbers_of(topology);
@@ -195,8 +198,8 @@ class XdmfReader {
     const size_t count = field.is_of_elements ? is_kept_.size() : results_.points.size();
     field.components = count == 0 ? 0 : field.values.size() / count;
     if (field.components < 1 || field.components > 9 || field.components * count != field.values.size())
-      file_.fail_at(attribute, "the field " + quoted(field.name) + " has " + std::to_string(field.values.size()) +
-                                   " numbers for " + std::to_string(count) +
+      file_.fail_at(attribute, "the field " + formats::quoted(field.name) + " has " +
+                                   std::to_string(field.values.size()) + " numbers for " + std::to_string(count) +
                                    (field.is_of_elements ? " elements" : " nodes"));
     if (file_.attribute(attribute, "AttributeType").value_or("") == "Tensor6") reorder(field);
     if (field.is_of_elements) leave_out_flat(field);
