@@ -35,6 +35,14 @@ std::string volume_problem(const std::string& bytes, const std::string* companio
   }
 }
 
+// Returns what is wrong with a description that has this member besides those that it needs.
+std::string description_problem(const std::string& member) {
+  const std::string json = R"({"data_type": "uint8", "dimensions": [2, 3, 1], )" + member + "}";
+  const std::string problem = volume_problem("123456", &json),
+                    start = "the volume \"v\" has a wrong description: v.json:1:";
+  return problem.starts_with(start) ? problem.substr(start.size()) : problem;
+}
+
 bool is_about(const std::string& problem, const std::string& words) { return problem.find(words) != std::string::npos; }
 
 const std::vector<int16_t> six{-2, 0, 300, 4, 5, 32767};
@@ -139,14 +147,6 @@ TEST(Volume, DescriptionsSayWhatNumbersAre) {
   EXPECT_TRUE(is_about(volume_problem("abcd", &json), "cut off"));
   EXPECT_TRUE(is_about(volume_problem(std::string(99, 'a'), &json), "99 bytes") ||
               is_about(volume_problem(std::string(99, 'a'), &json), "96 bytes"));
-}
-
-// Returns what is wrong with a description that has this member besides those that it needs.
-std::string description_problem(const std::string& member) {
-  const std::string json = R"({"data_type": "uint8", "dimensions": [2, 3, 1], )" + member + "}";
-  const std::string problem = volume_problem("123456", &json),
-                    start = "the volume \"v\" has a wrong description: v.json:1:";
-  return problem.starts_with(start) ? problem.substr(start.size()) : problem;
 }
 
 TEST(Volume, WrongDescriptionsSayWhatIsWrongAndWhere) {
