@@ -12,13 +12,13 @@ namespace {
 constexpr size_t most_materials = 255;  // ids fit into a byte, and 0 is void
 constexpr std::array<const char*, 4> colour_names{"r", "g", "b", "a"};
 
-Field<Material> colour_field(size_t channel, const std::string& meaning) {
+ombre::Field<Material> colour_field(size_t channel, const std::string& meaning) {
   const std::string name = colour_names[channel];
-  return Field<Material>(name,
-                         [=](Material& material, const Data& data, const MemberReader& reader) {
-                           const auto shade = reader.number(data, name, {0, 255, true});
-                           if (shade) material.colour[channel] = static_cast<uint8_t>(*shade);
-                         })
+  return ombre::Field<Material>(name,
+                                [=](Material& material, const Data& data, const MemberReader& reader) {
+                                  const auto shade = reader.number(data, name, {0, 255, true});
+                                  if (shade) material.colour[channel] = static_cast<uint8_t>(*shade);
+                                })
       .means(meaning + ", 0 to 255");
 }
 
