@@ -401,7 +401,7 @@ def bundles_slice_as_their_designs_do(job):
 
 
 def reference_is_up_to_date(job):
-    for command in ("nodes", "codes", "commands", "formats"):
+    for command in ("nodes", "codes", "commands", "formats", "printers"):
         printed = program.run([job.ombre, command, "--markdown"]).stdout
         reference = program.SOURCE / "docs" / "reference" / f"{command}.md"
         found = reference.read_text(encoding="utf-8") if reference.exists() else ""

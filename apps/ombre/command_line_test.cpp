@@ -177,7 +177,12 @@ TEST(SavedJobs, SayWhatIsWrong) {
   wrong("{}", "this is no job");
   wrong("[1", "job.json:1:");
   wrong(begin + R"("kind": "mehs", "options": {}})", "did you mean \"mesh\"?");
-  wrong(begin + R"("options": {}})", "does not say its kind");
+  wrong(begin + R"("options": {}})", R"(a job needs "kind"; write for example "kind": "mesh")");
+  wrong(begin + R"("kind": "mesh"})", R"(a job needs "options"; write for example "options": {"design": "part.vcad"})");
+  wrong(begin + R"("kind": "mesh", "options": ["a.vcad"]})",
+        "expected options by their names, in braces, not a list of 1");
+  wrong(begin + R"("kind": "mesh", "option": {"design": "a.vcad"}})",
+        R"(a job has no "option"; did you mean "options"?)");
   wrong(begin + R"("kind": "mesh", "options": {"design": "a.vcad", "tolerence": "1"}})", "did you mean \"tolerance\"?");
   wrong(begin + R"("kind": "mesh", "options": {"tolerance": 1}})", "\"design\" is required");
 }

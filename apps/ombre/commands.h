@@ -1,4 +1,4 @@
-// Commands of the program that are no jobs.
+// Commands of the program that are not jobs.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -20,8 +20,6 @@ std::string to_base64(const std::string& bytes) {
   return text;
 }
 
-// The gear is a mesh in a folder beside the example.
-
 TEST_F(StudioTest, MakesAndOpensBundles) {
   folder.write("shapes/a.vcad", "include <b.vcad>\nsphere(r);\n");
   folder.write("shapes/b.vcad", "r = 2;\n");
@@ -40,6 +38,7 @@ TEST_F(StudioTest, MakesAndOpensBundles) {
   EXPECT_EQ(text(ask("bundle", R"("file": "../a.vcad")").first, "error"), "name");
 }
 
+// The example reads a mesh of a gear from a folder beside it.
 TEST_F(StudioTest, OpensCopiesOfExamples) {
   const Data examples = ask("examples").first;
   ASSERT_TRUE(examples.find("examples")) << print_json(examples);

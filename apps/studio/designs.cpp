@@ -38,7 +38,7 @@ compile::PlanOptions plan_options(const JobChoices& choices, const std::string& 
   }
 }
 
-// Makes voxels 2^level times as long along x and y as those of the job.
+// Makes the job's voxels 2^level times as long along x and y.
 void make_coarser(compile::PlanOptions& options, const design::Design& design, int level) {
   const auto& pitch = design.sampling && !options.printer_given ? design.sampling->pitch : options.printer.pitch;
   for (size_t axis = 0; axis < 2; ++axis) {

@@ -174,7 +174,7 @@ MeasuredShape measured(NamedShape named) {
   MeasuredShape shape;
   shape.named = std::move(named);
   shape.volume_mm3 = volume_of(shape.named.shape);
-  // Faces of mirrored instances may be oriented inward, too.
+  // Faces of mirrored instances may also be oriented inward.
   if (shape.volume_mm3 < 0) {
     shape.named.shape.Reverse();
     shape.volume_mm3 = -shape.volume_mm3;

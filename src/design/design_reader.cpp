@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "base/text/record.h"
 #include "base/text/text.h"
 #include "design/design.h"
 
@@ -53,27 +54,14 @@ class DesignReader {
       return false;
     }
     may_have_values_ = *version->number() >= 2;
-    static const std::vector<std::string> known{"format", "version", "materials", "sampling", "nodes", "parts"};
-    check_keys(data_, known);
+    members_.has_only(data_, "a design", {"format", "version", "materials", "sampling", "nodes", "parts"});
     return true;
-  }
-
-  void check_keys(const Data& object, const std::vector<std::string>& known) {
-    for (const auto& [key, value] : *object.members()) {
-      bool found = false;
-      for (const std::string& name : known) found = found || name == key;
-      if (!found)
-        error(value, "there is no key \"" + key + "\" here", did_you_mean(key, known), Code::unknown_key,
-              {{"key", key}});
-    }
   }
 
   void read_sampling(const Data& data) {
     const Reader reader{design_.materials, diagnostics_, loader_, data.where, "sampling", ""};
     Sampling sampling;
-    if (!data.members()) return error(data, "expected an object with min, max and voxel");
-    static const std::vector<std::string> known{"min", "max", "voxel"};
-    check_keys(data, known);
+    if (!members_.has_only(data, "the sampling", {"min", "max", "voxel"})) return;
     const Data *lo = data.find("min"), *hi = data.find("max"), *voxel = data.find("voxel");
     if (!lo || !hi || !voxel) return error(data, "expected an object with min, max and voxel");
     if (!read(*lo, unit::mm, sampling.box.lo, reader) || !read(*hi, unit::mm, sampling.box.hi, reader)) return;
@@ -113,6 +101,7 @@ class DesignReader {
     if (!parts || !parts->list() || parts->list()->empty())
       return error(parts ? *parts : data_, "expected a list \"parts\" with at least one part");
     for (const Data& entry : *parts->list()) {
+      if (!members_.has_only(entry, "a part", {"name", "node"})) continue;
       const Data *name = entry.find("name"), *node = entry.find("node");
       if (!name || !name->string() || !node || !node->string()) {
         error(entry, "every part needs a \"name\" and a \"node\"");
@@ -235,8 +224,7 @@ class DesignReader {
       error(*entry.data, "this node has no \"type\"");
       return nullptr;
     }
-    static const std::vector<std::string> known{"id", "type", "parameters", "inputs"};
-    check_keys(*entry.data, known);
+    members_.has_only(*entry.data, "a node", {"id", "type", "parameters", "inputs"});
     const NodeType* type = registry_.find(*type_name->string());
     if (!type) {
       error(*type_name, "there is no node \"" + *type_name->string() + "\"",
@@ -283,6 +271,7 @@ class DesignReader {
   const Registry& registry_;
   SourceLoader* loader_;
   Diagnostics& diagnostics_;
+  const MemberReader members_{diagnostics_, Code::design_file};
   Design design_;
   std::unordered_map<std::string, Entry> entries_;
   std::vector<std::string> ids_;

@@ -1,95 +1,94 @@
 #include "design/materials.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "base/text/record.h"
 #include "base/text/text.h"
 
 namespace ombre::design {
 namespace {
 
 constexpr size_t most_materials = 255;  // ids fit into a byte, and 0 is void
+constexpr std::array<const char*, 4> colour_names{"r", "g", "b", "a"};
 
-std::optional<uint8_t> channel(const Data& entry, std::string_view key, std::optional<uint8_t> otherwise,
-                               Diagnostics& diagnostics) {
-  const Data* value = entry.find(key);
-  if (!value) {
-    if (otherwise) return otherwise;
-    diagnostics.error(entry.where, "this material has no \"" + std::string(key) + "\"",
-                      "give r, g, b (and a) from 0 to 255");
-    return std::nullopt;
-  }
-  const double* number = value->number();
-  if (number && *number >= 0 && *number <= 255 && *number == static_cast<int>(*number))
-    return static_cast<uint8_t>(*number);
-  diagnostics.error(value->where, "expected a whole number from 0 to 255, found " + describe(*value));
-  return std::nullopt;
+ombre::Field<Material> colour_field(size_t channel, const std::string& meaning) {
+  const std::string name = colour_names[channel];
+  return ombre::Field<Material>(name,
+                                [=](Material& material, const Data& data, const MemberReader& reader) {
+                                  const auto shade = reader.number(data, name, {0, 255, true});
+                                  if (shade) material.colour[channel] = static_cast<uint8_t>(*shade);
+                                })
+      .means(meaning + ", 0 to 255");
 }
 
-// True if the material is marked as support. Adds a diagnostic if the property is no truth value.
-bool is_marked_as_support(const DataMembers& properties, Diagnostics& diagnostics) {
-  for (const auto& [key, value] : properties) {
-    if (key != "support") continue;
-    if (const bool* flag = value.boolean()) return *flag;
-    diagnostics.error(value.where, "expected true or false, found " + describe(value),
-                      "write \"support\": true for the material that supports are made of");
-  }
-  return false;
+const Record<Material>& material_record() {
+  using M = Material;
+  const char* const all_channels = "give r, g, b (and a) from 0 to 255";
+  static const Record<M> record =
+      Record<M>("a material", {field::text("name", &M::name)
+                                   .required(R"(write for example "name": "red")")
+                                   .means("what designs call it, in letters of either case"),
+                               colour_field(0, "red of its colour in images").required(all_channels),
+                               colour_field(1, "green").required(all_channels),
+                               colour_field(2, "blue").required(all_channels), colour_field(3, "opacity (default 255)"),
+                               field::flag("support", &M::is_support)
+                                   .means("`true` for the one that [supports](../user/supports.md) are made of")})
+          .open();
+  return record;
+}
+
+bool is_property(const std::string& member) {
+  return member != "name" && std::ranges::find(colour_names, member) == colour_names.end();
 }
 
 }  // namespace
+
+const std::vector<MemberInfo>& material_members() { return material_record().members(); }
 
 MaterialTable::MaterialTable() : all_(std::make_shared<std::vector<Material>>()) {
   all_->push_back({"void", 0, {0, 0, 0, 0}, {}});
 }
 
 std::optional<MaterialTable> MaterialTable::read(const Data& data, Diagnostics& diagnostics) {
-  const Data* entries = data.find("materials");
-  if (!entries || !entries->list()) {
-    diagnostics.error(entries ? entries->where : data.where, "expected an object with a list \"materials\"",
-                      "write {\"materials\": [{\"name\": \"red\", \"r\": 255, \"g\": 0, \"b\": 0, \"a\": 255}]}");
-    return std::nullopt;
-  }
+  const MemberReader reader(diagnostics);
+  const size_t before = reader.error_count();
+  const Data* const list = data.find("materials");
+  if (!list)
+    reader.fail_missing(data, "a design or a file of materials", "materials",
+                        R"(write for example "materials": [{"name": "red", "r": 255, "g": 0, "b": 0}])");
+  const DataList* const entries = list ? reader.list(*list, "materials") : nullptr;
+  if (!entries) return std::nullopt;
   MaterialTable table;
-  std::vector<Material>& all = *table.all_;
-  const size_t errors_before = diagnostics.error_count();
-  for (const Data& entry : *entries->list()) {
-    const Data* name = entry.find("name");
-    if (!name || !name->string() || name->string()->empty()) {
-      diagnostics.error(entry.where, "every material needs a \"name\"");
-      continue;
-    }
-    const auto r = channel(entry, "r", std::nullopt, diagnostics), g = channel(entry, "g", std::nullopt, diagnostics),
-               b = channel(entry, "b", std::nullopt, diagnostics), a = channel(entry, "a", 255, diagnostics);
-    if (!r || !g || !b || !a) continue;
-    Material material{*name->string(), 0, {*r, *g, *b, *a}, {}};
-    for (const auto& [key, value] : *entry.members())
-      if (key != "name" && key != "r" && key != "g" && key != "b" && key != "a")
-        material.properties.emplace_back(key, value);
-    if (to_lower(material.name) == "void") {
-      all[0].properties = material.properties;  // void keeps its id and colour
-      continue;
-    }
-    if (table.find(material.name)) {
-      diagnostics.error(name->where, "the material \"" + material.name + "\" is defined twice");
-      continue;
-    }
-    if (all.size() > most_materials) {
-      diagnostics.error(entry.where, "a file may define at most " + std::to_string(most_materials) + " materials");
-      break;
-    }
-    material.id = static_cast<MaterialId>(all.size());
-    if (is_marked_as_support(material.properties, diagnostics)) {
-      if (table.support_ != 0)
-        diagnostics.error(
-            entry.where,
-            "\"" + all[table.support_].name + "\" and \"" + material.name + "\" are both marked as support",
-            "leave \"support\": true with one of them; support(material=...) takes the other");
-      table.support_ = material.id;
-    }
-    all.push_back(std::move(material));
+  for (const Data& entry : *entries)
+    if (!table.add(entry, reader)) break;
+  if (reader.error_count() > before) return std::nullopt;
+  if (table.all_->size() > 1) return table;
+  reader.fail(*list, "this file defines no material");
+  return std::nullopt;
+}
+
+bool MaterialTable::add(const Data& entry, const MemberReader& reader) {
+  Material material;
+  if (!material_record().read(entry, material, reader)) return true;
+  std::ranges::copy_if(*entry.members(), std::back_inserter(material.properties), is_property,
+                       &DataMembers::value_type::first);
+  std::vector<Material>& all = *all_;
+  if (to_lower(material.name) == "void") {
+    all[0].properties = std::move(material.properties);  // void keeps its id and colour
+    return true;
   }
-  if (all.size() == 1 && diagnostics.error_count() == errors_before)
-    diagnostics.error(entries->where, "this file defines no material");
-  if (diagnostics.error_count() > errors_before) return std::nullopt;
-  return table;
+  if (all.size() > most_materials) {
+    reader.fail(entry, "a file may define at most " + std::to_string(most_materials) + " materials");
+    return false;
+  }
+  if (find(material.name)) reader.fail(*entry.find("name"), "the material \"" + material.name + "\" is defined twice");
+  if (const Material* other = marked_as_support(); other && material.is_support)
+    reader.fail(entry, '"' + other->name + "\" and \"" + material.name + "\" are both marked as support",
+                "leave \"support\": true with one of them; support(material=...) takes the other");
+  material.id = static_cast<MaterialId>(all.size());
+  all.push_back(std::move(material));
+  return true;
 }
 
 Data MaterialTable::to_data() const {
@@ -97,8 +96,7 @@ Data MaterialTable::to_data() const {
   for (size_t i = 1; i < all_->size(); ++i) {
     const Material& m = (*all_)[i];
     DataMembers entry{{"name", Data(m.name)}};
-    const char* keys[] = {"r", "g", "b", "a"};
-    for (size_t c = 0; c < 4; ++c) entry.emplace_back(keys[c], Data(static_cast<double>(m.colour[c])));
+    for (size_t c = 0; c < m.colour.size(); ++c) entry.emplace_back(colour_names[c], number(m.colour[c]));
     for (const auto& property : m.properties) entry.push_back(property);
     list.emplace_back(std::move(entry));
   }
@@ -114,7 +112,15 @@ const Material* MaterialTable::find(std::string_view name) const {
   return nullptr;
 }
 
-const Material* MaterialTable::support() const { return support_ != 0 ? find(support_) : find("support"); }
+const Material* MaterialTable::marked_as_support() const {
+  const auto found = std::ranges::find_if(*all_, &Material::is_support);
+  return found == all_->end() ? nullptr : &*found;
+}
+
+const Material* MaterialTable::support() const {
+  const Material* const marked = marked_as_support();
+  return marked ? marked : find("support");
+}
 
 std::vector<std::string> MaterialTable::names() const {
   std::vector<std::string> names;

@@ -155,7 +155,7 @@ Data write_formula(const expr::Expression& expression);
 // The NodeObject in the data holds `owner`, or does not own the node if that is null.
 Data write_output(const GivenOutput& output, const NodePtr& owner = nullptr);
 // Reads a solid as a parameter: a NodeObject, {"from": node}, or an output that is a solid or region. Returns nothing
-// and adds a diagnostic if it is no solid.
+// and adds a diagnostic if it is not a solid.
 std::optional<GivenOutput> read_solid(const Data& data, const Reader& reader);
 Data write_solid(const GivenOutput& solid);  // its NodeObject does not own the node
 // Returns the data with all its NodeObjects replaced by ones that own their nodes, which are among `nodes`.

@@ -59,7 +59,7 @@ class NodeType {
   bool is_nothing = false;            // true if its nodes are solids without points
   const NodeType* nothing = nullptr;  // the registry's type of empty solids, or null
 
-  // Nodes that are no solids give values. Solids may have outputs, too.
+  // Nodes that are not solids give values. Solids may have outputs, too.
   bool is_solid() const { return gives_solid; }
   // Returns the position of the output with this name.
   std::optional<size_t> output(std::string_view output_name) const;

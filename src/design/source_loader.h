@@ -138,7 +138,7 @@ struct CadRequest {
 struct PolygonsRequest {
   using Result = program::FieldSource;
   Polygons polygons;
-  bool turns = false;  // the region is revolved about x = 0, where edges are no walls
+  bool turns = false;  // the region is revolved about x = 0, where edges are not walls
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 

@@ -25,7 +25,7 @@ struct StageLattice {
   std::array<Pitch, 3> pitch;
 };
 
-// The choice of a stage's lattice.
+// How a stage chooses its lattice.
 struct LatticeChoice {
   // Size of the cells; the job's voxel size if not set.
   std::optional<Vec3> cell_mm;

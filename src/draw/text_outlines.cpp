@@ -203,7 +203,7 @@ void note_missing(const std::string& text, size_t place, std::vector<std::string
   if (std::find(missing.begin(), missing.end(), letter) == missing.end()) missing.push_back(letter);
 }
 
-// A glyph of a run, with the advance to the next.
+// A glyph of a run: where it is drawn, and how far the next one starts from it.
 struct RunGlyph {
   uint32_t glyph;
   Vec2 offset, advance;

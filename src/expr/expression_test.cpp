@@ -141,7 +141,7 @@ TEST(Expression, PrintsInOneWay) {
     const auto once = parse(text, d);
     ASSERT_TRUE(once) << to_text(d);
     EXPECT_EQ(parse(once->text(), d)->text(), once->text());
-    // The text has the same meaning, too.
+    // The text has the same meaning.
     EXPECT_EQ(parse(once->text(), d)->constant_value(), once->constant_value());
   }
 }

@@ -5,7 +5,8 @@
 namespace ombre::compile {
 namespace {
 
-// The children: one beside its origin, one that is no ball in its box, and one with overlapping parts and an attribute.
+// The children: one beside its origin, one that is not a ball in its box, and one with overlapping parts and an
+// attribute.
 const char* const children[] = {
     "translate(0.3, 0.1, 0) sphere(0.9, \"red\");",
     "rotate(20, 40, 10) rectprism((2.5, 0.6, 0.4), \"red\");",

@@ -107,8 +107,13 @@ TEST_F(Bundle, RefusesWhatIsNone) {
   EXPECT_NE(refusal_of("PK\x03\x04 cut short").find("damaged"), std::string::npos);
   EXPECT_NE(refusal({{"a.vcad", "sphere(1);"}}).find("has no bundle.json"), std::string::npos);
   EXPECT_NE(refusal({{"bundle.json", "[1, 2"}}), "");
-  EXPECT_NE(refusal({{"bundle.json", "{}"}}).find("names no design"), std::string::npos);
-  EXPECT_NE(refusal({{"bundle.json", R"({"design": "../a.vcad"})"}}).find("names no design"), std::string::npos);
+  EXPECT_EQ(refusal({{"bundle.json", "{}"}}), "the note of a bundle needs \"design\"");
+  EXPECT_EQ(refusal({{"bundle.json", R"({"design": "a.vcad", "material": "m.json"})"}}),
+            "the note of a bundle has no \"material\"");
+  EXPECT_EQ(refusal({{"bundle.json", R"({"design": "../a.vcad"})"}}),
+            "this names no file of the bundle, but the text \"../a.vcad\"");
+  EXPECT_EQ(refusal({{"bundle.json", R"({"design": "a.vcad", "materials": 3})"}}),
+            "this names no file of the bundle, but the number 3");
   EXPECT_NE(refusal({{"bundle.json", R"({"design": "a.vcad"})"}}).find("lacks its file a.vcad"), std::string::npos);
 }
 

@@ -234,7 +234,7 @@ TEST(ManyParts, OfSeveralTasksAreOneTable) {
   }
 }
 
-// There are so many parts that they are read ahead, too.
+// There are so many parts that they are also read ahead.
 TEST(ManyParts, DoNotDependOnThreads) {
   const std::string text = coarse + ("{" + flat(some_parts(2600)) + "}");
   PlanOptions one, several;

@@ -1,9 +1,7 @@
 #include "jobs/saved_job.h"
 
-#include <algorithm>
-
 #include "base/text/json.h"
-#include "base/text/text.h"
+#include "base/text/record.h"
 #include "jobs/all_jobs.h"
 #include "options/members.h"
 
@@ -12,23 +10,24 @@ namespace {
 
 constexpr const char* format = "ombre job, version 1";
 
-void report(const Data& data, const std::string& message, const std::string& hint, Diagnostics& diagnostics) {
-  diagnostics.error(Code::option, data.where, message, hint);
+std::optional<const JobKind*> read_kind(const Data& data, const MemberReader& reader) {
+  const std::vector<std::string> names = names_in(all_jobs());
+  const auto chosen = reader.choice(data, "kind of job", names);
+  return chosen ? std::optional(find_job(names[*chosen])) : std::nullopt;
 }
 
-const JobKind* kind_of(const Data& data, Diagnostics& diagnostics) {
-  const Data* name = data.find("kind");
-  if (!name || !name->string()) {
-    report(data, "the job does not say its kind", "write for example \"kind\": \"mesh\"", diagnostics);
-    return nullptr;
-  }
-  if (const JobKind* kind = find_job(*name->string())) return kind;
-  std::vector<std::string> names;
-  for (const JobKind& kind : all_jobs()) names.push_back(kind.name);
-  std::string hint = did_you_mean(*name->string(), names);
-  if (hint.empty()) hint = "there are " + join(names, ", ");
-  report(*name, "there is no kind of job \"" + *name->string() + '"', hint, diagnostics);
-  return nullptr;
+void read_options(SavedJob& job, const Data& data, const MemberReader& reader) {
+  if (const DataMembers* options = reader.named(data, "options")) job.options = *options;
+}
+
+const Record<SavedJob>& job_record() {
+  static const Record<SavedJob> record =
+      Record<SavedJob>(
+          "a job",
+          {field::value("kind", &SavedJob::kind, read_kind).required(R"(write for example "kind": "mesh")"),
+           field::special("options", read_options).required(R"(write for example "options": {"design": "part.vcad"})")})
+          .knows({"format", "program"});
+  return record;
 }
 
 }  // namespace
@@ -41,17 +40,13 @@ std::string saved_text(const SavedJob& job, const std::string& program) {
 std::optional<SavedJob> read_saved_job(const SourcePtr& source, Diagnostics& diagnostics) {
   const auto data = parse_json(source, diagnostics);
   if (!data) return std::nullopt;
-  const Data* said = data->find("format");
-  if (!data->members() || !said || !said->string() || *said->string() != format) {
-    report(*data, "this is no job", "a job has \"format\": \"" + std::string(format) + "\"; --save-job writes one",
-           diagnostics);
-    return std::nullopt;
-  }
-  const JobKind* kind = kind_of(*data, diagnostics);
-  const Data* options = data->find("options");
-  if (kind && options && options->members()) return SavedJob{kind, *options->members()};
-  if (kind)
-    report(*data, "the job has no options", "write for example \"options\": {\"design\": \"part.vcad\"}", diagnostics);
+  const MemberReader reader(diagnostics, Code::option);
+  SavedJob job;
+  if (const Data* said = data->find("format"); !said || *said != Data(format))
+    reader.fail(*data, "this is no job",
+                "a job has \"format\": \"" + std::string(format) + "\"; --save-job writes one");
+  else if (job_record().read(*data, job, reader))
+    return job;
   return std::nullopt;
 }
 

@@ -16,7 +16,7 @@ struct SavedJob {
 
 // Returns the job as JSON. Relative paths stay relative; they begin in the working folder of whoever runs it.
 std::string saved_text(const SavedJob& job, const std::string& program);
-// Reads a job. Returns nothing, and adds diagnostics, if the text is no job, or its kind is unknown.
+// Reads a job. Returns nothing, and adds diagnostics, if the text is not a job, or its kind is unknown.
 std::optional<SavedJob> read_saved_job(const SourcePtr& source, Diagnostics& diagnostics);
 
 // Runs the job and returns an exit code. Throws as the kind's jobs do.

@@ -8,6 +8,7 @@
 #include "base/system/temporary_folder.h"
 #include "base/text/error.h"
 #include "base/text/json.h"
+#include "base/text/record.h"
 #include "base/text/text.h"
 #include "export/output_file.h"
 #include "formats/containers/file.h"
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* note_name = "bundle.json";
+constexpr const char* how_to_make_one = "ombre bundle part.vcad -o part.ombre makes a bundle";
 constexpr uint64_t any_ratio = 1100;  // deflate packs at most 1032 to 1; the size of a bundle is bounded elsewhere
 
 bool is_within(const fs::path& file, const fs::path& folder) {
@@ -148,26 +150,37 @@ class Packer {
   BundleContents contents_;
 };
 
-// Reads the paths in a bundle's note. Returns nothing, and adds a diagnostic, if the text is no note.
+// The files that a bundle's note names.
+struct Note {
+  std::string design, materials;
+};
+
+std::optional<std::string> read_name(const Data& data, const MemberReader& reader) {
+  if (data.string() && is_sound(*data.string())) return *data.string();
+  reader.fail(data, "this names no file of the bundle, but " + describe(data));
+  return std::nullopt;
+}
+
+// Reads the paths in a bundle's note. Returns nothing, and adds a diagnostic, if the text is not a note.
 std::optional<UnpackedBundle> read_note(const std::string& name, const std::string& text, const fs::path& folder,
                                         Diagnostics& diagnostics) {
-  const auto wrong = [&](const std::string& problem) {
-    diagnostics.error(Code::file_content, {make_source(name, ""), 0, 0}, problem,
-                      "ombre bundle part.vcad -o part.ombre makes a bundle", {{"file", name}});
+  static const Record<Note> record =
+      Record<Note>("the note of a bundle", {field::value("design", &Note::design, read_name).required(how_to_make_one),
+                                            field::value("materials", &Note::materials, read_name)})
+          .knows({"ombre_bundle"});
+  const size_t known = diagnostics.list().size();
+  const auto data = parse_json(make_source(name + "/" + note_name, text), diagnostics);
+  Note note;
+  const bool is_note = data && record.read(*data, note, MemberReader(diagnostics));
+  diagnostics.tell_code(known, Code::file_content, {{"file", name}});
+  if (!is_note) return std::nullopt;
+  UnpackedBundle unpacked{folder / note.design, note.materials.empty() ? fs::path() : folder / note.materials};
+  for (const fs::path& file : {unpacked.design, unpacked.materials}) {
+    if (file.empty() || fs::is_regular_file(file)) continue;
+    diagnostics.error(Code::file_content, {make_source(name, ""), 0, 0},
+                      "it lacks its file " + file.filename().string(), how_to_make_one, {{"file", name}});
     return std::nullopt;
-  };
-  const auto note = parse_json(make_source(name + "/" + note_name, text), diagnostics);
-  if (!note) return std::nullopt;
-  const auto path_of = [&](const char* member) {
-    const Data* found = note->find(member);
-    return found && found->string() ? *found->string() : std::string();
-  };
-  const std::string design = path_of("design"), materials = path_of("materials");
-  if (!is_sound(design)) return wrong("its " + std::string(note_name) + " names no design");
-  if (!materials.empty() && !is_sound(materials)) return wrong("its materials have a name that leads out of it");
-  UnpackedBundle unpacked{folder / design, materials.empty() ? fs::path() : folder / materials};
-  for (const fs::path& file : {unpacked.design, unpacked.materials})
-    if (!file.empty() && !fs::is_regular_file(file)) return wrong("it lacks its file " + file.filename().string());
+  }
   return unpacked;
 }
 

@@ -32,8 +32,8 @@ struct UnpackedBundle {
   std::filesystem::path design, materials;
 };
 // Writes the files of a bundle into a folder, which is made; nothing beside it is touched. `name` is for messages.
-// Returns nothing, and adds diagnostics, if the bytes are no bundle, or hold links, names that lead out of it, or more
-// than formats::ZipReader::most_bytes. Throws Error.
+// Returns nothing, and adds diagnostics, if the bytes are not a bundle, or hold links, names that lead out of it, or
+// more than formats::ZipReader::most_bytes. Throws Error.
 std::optional<UnpackedBundle> unpack_bundle(const std::string& name, std::string_view bytes,
                                             const std::filesystem::path& folder, Diagnostics& diagnostics);
 

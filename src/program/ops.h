@@ -106,7 +106,7 @@ T apply(Op op, const T& a, const T& b, const T& c) {
 #undef OMBRE_CALL_2
 #undef OMBRE_CALL_3
     default:
-      return a;  // inputs, constants, sources and calls are no arithmetic ops
+      return a;  // inputs, constants, sources and calls are not arithmetic
   }
 }
 

@@ -50,7 +50,7 @@ class PartTable {
   // The instructions of a body that some slots need.
   struct Excerpt {
     struct Line {
-      Instruction in;        // operands that are no inputs are numbered from the excerpt's first line
+      Instruction in;        // operands other than inputs are numbered from the excerpt's first line
       size_t parameter = 0;  // number of its first parameter
     };
     std::vector<Line> lines;

@@ -20,7 +20,7 @@ constexpr float about_equal = 1e-3f;  // fractions that differ by less than roun
 
 voxel::Lattice coarse_lattice(const Box& box) {
   const Vec3 size = box.size();
-  // The pitch is a short decimal, since a number of twenty digits is no pitch.
+  // The pitch is a short decimal, since a number of twenty digits is not a pitch.
   const std::string pitch = format_rounded(std::max({size.x, size.y, size.z, 1e-6}) / samples_along_longest, 3);
   voxel::Lattice lattice;
   lattice.origin = box.lo;

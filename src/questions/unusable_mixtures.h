@@ -1,4 +1,4 @@
-// Finds elements of a mesh where the design's mixture is no number.
+// Finds elements of a mesh where the design's mixture is not a number.
 #pragma once
 
 #include <span>

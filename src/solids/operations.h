@@ -13,8 +13,8 @@ struct OperationContext {
   Diagnostics* messages = nullptr;
 };
 
-// Returns the result of an operation: at least one piece, which may be empty. `children` exclude those of the
-// background; a child without a result has no pieces.
+// Returns the result of an operation: at least one piece, which may be empty. `children` leaves out those in the
+// background (%), and has no pieces for a child without a result.
 Pieces apply(const Tree& tree, const std::vector<const Pieces*>& children, const OperationContext& context);
 
 // Returns the geometry of a leaf.

@@ -29,7 +29,7 @@ struct TetrahedraRequest {
   // otherwise.
   std::vector<Vec3> fixed_points;
   double distance_share = 0.05;  // greatest distance of faces from the surface, in sizes
-  // Limit on queries of `region`, after which the sharp edges for which refinement does not end are dropped.
+  // After so many queries of `region`, the mesher drops the sharp edges at which refinement does not come to an end.
   uint64_t most_questions = 10'000'000;
   size_t memory_bytes = size_t{8} << 30;  // memory limit of the mesher
   const StopFlag* stop = nullptr;         // may be null

@@ -151,7 +151,7 @@ const ImageFormat* find_image_format(std::string_view bytes) {
   return found == rows.end() ? nullptr : &*found;
 }
 
-// Returns PNG for files that are no images at all, since the reader of PNG says what is wrong.
+// Returns PNG for files that are not images at all, since the reader of PNG says what is wrong.
 const ImageFormat& format_of_image(std::string_view bytes) {
   const ImageFormat* format = find_image_format(bytes);
   return format ? *format : image_formats().front();

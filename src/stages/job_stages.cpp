@@ -23,7 +23,7 @@ constexpr double cells_of_longest_side = 200;
 constexpr int64_t most_sweep_cells = 1'000'000, most_sweep_columns = int64_t{1} << 26;
 constexpr double halo_share = 0.5;  // share of a job's memory that blocks may take
 
-// Returns the pitch as an exact ratio. Lengths that are no short decimals, such as pixels of a picture, are rounded to
+// Returns the pitch as an exact ratio. Lengths that are not short decimals, such as pixels of a picture, are rounded to
 // nine digits.
 std::optional<Pitch> pitch_of(double mm) {
   if (const auto exact = Pitch::from_mm(mm)) return exact;

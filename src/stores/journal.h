@@ -43,7 +43,7 @@ std::string to_line(const std::string& id_name, const Entry& entry);
 std::string to_lines(const std::string& id_name, const Entries& entries);
 
 // Returns the entries of a journal that can be read and that the job accepts; of two for one piece the later one. A
-// torn line is no entry, even if it is the last one and lacks only its end.
+// torn line is not an entry, even if it is the last one and lacks only its end.
 using Accepts = std::function<bool(const Entry& entry)>;
 Entries parse_journal(const std::string& id_name, std::string_view text, const Accepts& accepts);
 

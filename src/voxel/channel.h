@@ -30,7 +30,7 @@ struct ChannelKind {
 
 const ChannelKind& channel_kind(ChannelType type);
 std::optional<ChannelType> channel_type(std::string_view name);
-// Returns the type whose voxels hold numbers in so many bits, which number_bits() lists.
+// Returns the type whose voxels hold numbers of this many bits, one of those in number_bits().
 ChannelType number_type(int bits);
 const std::vector<std::string>& number_bits();
 
@@ -59,10 +59,10 @@ struct Raster {
 // bits; or colours.
 using ChannelPixels = std::variant<RunLayer, Raster<uint16_t>, Raster<Colour>>;
 
-// Returns pixels of so many rows that are all 0.
+// Returns pixels that are all 0.
 ChannelPixels blank_pixels(ChannelType type, uint32_t width, uint32_t height);
 
-// The counts of pixels that are no materials.
+// How many pixels of a channel other than materials hold something, and how much.
 struct PixelCount {
   uint64_t voxels = 0;  // those that are not 0, or of a colour that is not fully transparent
   uint64_t shades = 0;  // the sum of their shades

@@ -11,11 +11,24 @@ namespace {
 const std::vector<ImageKind>& image_kinds() {
   using enum ChannelType;
   static const std::vector<ImageKind> rows{
-      // Each pixel has four bytes, which are coded one by one if no match is found.
-      {"rgba", {material, colour}, [](double information) { return std::min(32.0, 4 * information); }},
-      {"indexed", {material}, [](double information) { return std::min(8.0, information + 0.5); }},
-      {"gray", {material, dose8, dose16}, [](double information) { return std::min(8.0, information + 0.5); }},
-      {"mask", {material, mask}, [](double) { return 1.0; }},
+      {"rgba",
+       "8 bits a channel; the exact colours of the materials, void fully transparent unless the profile has another "
+       "background",
+       {material, colour},
+       // Each pixel has four bytes, which are coded one by one if no match is found.
+       [](double information) { return std::min(32.0, 4 * information); }},
+      {"indexed",
+       "a palette, at the fewest bits that hold the layer's materials",
+       {material},
+       [](double information) { return std::min(8.0, information + 0.5); }},
+      {"gray",
+       "the brightness of the materials' colours, 0.299 r + 0.587 g + 0.114 b, or a value",
+       {material, dose8, dose16},
+       [](double information) { return std::min(8.0, information + 0.5); }},
+      {"mask",
+       "black and white: a file for each material, white where it is",
+       {material, mask},
+       [](double) { return 1.0; }},
   };
   return rows;
 }

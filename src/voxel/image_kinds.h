@@ -13,8 +13,9 @@ namespace ombre::voxel {
 
 struct ImageKind {
   std::string name;                // in profiles and on command lines
+  std::string pixels;              // what they are, for the reference
   std::vector<ChannelType> takes;  // types of channels that it shows
-  // Returns the most bits that a pixel takes in a file if materials are noise of so many bits a voxel.
+  // Returns the most bits that a pixel takes in a file if materials are noise of `information` bits a voxel.
   double (*noise_bits)(double information) = nullptr;
 };
 

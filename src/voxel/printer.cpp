@@ -94,18 +94,52 @@ const Record<Printer>& printer_record() {
   static const Record<P> record =
       Record<P>(
           "a printer profile",
-          {field::value("name", &P::name, read_name).required(), field::text("title", &P::title).required(),
-           field::text("source", &P::source).required(), field::object("pitch", &P::pitch, pitch_record()).required(),
-           field::numbers("build_mm", &P::build_mm, "[x, y, z] in mm", above_zero),
-           field::choice("image", &P::format, image_format_names()).required(),
-           field::choice("origin", &P::origin, placement_names()), field::special("flip", read_flip),
-           field::numbers("background", &P::background, "[r, g, b, a], each 0 to 255", {0, 255, true}),
-           field::value("files", &P::files, read_pattern),
-           field::whole("first_index", &P::first_index, 0, 1'000'000'000),
-           field::choice("empty_layers", &P::drop_empty_layers, {"keep", "drop"}),
-           field::whole("max_materials", &P::max_materials, 1, 255),
-           field::object("smallest_feature", &P::smallest_feature, feature_record()),
-           field::objects("forbidden_neighbours", &P::forbidden_neighbours, neighbour_record())})
+          {field::value("name", &P::name, read_name)
+               .required()
+               .means("lower-case letters, digits and `-`; the same as the file's name"),
+           field::text("title", &P::title).required().means("the machine"),
+           field::text("source", &P::source).required().means("where the figures come from"),
+           field::object("pitch", &P::pitch, pitch_record())
+               .required()
+               .means(
+                   R"(`{"x": P, "y": P, "z": P}`, where `z` is the layer height. `P` is a length in mm as exact text )"
+                   R"((`"25.4/600"`, `"0.027"`), a number of mm, or `{"dpi": 600}`. Write resolutions as dpi: 600 dpi )"
+                   R"(rounded to 0.0423 mm drifts 0.39 mm across a large tray)"),
+           field::numbers("build_mm", &P::build_mm, "[x, y, z] in mm", above_zero)
+               .means("`[x, y, z]`, the largest part; leave it out where there is no limit"),
+           field::choice("image", &P::format, image_format_names())
+               .required()
+               .means("the kind of images, unless the job chooses another one"),
+           field::choice("origin", &P::origin, placement_names())
+               .means(
+                   R"(`"design"` (default): images cover the design's own box; `"center"`: they cover the build plate )"
+                   R"(with the part in its middle, which needs `build_mm`)"),
+           field::special("flip", read_flip)
+               .means(
+                   R"(axes that the images run backwards on, such as `["y"]` (default `[]`). Unflipped, x grows to the )"
+                   R"(right and the top row of pixels has the greatest y)"),
+           field::numbers("background", &P::background, "[r, g, b, a], each 0 to 255", {0, 255, true})
+               .means("`[r, g, b, a]` of void (default `[0, 0, 0, 0]`, transparent)"),
+           field::value("files", &P::files, read_pattern)
+               .means(
+                   R"(file names with the layer's number (default `"slice_{index:05}.png"`, five digits with leading )"
+                   R"(zeros). With `{material}` too, as in `"slice_{index:05}_{material}.png"`, each layer has one file )"
+                   R"(for each of the job's materials, in which the others are void; an image of a value (`--by`) has )"
+                   R"(the value's name there. Masks of materials always have: `_{material}` is added where it is )"
+                   R"(missing)"),
+           field::whole("first_index", &P::first_index, 0, 1'000'000'000)
+               .means("the number of the lowest layer (default 0)"),
+           field::choice("empty_layers", &P::drop_empty_layers, {"keep", "drop"})
+               .means(
+                   R"(`"keep"` (default) or `"drop"`. Dropped layers leave their numbers unused; `job.json` says which )"
+                   R"(layer is the first with material)"),
+           field::whole("max_materials", &P::max_materials, 1, 255)
+               .means("the most materials in one job, 1 to 255, void not counted"),
+           field::object("smallest_feature", &P::smallest_feature, feature_record())
+               .means(R"(`{"distorts_mm": 0.42, "fails_mm": 0.21}`: details thinner than this distort, or fail)"),
+           field::objects("forbidden_neighbours", &P::forbidden_neighbours, neighbour_record())
+               .means(R"(`[{"material": "liquid", "near": "surface", "within_mm": 0.3}]`: the material must keep this )"
+                      R"(distance from the surface, or from the material named in `near`)")})
           .checked([](P& printer, const Data& data, const MemberReader& reader) {
             if (printer.origin == Placement::center && !printer.build_mm)
               reader.fail(data, R"("origin": "center" needs "build_mm", the plate to centre on)");
@@ -197,6 +231,8 @@ std::optional<int64_t> NamePattern::index(std::string_view name) const {
 std::string NamePattern::text() const {
   return before_ + (digits_ == 1 ? "{index}" : "{index:0" + std::to_string(digits_) + "}") + after_;
 }
+
+const std::vector<MemberInfo>& printer_members() { return printer_record().members(); }
 
 std::optional<Printer> parse_printer(const SourcePtr& source, Diagnostics& diagnostics) {
   const std::optional<Data> root = parse_json(source, diagnostics);

@@ -1,29 +1,5 @@
 // Printer profiles, which describe the slice stack that a machine expects, read from printers/*.json.
-//
-// A profile is one JSON object with these members:
-//
-// - name: lower-case letters, digits and '-'; also the name of the file.
-// - title, source: the machine, and the origin of the figures, for people.
-// - pitch: {"x": P, "y": P, "z": P}. P is a length in mm as exact text ("25.4/600", "0.027"), a number of mm, or
-//   {"dpi": 600}. z is the layer height.
-// - build_mm: [x, y, z], the largest part; absent if the machine sets no limit.
-// - image: the format, unless the job chooses another one. "rgba" and "indexed" have the materials' colours, "gray" the
-//   brightness of these colours in 8 bits. "mask" has one file for each material, with 1 bit that is white where the
-//   material is.
-// - origin: "design" (default) if images cover the design's own box, "center" if they cover the build plate with the
-//   part in its middle.
-// - flip: a list of the axes "x", "y" that run backwards in images (default: none). If not flipped, x grows to the
-//   right and the top row has the greatest y.
-// - background: [r, g, b, a] of void, 0 to 255 (default: all 0, transparent).
-// - files: file names with the layer's number in five digits or more, "slice_{index:05}.png". With {material}, as in
-//   "slice_{index:05}_{material}.png", each layer has one file for each material, in which the other materials are
-//   void.
-// - first_index: the number of the lowest layer (default 0).
-// - empty_layers: "keep" (default) or "drop". The number of a dropped layer is not used.
-// - max_materials: the greatest number of materials in one job, without void, 1 to 255.
-// - smallest_feature: {"distorts_mm": 0.42, "fails_mm": 0.21}; absent if unknown.
-// - forbidden_neighbours: [{"material": "liquid", "near": "surface", "within_mm": 0.3}, ...]. `near` is "surface" or
-//   another material.
+// docs/reference/printers.md lists the members of a profile.
 #pragma once
 
 #include <array>
@@ -37,6 +13,10 @@
 #include "base/math/pitch.h"
 #include "base/math/vec.h"
 #include "base/text/diagnostic.h"
+
+namespace ombre {
+struct MemberInfo;
+}
 
 namespace ombre::voxel {
 
@@ -100,6 +80,9 @@ struct Printer : Images {
   std::optional<SmallestFeature> smallest_feature;
   std::vector<ForbiddenNeighbour> forbidden_neighbours;
 };
+
+// Returns the members of a profile, for its reference.
+const std::vector<MemberInfo>& printer_members();
 
 // Returns nothing and adds diagnostics if the text is not a valid profile.
 std::optional<Printer> parse_printer(const SourcePtr& source, Diagnostics& diagnostics);

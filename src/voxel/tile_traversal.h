@@ -11,14 +11,14 @@ namespace ombre::voxel {
 // Options for dividing tiles and for evaluating intervals. They affect only speed, no voxel.
 struct TraversalOptions {
   bool prune = true;
-  // Size of leaf tiles, which are evaluated without being divided further. Long programs use smaller ones, in which
-  // they become shorter.
+  // Tiles of this size are not divided further. Long programs have smaller ones, in which pruning leaves less of the
+  // program.
   int64_t leaf_width = 64, leaf_height = 8;
   int64_t small_leaf_width = 16, small_leaf_height = 4;
   size_t long_program = 60;      // number of ops per voxel that makes a program long
   size_t many_parts = 4;         // a tile that this many parts reach is divided before they are replaced by their code
   bool write_parts_out = false;  // also replaces parts that the leaf could evaluate itself
-  // Wider tiles are always divided.
+  // Tiles that are wider or higher than this are always divided.
   int64_t widest = 256, highest = 16;
 };
 

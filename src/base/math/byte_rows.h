@@ -25,8 +25,8 @@ size_t equal_at_begin(std::span<const uint8_t> bytes);
 // result.
 size_t find_sixteen_equal(std::span<const uint8_t> bytes);
 
-// Writes two bits for each byte: `to[n]` if the byte is `from[n]`, else 0. Four pairs make a byte of `packed`, with the
-// first pair in the highest bits.
+// Writes two bits for each byte: `bits.to[n]` if the byte is `bits.from[n]`, 0 if it is none of them. Four pairs make a
+// byte of `packed`, with the first pair in the highest bits.
 void pack_double_bits(const uint8_t* bytes, const DoubleBits& bits, std::span<uint8_t> packed);
 
 // Writes the index in `values` of each byte. Every byte must be in `values`. `numbers` has as many bytes as `bytes`,

@@ -83,7 +83,7 @@ TEST(Pitch, ComputedMillimetresAreTheRatioThatWasMeant) {
       EXPECT_EQ(Pitch::from_mm(static_cast<double>(n) / static_cast<double>(d)), Pitch::from_ratio(n, d));
 }
 
-// A number that is no simple ratio keeps its value.
+// A number that is not a simple ratio keeps its value.
 TEST(Pitch, AnyMillimetresAreKept) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> exponent(-4, 4);

@@ -12,8 +12,8 @@
 namespace ombre {
 namespace {
 
-// Largest number of materials that are counted, or sought, by comparing whole rows. With more materials, processing
-// each voxel is as fast.
+// Up to so many materials are counted, or searched for, by comparing whole rows. With more of them, looking at each
+// voxel is as fast.
 constexpr size_t most_compared = 6, most_sought = 16;
 
 uint64_t word_at(const MaterialId* voxels) {

@@ -1,4 +1,4 @@
-// Compares the detection with Highway's own.
+// Compares the instruction sets that are detected here with those that Highway detects.
 #include "base/system/instruction_sets.h"
 
 #include <gtest/gtest.h>

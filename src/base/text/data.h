@@ -23,7 +23,7 @@ using HostObjectPtr = std::shared_ptr<const HostObject>;
 using DataList = std::vector<Data>;
 using DataMembers = std::vector<std::pair<std::string, Data>>;  // members in the order written
 
-// A host object in data. It is no plain pointer, because libstdc++ takes a variant of strings, vectors and shared
+// A host object in data. It is not a plain pointer, because libstdc++ takes a variant of strings, vectors and shared
 // pointers alone for one that always has a value, and destroys a value that is not there when a copy runs out of
 // memory.
 struct HeldObject {

@@ -19,8 +19,19 @@ std::string without_controls(std::string_view text) {
   return clean;
 }
 
+bool has_place(const SourceRange& where) { return where.source && where.end > 0; }
+
+// Returns "file:line:column: ", "file: " or nothing.
+std::string place_text(const SourceRange& where) {
+  if (!where.source) return "";
+  if (!has_place(where)) return where.source->name() + ": ";
+  const Place place = where.source->place(where.begin);
+  return where.source->name() + ':' + std::to_string(place.line) + ':' + std::to_string(place.column) + ": ";
+}
+
 // Returns the source line and, below it, a marker as long as the range.
-std::string excerpt(const SourceRange& where, Place place) {
+std::string excerpt(const SourceRange& where) {
+  const Place place = where.source->place(where.begin);
   std::string_view line = where.source->line(place.line);
   if (line.empty()) return {};
   const SourceText& source = *where.source;
@@ -128,19 +139,16 @@ std::string sentence_of(const Diagnostic& diagnostic, FrontEnd front_end) {
   return diagnostic.hint.empty() ? diagnostic.message : diagnostic.message + "; " + hint_of(diagnostic, front_end);
 }
 
+std::string placed_sentence_of(const Diagnostic& diagnostic, FrontEnd front_end) {
+  return place_text(diagnostic.where) + sentence_of(diagnostic, front_end);
+}
+
 std::string to_text(const Diagnostic& diagnostic, FrontEnd front_end) {
   const SourceRange& where = diagnostic.where;
-  const bool has_place = where.source && where.end > 0;
-  std::string text;
-  Place place;
-  if (where.source) text += where.source->name() + ": ";
-  if (has_place) {
-    place = where.source->place(where.begin);
-    text.insert(text.size() - 1, std::to_string(place.line) + ':' + std::to_string(place.column) + ':');
-  }
+  std::string text = place_text(where);
   text += name_of(diagnostic.severity);
   text += ": " + sentence_of(diagnostic, front_end) + '\n';
-  if (has_place) text += excerpt(where, place);
+  if (has_place(where)) text += excerpt(where);
   return without_controls(text);
 }
 

@@ -60,6 +60,8 @@ std::string_view name_of(Severity severity);
 std::string hint_of(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
 // Returns "message; hint".
 std::string sentence_of(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
+// Returns "file:line:column: message; hint", or "file: message; hint" for a whole file.
+std::string placed_sentence_of(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);
 // Returns "file:line:column: error: message; hint" ("file: error: ..." for a whole file), then the source line and a
 // marker line.
 std::string to_text(const Diagnostic& diagnostic, FrontEnd front_end = FrontEnd::command_line);

@@ -92,17 +92,40 @@ const DataMembers* MemberReader::named(const Data& data, const std::string& what
   return nullptr;
 }
 
+bool MemberReader::is_object(const Data& data, const std::string& what, const std::vector<std::string>& known) const {
+  if (data.members()) return true;
+  fail_expected(data, what + " in braces", "its members are " + join(known, ", "));
+  return false;
+}
+
+void MemberReader::fail_unknown(const DataMembers::value_type& member, const std::string& what,
+                                const std::string& hint) const {
+  const auto& [name, value] = member;
+  diagnostics_.error(Code::unknown_key, value.where, what + " has no \"" + name + '"', hint, {{"key", name}});
+}
+
 bool MemberReader::has_only(const Data& data, const std::string& what, const std::vector<std::string>& known) const {
-  if (!data.members()) {
-    fail_expected(data, what + " in braces", "its members are " + join(known, ", "));
-    return false;
-  }
+  if (!is_object(data, what, known)) return false;
   const size_t before = error_count();
-  for (const auto& [name, value] : *data.members()) {
-    if (std::ranges::find(known, name) != known.end()) continue;
-    const std::string slip = did_you_mean(name, known);
-    fail(value, std::string(what).append(" has no \"").append(name).append("\""),
-         slip.empty() ? "it has " + join(known, ", ") : slip);
+  for (const auto& member : *data.members()) {
+    if (std::ranges::find(known, member.first) != known.end()) continue;
+    const std::string slip = did_you_mean(member.first, known);
+    fail_unknown(member, what, slip.empty() ? "it has " + join(known, ", ") : slip);
+  }
+  return error_count() == before;
+}
+
+bool MemberReader::has_no_slips(const Data& data, const std::string& what,
+                                const std::vector<std::string>& known) const {
+  if (!is_object(data, what, known)) return false;
+  constexpr size_t shortest = 3;  // names of one or two letters look like slips of each other
+  std::vector<std::string> missing;
+  for (const std::string& name : known)
+    if (name.size() >= shortest && !data.find(name)) missing.push_back(name);
+  const size_t before = error_count();
+  for (const auto& member : *data.members()) {
+    if (std::ranges::find(known, member.first) != known.end()) continue;
+    if (const std::string slip = did_you_mean(member.first, missing); !slip.empty()) fail_unknown(member, what, slip);
   }
   return error_count() == before;
 }

@@ -33,7 +33,8 @@ std::vector<std::string> names_in(const Rows& rows) {
   return names;
 }
 
-// Reads values of members, and reports what is wrong with them. All messages have the same code.
+// Reads values of members, and reports what is wrong with them. All messages have the same code, except those about
+// unknown members.
 class MemberReader {
  public:
   explicit MemberReader(Diagnostics& diagnostics, Code code = Code::design) : diagnostics_(diagnostics), code_(code) {}
@@ -56,21 +57,33 @@ class MemberReader {
   std::optional<std::string> text(const Data& data, const std::string& name) const;
   // The place of the text among the words.
   std::optional<size_t> choice(const Data& data, const std::string& name, const std::vector<std::string>& words) const;
-  // Exactly so many numbers. `form` says what to write: "[x, y, z]".
+  // Reads a list of exactly `count` numbers. `form` says what to write: "[x, y, z]".
   std::optional<std::vector<double>> numbers(const Data& data, const std::string& name, size_t count,
                                              const std::string& form, const NumberRange& range = {}) const;
   const DataList* list(const Data& data, const std::string& name) const;
   // The members of an object whose names mean something themselves.
   const DataMembers* named(const Data& data, const std::string& what) const;
-  // Reports data that is no object, and members that are not known, with the name that may be meant.
+  // Reports data that is not an object, and members that are not known, with the name that may be meant.
   bool has_only(const Data& data, const std::string& what, const std::vector<std::string>& known) const;
+  // Does so for an object that may have other members, too. Of these it reports names that look like slips of a known
+  // one that the object lacks.
+  bool has_no_slips(const Data& data, const std::string& what, const std::vector<std::string>& known) const;
   // Reports it unless the object has one of these members, and no two.
   void has_one_of(const Data& data, const std::string& what, const std::vector<std::string>& names,
                   const Phrase& hint) const;
 
  private:
+  bool is_object(const Data& data, const std::string& what, const std::vector<std::string>& known) const;
+  void fail_unknown(const DataMembers::value_type& member, const std::string& what, const std::string& hint) const;
+
   Diagnostics& diagnostics_;
   Code code_;
+};
+
+// A member of an object, for its reference.
+struct MemberInfo {
+  std::string name, meaning;
+  bool is_required = false;
 };
 
 // Sets what a member says of the struct, or reports what is wrong with it.
@@ -79,18 +92,23 @@ struct Field {
   std::string name;
   std::function<void(T& value, const Data& data, const MemberReader& reader)> read;
   bool is_required = false;
-  Phrase hint;  // what to write where it is missing
+  Phrase hint;          // what to write where it is missing
+  std::string meaning;  // for the reference, in Markdown
 
   Field(std::string name, decltype(read) read) : name(std::move(name)), read(std::move(read)) {}
   // A member of what the struct inherits from.
   template <class Base>
   requires(std::derived_from<T, Base> && !std::same_as<T, Base>)
       Field(const Field<Base>& field)  // NOLINT: rows of both stand in one table
-      : name(field.name), read(field.read), is_required(field.is_required), hint(field.hint) {}
+      : name(field.name), read(field.read), is_required(field.is_required), hint(field.hint), meaning(field.meaning) {}
 
   Field required(Phrase what_to_write = {}) && {
     is_required = true;
     hint = std::move(what_to_write);
+    return std::move(*this);
+  }
+  Field means(std::string text) && {
+    meaning = std::move(text);
     return std::move(*this);
   }
   // An object with this member has this value in another one, such as its kind.
@@ -109,12 +127,17 @@ class Record {
  public:
   // `what` names the object in messages: "a printer profile".
   Record(std::string what, std::vector<Field<T>> fields) : what_(std::move(what)), fields_(std::move(fields)) {
-    for (const Field<T>& field : fields_) names_.push_back(field.name);
+    for (const Field<T>& field : fields_) members_.push_back({field.name, field.meaning, field.is_required});
   }
 
-  // The object has these members, too, which something else reads.
+  // The object also has these members, which something else reads.
   Record knows(const std::vector<std::string>& names) && {
-    names_.insert(names_.end(), names.begin(), names.end());
+    for (const std::string& name : names) members_.push_back({name, ""});
+    return std::move(*this);
+  }
+  // The object may have any other members.
+  Record open() && {
+    is_open_ = true;
     return std::move(*this);
   }
   // The members of a part stand among those of the whole; a part that is optional is there then.
@@ -126,7 +149,8 @@ class Record {
       else
         part.read_members(data, value.*member, reader);
     });
-    return std::move(*this).knows(part.names());
+    members_.insert(members_.end(), part.members().begin(), part.members().end());
+    return std::move(*this);
   }
   Record one_of(const std::vector<std::string>& names, const Phrase& hint) && {
     parts_.push_back([=, what = what_](T&, const Data& data, const MemberReader& reader) {
@@ -140,13 +164,14 @@ class Record {
     return std::move(*this);
   }
 
-  const std::vector<std::string>& names() const { return names_; }
+  const std::vector<MemberInfo>& members() const { return members_; }
+  std::vector<std::string> names() const { return names_in(members_); }
 
   // Sets the members that the object has. Returns false, and reports why, if anything is wrong; then the others are set
   // all the same. A struct with a `where` gets the object's place.
   bool read(const Data& data, T& value, const MemberReader& reader) const {
     const size_t before = reader.error_count();
-    reader.has_only(data, what_, names_);
+    is_open_ ? reader.has_no_slips(data, what_, names()) : reader.has_only(data, what_, names());
     if (data.members()) read_members(data, value, reader);
     return reader.error_count() == before;
   }
@@ -169,9 +194,10 @@ class Record {
 
   std::string what_;
   std::vector<Field<T>> fields_;
-  std::vector<std::string> names_;
+  std::vector<MemberInfo> members_;
   std::vector<Read> parts_;
   Read check_;
+  bool is_open_ = false;
 };
 
 namespace field {

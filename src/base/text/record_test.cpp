@@ -58,11 +58,11 @@ T read_text(const std::string& text, const Record<T>& record, Diagnostics& diagn
 
 // The first message, after its place, with its hint.
 template <class T = Tray>
-std::string complaint(const std::string& text, const Record<T>& record = tray_record()) {
+std::string complaint(const std::string& text, const Record<T>& record = tray_record(), Code code = Code::study) {
   Diagnostics diagnostics;
   read_text(text, record, diagnostics);
   if (!diagnostics.has_errors()) return "";
-  EXPECT_EQ(diagnostics.list()[0].code, Code::study);
+  EXPECT_EQ(diagnostics.list()[0].code, code);
   const std::string whole = to_text(diagnostics.list()[0]);
   return whole.substr(0, whole.find('\n')).substr(std::string("tray.json:").size());
 }
@@ -93,7 +93,7 @@ TEST(Record, ReportsMistakesWithPlaceAndRemedy) {
             "1:1: error: expected a tray in braces, not a list of 1; its members are label, depth_mm, "
             "count, open, finish, colour, screws, spare");
   EXPECT_EQ(complaint("{}"), R"(1:1: error: a tray needs "label"; write "label": "bolts")");
-  EXPECT_EQ(complaint(R"({"lable": "a", "label": "b"})"),
+  EXPECT_EQ(complaint(R"({"lable": "a", "label": "b"})", tray_record(), Code::unknown_key),
             R"(1:12: error: a tray has no "lable"; did you mean "label"?)");
   EXPECT_EQ(complaint(R"({"label": " "})"), R"(1:12: error: expected a text for "label", not the text " ")");
   EXPECT_EQ(complaint(R"({"label": "a", "count": 300})"),
@@ -153,6 +153,20 @@ TEST(Record, PartsStandAmongTheMembersOfTheWhole) {
   EXPECT_EQ(complaint(R"({"label": "a"})", record),
             R"(1:1: error: a box has either "width" or "length"; write "width": 1)");
   EXPECT_EQ(complaint(R"({"width": 1})", record), R"(1:1: error: a tray needs "label"; write "label": "bolts")");
+}
+
+TEST(Record, OpenObjectsMayHaveOtherMembersButNoSlips) {
+  const Record<Tray> record =
+      Record<Tray>("a tray", {field::text("label", &Tray::label), field::flag("open", &Tray::is_open),
+                              field::number("d", &Tray::depth_mm)})
+          .open();
+  Diagnostics diagnostics;
+  const Tray tray = read_text(R"({"label": "a", "labels": ["a", "b"], "made_by": "us", "dx": 3})", record, diagnostics);
+  EXPECT_EQ(to_text(diagnostics), "");
+  EXPECT_EQ(tray.label, "a");
+  EXPECT_EQ(complaint(R"({"opne": true})", record, Code::unknown_key),
+            R"(1:10: error: a tray has no "opne"; did you mean "open"?)");
+  EXPECT_EQ(complaint("3", record), "1:1: error: expected a tray in braces, not 3; its members are label, open, d");
 }
 
 }  // namespace

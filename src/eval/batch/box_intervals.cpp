@@ -29,7 +29,7 @@ void meet(const IntervalRow& row, Ends piece, std::vector<int32_t>& meets) {
     meets[n] &= static_cast<int32_t>(row.lo[n] <= piece.hi) & static_cast<int32_t>(row.hi[n] >= piece.lo);
 }
 
-// True for x / x and the like, whose range is narrower than that of a general quotient.
+// True for x / x, whose range is narrower than what the intervals of two different operands would give.
 bool is_own_quotient(const Instruction& in) { return in.a == in.b && (in.op == Op::divide || in.op == Op::share); }
 
 }  // namespace

@@ -100,7 +100,7 @@ void run_program(const TemporaryFolder& folder, int threads, const StopFlag* sto
   if (failure != 0) throw Error(Code::other_program, std::string("ccx cannot be started: ") + std::strerror(failure));
   const int status = status_of(process, stop);
   const std::string words = text_of_file(log);
-  // The exit code of ccx is 0 for some failures, too, so it is not used.
+  // The exit code of ccx is not used, since it is 0 even for some failures.
   if (WIFSIGNALED(status))
     throw Error(Code::other_program, "CalculiX was ended by signal " + std::to_string(WTERMSIG(status)) +
                                          (WTERMSIG(status) == SIGKILL ? ", perhaps since memory ran out" : "") + "; " +

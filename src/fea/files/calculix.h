@@ -30,7 +30,7 @@ struct PrintedResults {
   std::vector<std::array<double, 3>> fluxes;
 };
 // Reads job.dat for a mesh with these numbers of nodes and elements; missing results are empty. Throws Error for
-// results of nodes or elements that do not exist, or that are no numbers.
+// results of nodes or elements that do not exist, or that are not numbers.
 PrintedResults read_printed(const std::string& text, size_t nodes, size_t elements);
 
 }  // namespace ombre::fea

@@ -23,8 +23,8 @@ std::string text_at(double x, double y, const std::string& text, const char* anc
   return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text + "</text>\n";
 }
 
-// Returns the step between rings. The outermost ring has a simple number: 1, 2 or 5 times a power of 10, times the
-// number of rings.
+// Returns the step between rings, the smallest of 1, 2 and 5 times a power of 10 with which the outermost ring
+// encloses the greatest value.
 double step_for(double greatest) {
   if (!(greatest > 0)) return 1;
   double power = 1;

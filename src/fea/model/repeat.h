@@ -9,7 +9,7 @@
 
 namespace ombre::fea {
 
-// A node that is a copy of another, and its distance from it in periods along each axis. The other node is no copy
+// A node that is a copy of another, and its distance from it in periods along each axis. The other node is not a copy
 // itself.
 struct Tie {
   uint32_t node = 0, of = 0;
@@ -32,7 +32,7 @@ struct Repeat {
 std::array<double, 6> mean_stress(const MeshView& mesh, const std::vector<std::array<double, 6>>& stress_mpa,
                                   Vec3 period_mm);
 
-// Finds nodes whose places differ by whole periods, up to a millionth of them. The first of equal nodes is no copy.
+// Finds nodes whose places differ by whole periods, up to a millionth of them. The first of equal nodes is not a copy.
 std::vector<Tie> ties_of(const MeshView& mesh, Vec3 period_mm);
 
 }  // namespace ombre::fea

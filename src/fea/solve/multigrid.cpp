@@ -51,7 +51,7 @@ struct Coarse {
   Vector more_diagonal;
 };
 
-// Distributes a node's addition to the diagonal to the coarse nodes around by their weights.
+// Spreads what a node adds to the diagonal over the coarse nodes around it, by their weights.
 void coarsen_diagonal(const BrickOperator& fine, Coarse& coarse) {
   if (fine.more_diagonal().empty()) return;
   const size_t unknowns = fine.unknowns();

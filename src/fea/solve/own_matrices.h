@@ -27,8 +27,8 @@ std::vector<uint8_t> bricks_with_own_stiffness(const Bricks& bricks);
 // Makes the matrices of cut bricks, in W/(mm K) or S/mm; `per_mm` converts the sections' conductivities.
 OwnMatrices own_conductance(const Bricks& bricks, const std::vector<Section>& sections,
                             const std::vector<uint16_t>& section_of, double per_mm);
-// Returns the most memory in bytes that a multigrid solution takes: such matrices, and so much for each node and brick
-// of its levels.
+// Returns a bound on the bytes of memory that a multigrid solution takes: matrices of cut bricks, and `node_bytes` and
+// `brick_bytes` for each node and brick of all levels.
 double multigrid_bytes(const Bricks& bricks, size_t unknowns, double node_bytes, double brick_bytes);
 
 }  // namespace ombre::fea

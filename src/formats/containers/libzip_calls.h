@@ -14,7 +14,7 @@ struct LibzipCalls {
   decltype(&zip_get_error) get_error = zip_get_error;
   decltype(&zip_strerror) strerror = zip_strerror;
 
-  // Functions of entries.
+  // These functions work on the entries of an archive.
   decltype(&zip_get_num_entries) get_num_entries = zip_get_num_entries;
   decltype(&zip_get_name) get_name = zip_get_name;
   decltype(&zip_stat_index) stat_index = zip_stat_index;

@@ -19,7 +19,7 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && !is_blank(c) && !is_line_end(c); }
 
-// Returns true if the number is out of range because it is too close to zero; from_chars reports both kinds alike.
+// True for a number that is out of range because it is too small, not too large: from_chars reports both alike.
 bool is_tiny(std::string_view number) {
   const size_t e = number.find_first_of("eE");
   return e == std::string_view::npos || number.substr(e + 1, 1) == "-";

@@ -22,12 +22,12 @@ class PixelHistory {
 
   // Forgets all rows, so that the following ones do not repeat them.
   void clear();
-  // Returns where to write the numbers of the next row, before end_row() encodes it.
+  // Returns where the caller writes the numbers of the next row, before it calls end_row() to encode them.
   uint8_t* begin_row();
   void end_row(const uint8_t* image, DeflateWriter& out);
 
  private:
-  // The number of pixels of a key; and for two smaller numbers of pixels, how many keys begin with the same ones.
+  // How many pixels a key holds, and how many keys begin alike in the first `prefix_pixels` or `half_pixels` of them.
   struct KeyShape {
     uint32_t pixels, prefix_pixels, prefix_keys, half_pixels, half_keys;
   };

@@ -1,107 +1,53 @@
 // Reads grids of raw numbers, and the descriptions beside them.
-#include <cmath>
-
 #include "base/text/json.h"
+#include "base/text/record.h"
 #include "base/text/text.h"
 #include "formats/volumes/volume_parts.h"
 
 namespace ombre::formats {
 namespace {
 
-class DescriptionReader {
- public:
-  DescriptionReader(const std::string& path, const Data& data) : path_(path), data_(data) {}
+// A field that may only say how our arrays lie in files.
+Field<VolumeDescription> fixed(const std::string& name, const Data& only) {
+  return {name, [=](VolumeDescription&, const Data& data, const MemberReader& reader) {
+            if (data != only) reader.fail_expected(data, print_json_line(only) + " for \"" + name + '"');
+          }};
+}
 
-  VolumeDescription read() const {
-    VolumeDescription result;
-    result.type = text("data_type");
-    if (data_.find("dimensions")) result.count = counts();
-    result.is_big_endian = byte_order() == "big";
-    result.header_bytes = static_cast<uint64_t>(whole("header_bytes", data_.find("header_bytes"), 0));
-    result.channels = whole("channels", data_.find("channels"), 1);
-    constexpr int64_t most_channels = 1000;
-    if (result.channels < 1 || result.channels > most_channels) fail("channels", "1 to 1000 values in each voxel");
-    check_axes();
-    if (const Data* space = data_.find("space")) {
-      const auto known = space->string() ? space_called(to_lower(*space->string())) : std::nullopt;
-      if (!known) fail("space", "\"RAS\", \"LPS\" or \"LAS\"");
-      result.space = *known;
-    }
-    if (!data_.find("spacing_mm")) return result;
-    const Vec3 origin = data_.find("origin_mm") ? vector("origin_mm") : Vec3{0, 0, 0};
-    result.space_from_index = placed_along_axes(path_, vector("spacing_mm"), origin);
-    return result;
-  }
+void read_space(VolumeDescription& description, const Data& data, const MemberReader& reader) {
+  const auto space = data.string() ? space_called(to_lower(*data.string())) : std::nullopt;
+  if (!space) return reader.fail_expected(data, R"("RAS", "LPS" or "LAS" for "space")");
+  description.space = *space;
+}
 
- private:
-  [[noreturn]] void fail(const std::string& member, const std::string& expected) const {
-    fail_volume(path_, "has a description whose \"" + member + "\" is wrong; expected " + expected);
-  }
-
-  std::string text(const char* member) const {
-    const Data* data = data_.find(member);
-    if (!data) return "";
-    if (!data->string()) fail(member, "a text");
-    return *data->string();
-  }
-
-  std::string byte_order() const {
-    std::string order = text("byte_order");
-    if (!order.empty() && order != "little" && order != "big") fail("byte_order", "\"little\" or \"big\"");
-    return order;
-  }
-
-  int64_t whole(const char* member, const Data* data, int64_t otherwise) const {
-    if (!data) return otherwise;
-    constexpr double most = 1e15;
-    const double* number = data->number();
-    if (!number || !(*number >= 0 && *number <= most) || *number != std::floor(*number))
-      fail(member, "a whole number that is not negative");
-    return static_cast<int64_t>(*number);
-  }
-
-  const DataList& three(const char* member) const {
-    const Data* data = data_.find(member);
-    if (!data || !data->list() || data->list()->size() != 3) fail(member, "three numbers, for x, y and z");
-    return *data->list();
-  }
-
-  std::array<int64_t, 3> counts() const {
-    const DataList& list = three("dimensions");
-    std::array<int64_t, 3> result{};
-    for (size_t axis = 0; axis < 3; ++axis) result[axis] = whole("dimensions", &list[axis], 0);
-    return result;
-  }
-
-  Vec3 vector(const char* member) const {
-    const DataList& list = three(member);
-    Vec3 result;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double* number = list[static_cast<size_t>(axis)].number();
-      if (!number) fail(member, "three numbers, for x, y and z");
-      result[axis] = *number;
-    }
-    return result;
-  }
-
-  void check_axes() const {
-    const Data* axes = data_.find("axes");
-    if (axes && *axes != Data(DataList{Data("x"), Data("y"), Data("z")})) fail("axes", "[\"x\", \"y\", \"z\"]");
-    const std::string fastest = text("fastest_axis");
-    if (!fastest.empty() && fastest != "x") fail("fastest_axis", "\"x\"");
-  }
-
-  const std::string& path_;
-  const Data& data_;
-};
+const Record<VolumeDescription>& description_record() {
+  using D = VolumeDescription;
+  constexpr double most = 1e15, most_channels = 1000;
+  static const Record<D> record =
+      Record<D>("a description of numbers",
+                {field::text("data_type", &D::type),
+                 field::numbers("dimensions", &D::count, "[x, y, z], how many voxels there are", {1, most, true}),
+                 field::choice("byte_order", &D::is_big_endian, {"little", "big"}),
+                 field::whole("header_bytes", &D::header_bytes, 0, most),
+                 field::whole("channels", &D::channels, 1, most_channels), fixed("axes", DataList{"x", "y", "z"}),
+                 fixed("fastest_axis", "x"), field::special("space", read_space),
+                 field::numbers("spacing_mm", &D::spacing_mm, "[x, y, z] in mm", above_zero),
+                 field::numbers("origin_mm", &D::origin_mm, "[x, y, z] in mm")})
+          .open();
+  return record;
+}
 
 }  // namespace
 
 VolumeDescription read_description(const std::string& path, const std::string& json) {
   Diagnostics diagnostics;
   const auto data = parse_json(make_source(path + ".json", json), diagnostics);
-  if (!data || !data->members()) fail_volume(path, "has a description, " + path + ".json, that is no JSON object");
-  return DescriptionReader(path, *data).read();
+  VolumeDescription description;
+  if (!data || !description_record().read(*data, description, MemberReader(diagnostics)))
+    fail_volume(path, "has a wrong description: " + placed_sentence_of(diagnostics.list().front()));
+  if (description.spacing_mm)
+    description.space_from_index = placed_along_axes(path, *description.spacing_mm, description.origin_mm);
+  return description;
 }
 
 VoxelVolume read_raw(const VolumeFile& file) {

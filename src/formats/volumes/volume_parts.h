@@ -93,9 +93,12 @@ struct VolumeDescription {
   bool is_big_endian = false;
   uint64_t header_bytes = 0;
   int64_t channels = 1;
-  std::optional<Affine> space_from_index;
+  std::optional<Vec3> spacing_mm;
+  Vec3 origin_mm;                          // of the first voxel
+  std::optional<Affine> space_from_index;  // follows from the spacing and the origin
   VolumeSpace space = VolumeSpace::unknown;
 };
+// Throws Error, with the place of the mistake.
 VolumeDescription read_description(const std::string& path, const std::string& json);
 
 // Reads NRRD's "space" or its short form, in lower case; null if it is not a three-dimensional space.

@@ -35,6 +35,14 @@ std::string volume_problem(const std::string& bytes, const std::string* companio
   }
 }
 
+// Returns what is wrong with a description that has this member besides those that it needs.
+std::string description_problem(const std::string& member) {
+  const std::string json = R"({"data_type": "uint8", "dimensions": [2, 3, 1], )" + member + "}";
+  const std::string problem = volume_problem("123456", &json),
+                    start = "the volume \"v\" has a wrong description: v.json:1:";
+  return problem.starts_with(start) ? problem.substr(start.size()) : problem;
+}
+
 bool is_about(const std::string& problem, const std::string& words) { return problem.find(words) != std::string::npos; }
 
 const std::vector<int16_t> six{-2, 0, 300, 4, 5, 32767};
@@ -139,6 +147,28 @@ TEST(Volume, DescriptionsSayWhatNumbersAre) {
   EXPECT_TRUE(is_about(volume_problem("abcd", &json), "cut off"));
   EXPECT_TRUE(is_about(volume_problem(std::string(99, 'a'), &json), "99 bytes") ||
               is_about(volume_problem(std::string(99, 'a'), &json), "96 bytes"));
+}
+
+TEST(Volume, WrongDescriptionsSayWhatIsWrongAndWhere) {
+  EXPECT_EQ(description_problem(R"("byte_order": "middle")"),
+            R"(64: there is no byte_order "middle"; write one of "little", "big")");
+  EXPECT_EQ(description_problem(R"("header_bytes": -1)"),
+            R"(65: expected a whole number from 0 to 1000000000000000 for "header_bytes", not -1)");
+  EXPECT_EQ(description_problem(R"("channels": 0)"),
+            R"(61: expected a whole number from 1 to 1000 for "channels", not 0)");
+  EXPECT_EQ(description_problem(R"("axes": ["z", "y", "x"])"),
+            R"(57: expected ["x","y","z"] for "axes", not a list of 3)");
+  EXPECT_EQ(description_problem(R"("fastest_axis": "z")"), R"(66: expected "x" for "fastest_axis", not the text "z")");
+  EXPECT_EQ(description_problem(R"("space": "xyz")"),
+            R"(59: expected "RAS", "LPS" or "LAS" for "space", not the text "xyz")");
+  EXPECT_EQ(description_problem(R"("spacing_mm": [1, 0, 1])"),
+            R"(67: expected a number above 0 for "spacing_mm", not 0)");
+  EXPECT_EQ(description_problem(R"("spacing_mm": [1, 1, 1], "origin_mm": 3)"),
+            R"(87: expected 3 numbers for "origin_mm", not 3; write [x, y, z] in mm)");
+  EXPECT_EQ(description_problem(R"("spacing": [1, 1, 1])"),
+            R"(60: a description of numbers has no "spacing"; did you mean "spacing_mm"?)");
+  EXPECT_EQ(description_problem(R"("made by": "us", "values": "density", "file": "v.raw")"), "none");
+  EXPECT_TRUE(is_about(description_problem("1"), "this is not valid JSON"));
 }
 
 TEST(Volume, WrongFilesSayWhatIsWrong) {

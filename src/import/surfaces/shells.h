@@ -8,8 +8,8 @@
 
 namespace ombre::importing {
 
-// Returns the number of each triangle's shell, counted from 0 in the order of the triangles. At an edge of more than
-// two triangles, those are joined that are not closed there without each other.
+// Returns the number of each triangle's shell, counted from 0 in the order of the triangles. Where more
+// than two triangles meet at an edge, shells that are open there by themselves are joined.
 std::vector<uint32_t> shells_of(size_t triangles, std::span<const FacetEdge> edges);
 
 struct TurnedShells {

@@ -28,7 +28,7 @@ fea::Conditions repeating_conditions(const fea::ModelView& model, const Box& per
                                      const std::array<double, 6>& mean_strain) {
   fea::Conditions conditions;
   conditions.repeat = fea::Repeat{period.size(), fea::ties_of(model.mesh, period.size()), mean_strain};
-  // Node 0 can be held, since the first node is no copy.
+  // Node 0 can be held, since the first node is not a copy.
   for (uint8_t axis = 0; axis < 3; ++axis) conditions.displacements.push_back({0, axis, 0});
   return conditions;
 }

@@ -98,7 +98,7 @@ class EdgeFinder {
  private:
   using Vertices = std::vector<uint32_t>;
 
-  // Adds a point and some around it, apart from each other.
+  // Adds a vertex and those near it, but none too close to another one that was added.
   void add_patch(const surface::Body& body, const Vertices& vertices, uint32_t middle, std::vector<Vec3>& found) const {
     const auto add = [&](Vec3 p) {
       if (std::ranges::all_of(found, [&](Vec3 q) { return length(p - q) >= spacing * size_mm_; })) found.push_back(p);
@@ -128,7 +128,7 @@ class EdgeFinder {
     }
   }
 
-  // Adds the point of each face that is farthest from its sharp edges, and some around it.
+  // Adds the vertex of each face that is farthest from sharp edges, and a few vertices around that one.
   void add_face_points(const surface::Body& body, const std::map<Edge, std::vector<Vec3>>& normals) {
     std::vector<bool> is_sharp(body.vertices.size());
     std::vector<uint32_t> parents(body.vertices.size());
@@ -268,7 +268,7 @@ class EdgeFinder {
     split(simple, is_ring);
   }
 
-  // Drops rings whose simplified sides are the same line. They belong to slivers of the surface, and are no edges.
+  // Drops rings whose simplified sides are the same line. They belong to slivers of the surface, and are not edges.
   void drop_doubled() {
     using Ends = std::pair<Key, Key>;
     const auto key = [](Vec3 p) { return Key{p.x, p.y, p.z}; };

@@ -186,7 +186,7 @@ class Splitter {
     return {{}, node};
   }
 
-  // Returns nothing if struts below this node are no beams.
+  // Returns nothing if struts below this node are not beams.
   std::optional<Split> split_known(const NodePtr& node, const Affine& design_from_here) {
     if (nodes::strut_count(*node) > 0) return split_lattice(*node, design_from_here);
     if (const auto copies = nodes::tile_copies_of(*node)) return split_tile(*node, *copies, design_from_here);

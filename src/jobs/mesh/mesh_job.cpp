@@ -169,7 +169,7 @@ class Mesher {
     return part;
   }
 
-  // Sets one fineness for all surfaces: that of the whole design.
+  // Gives every surface the fineness of the whole design.
   bool take_fineness() {
     const std::optional<Box> box = design_box(loaded_.design, diagnostics_);
     const auto fineness = box ? choose_fineness(loaded_.design, *box, request_, diagnostics_) : std::nullopt;

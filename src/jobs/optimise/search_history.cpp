@@ -17,7 +17,7 @@ std::string quoted(const std::string& text) {
 
 Data number_list(const std::vector<double>& values) { return DataList(values.begin(), values.end()); }
 
-// Returns nothing unless the data is a list of so many numbers. What is not a number was written as null.
+// Returns nothing unless the data is a list of `count` numbers. What is not a number was written as null.
 std::optional<std::vector<double>> numbers(const Data* data, size_t count) {
   if (!data || !data->list() || data->list()->size() != count) return std::nullopt;
   std::vector<double> values;

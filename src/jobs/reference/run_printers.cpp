@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/text/record.h"
 #include "base/text/text.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
+#include "jobs/reference/list_or_page.h"
 #include "load/find_printer.h"
+#include "load/load.h"
 #include "voxel/image_kinds.h"
 
 namespace ombre::jobs {
@@ -61,7 +64,7 @@ int show_printer(const std::string& name, Session& session) {
   return done;
 }
 
-int list_printers(Session& session) {
+void list_printers(const Session& session) {
   const std::vector<std::string> names = compile::printer_names();
   size_t width = 0;
   for (const std::string& name : names) width = std::max(width, name.size());
@@ -75,22 +78,67 @@ int list_printers(Session& session) {
     else
       session.events.print(name + std::string(width + 2 - name.size(), ' ') + printer->title + '\n');
   }
-  return done;
+}
+
+std::string printer_row(const voxel::Printer& printer) {
+  const auto dpi = [&](size_t axis) { return format_rounded(25.4 / printer.pitch[axis].mm(), 5); };
+  std::string box = "any size";
+  if (const auto& build = printer.build_mm)
+    box = format_rounded(build->x, 6) + " x " + format_rounded(build->y, 6) + " x " + format_rounded(build->z, 6);
+  return "| `" + printer.name + "` | " + printer.title + " | " + dpi(0) + " x " + dpi(1) + " | " +
+         format_number(1000 * printer.pitch[2].mm()) + " | " + voxel::to_text(printer.format) + " | " +
+         std::to_string(printer.max_materials) + " | " + box + " |\n";
+}
+
+std::string image_row(const std::string& name) {
+  const voxel::ImageKind& kind = voxel::image_kind(*voxel::image_format(name));
+  std::vector<std::string> shown;
+  for (const voxel::ChannelType type : kind.takes) shown.push_back(voxel::channel_kind(type).plural);
+  return "| `" + name + "` | " + kind.pixels + " | " + join(shown, ", ") + " |\n";
+}
+
+std::string member_rows(const std::vector<MemberInfo>& members) {
+  std::string text = "| member | | means |\n| --- | --- | --- |\n";
+  for (const MemberInfo& member : members)
+    text += "| `" + member.name + "` | " + (member.is_required ? "required" : "") + " | " + member.meaning + " |\n";
+  return text;
+}
+
+// Returns the reference: tables of the profiles, of the kinds of images, and of the members of JSON files.
+std::string printers_reference() {
+  std::string text =
+      "# Printers and materials\n\nMade by `ombre printers --markdown`; `ombre printers NAME` shows one profile.\n\n"
+      "## Profiles\n\n| name | machine | dots per inch, x and y | layers, µm | images | most materials | build box, mm "
+      "|\n| --- | --- | --- | --- | --- | --- | --- |\n";
+  Diagnostics diagnostics;
+  for (const std::string& name : compile::printer_names())
+    if (const auto printer = compile::find_printer(name, diagnostics)) text += printer_row(*printer);
+  text += "\n## Kinds of images\n\n| name | pixels | show |\n| --- | --- | --- |\n";
+  for (const std::string& name : voxel::image_format_names()) text += image_row(name);
+  text += "\n## Members of a profile\n\nA profile is one object. A member that is not listed here is an error.\n\n" +
+          member_rows(voxel::printer_members());
+  return text +
+         "\n## Members of a material\n\nA file of materials has a list of objects, `{\"materials\": [...]}`. Members "
+         "that are not listed here are kept with the\nmaterial.\n\n" +
+         member_rows(design::material_members());
 }
 
 struct PrintersChoices {
   std::string printer;
+  ListChoices list;
 
   static const options::Spec<PrintersChoices>& options() {
     using namespace options;
     static const options::Spec<PrintersChoices> spec{option("printer", &PrintersChoices::printer, kind::text,
-                                                            "A profile's name, or the path of a .json file", "NAME")};
+                                                            "A profile's name, or the path of a .json file", "NAME"),
+                                                     group(&PrintersChoices::list)};
     return spec;
   }
 };
 
 int show_printers(const PrintersChoices& a, Session& session) {
-  return a.printer.empty() ? list_printers(session) : show_printer(a.printer, session);
+  if (!a.list.markdown && !a.printer.empty()) return show_printer(a.printer, session);
+  return list_or_print<list_printers, printers_reference>(a.list, session);
 }
 
 }  // namespace

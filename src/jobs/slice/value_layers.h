@@ -16,14 +16,14 @@ namespace ombre::compile {
 std::optional<voxel::Channel> value_channel(const design::Design& design, const Box& box, const ValueChoice& choice,
                                             Diagnostics& diagnostics);
 
-// Makes layers of channels that are no materials. A number's shade is 0 up to range.lo and outside, the last one from
+// Makes layers of channels other than materials. A number's shade is 0 up to range.lo and outside, the last one from
 // range.hi on, and linear and rounded to the nearest in between. Colours are fully transparent outside. What is no
 // number is 0. Returns nothing, and adds a diagnostic, if the program would not fit into memory.
 std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
                                            const std::vector<voxel::Channel>& channels, voxel::Evaluator evaluator,
                                            Diagnostics& diagnostics);
 
-// Returns the most memory that making so many layers of such channels takes, without the layers.
+// Returns the most memory that making this many layers of these channels takes, without the layers.
 size_t value_working_bytes(const std::vector<voxel::Channel>& channels, const voxel::Lattice& lattice, int64_t layers);
 
 }  // namespace ombre::compile

@@ -39,7 +39,7 @@ constexpr std::array<BinaryOperator, 17> binary_operators = {{{TokenKind::or_or,
 constexpr int tightest = 8;
 
 const BinaryOperator* binary_operator(TokenKind token) {
-  // Most tokens after a value are no operators, so they are excluded first.
+  // Most tokens after a value are not operators, so they are excluded first.
   if (token < TokenKind::bar) return nullptr;
   const auto* found = std::find_if(binary_operators.begin(), binary_operators.end(),
                                    [token](const BinaryOperator& op) { return op.token == token; });

@@ -18,7 +18,7 @@ void Scope::set(Symbol name, Value value) {
 }
 
 void CapturedScopes::add(const ScopePtr& scope) {
-  // Captures all parents, too, since they live as long.
+  // Captures all parents as well, since they live as long.
   for (const ScopePtr* at = &scope; *at && !(*at)->is_captured(); at = &(*at)->parent()) {
     (*at)->keep_alive();
     scopes_.push_back(*at);

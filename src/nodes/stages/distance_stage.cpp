@@ -20,7 +20,7 @@ class Sweeping {
       : cell_(cell), values_(values), stop_(stop) {
     for (size_t a = 0; a < 3; ++a) size_[a] = box.size(static_cast<int>(a));
     step_ = {1, size_[0], size_[0] * size_[1]};
-    // Allocates row by row, so that it can be stopped: so much memory takes time to get.
+    // Allocates row by row, so that it can be stopped: it takes time to get that much memory.
     nearest_.reserve(values.size());
     for (int64_t row = 0; row < size_[1] * size_[2]; ++row) {
       design::check_stop(stop);

@@ -40,8 +40,8 @@ class Composer {
     }
   }
 
-  // True for an affine value of two different operands that are no constants. A value of one operand has a range that
-  // is already as narrow as possible.
+  // True for an affine value of two different operands, neither of them constant. A value of one operand has a range
+  // that is already as narrow as possible.
   bool is_sum(ValueId id) const {
     if (!forms_[id]) return false;
     ValueId one = none;

@@ -41,15 +41,15 @@ class FacetCheck {
     Vec3 at;
   };
 
-  // Appends those of the hidden edges whose border has no facet within reach to `far`, and points on the borders to
-  // `places`.
+  // Appends to `far` the hidden edges whose border has no facet within reach, and to `places` the points on these
+  // borders.
   void add_far_among(const std::vector<CrossedEdge>& hidden, const QuadSurface& surface, const CellTree& tree,
                      std::vector<CrossedEdge>& far, std::vector<Vec3>& places) const;
   void check_facets(const QuadSurface& surface, const std::vector<uint32_t>& quads);
-  // Returns balls around the borders; a border is near if a facet meets its ball.
+  // Returns a ball around each border. A facet that meets the ball is near the border.
   std::vector<Ball> balls_around(const std::vector<FarBorder>& borders, const QuadSurface& surface) const;
   void keep_far_borders(const QuadSurface& surface, const std::vector<uint32_t>& changed);
-  // Adds those of the found borders that no facet is near.
+  // Adds the found borders that have no facet near them.
   void add_far_borders(const QuadSurface& surface, std::vector<FarBorder> found);
   void check_crossings(const QuadSurface& surface, const std::vector<uint32_t>& changed);
 

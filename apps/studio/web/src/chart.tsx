@@ -73,7 +73,7 @@ export function ChartView() {
   const [chosen, choose] = useState("");
   const columns = columnsOf(table);
   const numbered: Column = { name: "line", numbers: (columns[0]?.numbers ?? []).map((_, n) => n + 1) };
-  // The first column is the axis if its numbers grow; else line numbers are.
+  // The axis shows the first column if its numbers grow, and the numbers of the lines otherwise.
   const counts = columns.length > 1 && columns[0].numbers.every((v, n, all) => n === 0 || v > all[n - 1]);
   const x = columns.find((c) => c.name === chosen) ?? (chosen === "" && counts ? columns[0] : numbered);
   return (

@@ -168,7 +168,7 @@ async function saveNow() {
     const onDisk = reply.saved || reply.text === undefined ? undefined : fromDisk(reply.text);
     const isOwn = onDisk !== undefined && (onDisk === savedText || ownTexts.includes(onDisk));
     version = reply.saved || onDisk === text || isOwn ? reply.version : version;
-    // A version that this window, or another one with the same text, saved a moment ago is no change by others.
+    // A version that this window, or another one with the same text, has just saved does not count as a change by others.
     if (isOwn && onDisk !== text) return await saveNow();
     if (!reply.saved && onDisk !== text) return set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
     savedText = text;
