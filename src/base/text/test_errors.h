@@ -1,4 +1,4 @@
-// What tests of errors share.
+// Catches errors, for tests.
 #pragma once
 
 #include <gtest/gtest.h>

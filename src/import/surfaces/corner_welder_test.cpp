@@ -12,7 +12,7 @@ using namespace test;
 
 Mesh apart(const Mesh& mesh, double noise) {
   std::mt19937 random(7);
-  return apart(mesh, random, noise);
+  return test::apart(mesh, random, noise);
 }
 
 TEST(CornerWelder, RoundingIsMended) {
