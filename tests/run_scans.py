@@ -273,14 +273,19 @@ def vtk_images_are_read(folder):
     fails(folder / "wrong.vti", "cannot be read")
 
 
-def image_data_of_ours_are_read_back(folder):
+def heat_is_read_back(path, what):
+    """A field that is linear in space, in a file of two fields, which the design must name."""
     part = ombre.load_text('root((-5, -5, -5), (5, 5, 5), (0.25, 0.25, 0.5)) attribute("heat", "x + 2*y") sphere(4);')
-    part.write_voxels(folder / "ball.vti", what="distance,heat")
+    part.write_voxels(path, what="distance,heat")
     points = np.random.default_rng(4).uniform(-2.2, 2.2, (200, 3))
-    heat = values_at(folder / "ball.vti", points, ', series="heat"')
-    expect(np.abs(heat - points[:, 0] - 2 * points[:, 1]).max() < 1e-5, "values of image data")
-    fails(folder / "ball.vti", "holds several arrays", "distance", "heat")
-    fails(folder / "ball.vti", 'no array "cold"', options=', series="cold"')
+    heat = values_at(path, points, ', series="heat"')
+    expect(np.abs(heat - points[:, 0] - 2 * points[:, 1]).max() < 1e-5, f"values of {path.name}")
+    fails(path, f"holds several {what}s", "distance", "heat")
+    fails(path, f'no {what} "cold"', options=', series="cold"')
+
+
+def image_data_of_ours_are_read_back(folder):
+    heat_is_read_back(folder / "ball.vti", "array")
 
 
 def voxels_may_be_counted(folder):
@@ -392,13 +397,7 @@ def segments_have_names_and_colours(folder):
 
 
 def sparse_grids_are_read(folder):
-    part = ombre.load_text('root((-5, -5, -5), (5, 5, 5), (0.25, 0.25, 0.5)) attribute("heat", "x + 2*y") sphere(4);')
-    part.write_voxels(folder / "ball.vdb", what="distance,heat")
-    points = np.random.default_rng(4).uniform(-2.2, 2.2, (200, 3))
-    heat = values_at(folder / "ball.vdb", points, ', series="heat"')
-    expect(np.abs(heat - points[:, 0] - 2 * points[:, 1]).max() < 1e-5, "values of a sparse grid")
-    fails(folder / "ball.vdb", "holds several grids", "distance", "heat")
-    fails(folder / "ball.vdb", 'no grid "cold"', options=', series="cold"')
+    heat_is_read_back(folder / "ball.vdb", "grid")
     whole = (folder / "ball.vdb").read_bytes()
     (folder / "cut.vdb").write_bytes(whole[:len(whole) // 2])
     fails(folder / "cut.vdb", "cut.vdb")

@@ -17,11 +17,11 @@ using namespace ombre::design;
 struct Wave {{
   Number size = 1;
   static Spec<Wave> spec() {{
-    return {{"wave", "values", "A wave.", {{{{"size", {parameter}, "Its size"}}}}, no_inputs, "", {{{{"value", {output}, "It"}}}}}};
+    return {{"wave", "A wave.", {{{{"size", {parameter}, "Its size"}}}}, no_inputs, "", {{{{"value", {output}, "It"}}}}}};
   }}
   {method} {{ return {result}; }}
 }};
-void add(Registry& registry) {{ registry.add<Wave>(); }}
+void add(Registry& registry) {{ registry.add<Wave>("values"); }}
 """
 RIGHT = {"parameter": "&Wave::size", "output": "&Wave::value", "method": "Field value(const Ask& ask) const",
          "result": "size(ask.p)"}
@@ -44,13 +44,13 @@ namespace {{
 struct Ball {{
   Number radius = 1;
   static Spec<Ball> spec() {{
-    return {{"ball", "solids", "A ball.", {{{{"radius", &Ball::radius, "Its radius"}}}}, no_inputs, ""}};
+    return {{"ball", "A ball.", {{{{"radius", &Ball::radius, "Its radius"}}}}, no_inputs, ""}};
   }}
   Field distance(const Point& p) const {{ return length(p.x, p.y, p.z) - radius(p); }}
   {method}
 }};
 }}
-void add(Registry& registry) {{ registry.add<Ball>(); }}
+void add(Registry& registry) {{ registry.add<Ball>("solids"); }}
 """
 # Clang alone tells of methods that nothing calls, since their name is none of a node's.
 MISSPELT = "Field membrship(const Inputs&, const Point& p, Border) const { return p.x; }"

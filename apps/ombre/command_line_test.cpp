@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/system/temporary_folder.h"
+#include "base/text/test_cases.h"
 #include "base/text/text.h"
 #include "export/output_file.h"
 #include "formats/containers/file.h"
@@ -39,6 +40,16 @@ void expect_wrong(const std::vector<const char*>& arguments, const std::string& 
   EXPECT_EQ(outcome.out, "");
 }
 
+// Calls the program with the words before each arrow; what it says contains what follows.
+void expect_all_wrong(const char* cases) {
+  for_cases(cases, [](const std::string& line, const std::string& part) {
+    const std::vector<std::string> words = split(line, ' ');
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    expect_wrong(arguments, part);
+  });
+}
+
 }  // namespace
 
 TEST(CommandLine, HelpAndVersionAreData) {
@@ -50,59 +61,69 @@ TEST(CommandLine, HelpAndVersionAreData) {
 }
 
 TEST(CommandLine, SlipsGetSuggestions) {
-  expect_wrong({"slise", "part.vcad"}, "did you mean \"slice\"?");
-  expect_wrong({"part.vcad"}, "did you mean \"ombre slice part.vcad\"?");
-  expect_wrong({"slice", "part.vcad", "--dryrun"}, "did you mean \"--dry-run\"?");
-  expect_wrong({"slice", "part.vcad", "other.vcad"}, "one argument too many: \"other.vcad\"");
-  expect_wrong({"slice", "part.vcad", "--printer", "j570"}, "did you mean \"j750\"?");
-  expect_wrong({"slice", "part.vcad", "--voxel", "thin"}, "write for example --voxel 0.1");
-  expect_wrong({"slice", "part.vcad", "--force", "--resume"}, "--force and --resume do not go together");
-  expect_wrong({"voxels", "part.vcad", "--ouput", "part.npy"}, "did you mean \"--output\"?");
-  expect_wrong({"nodes", "spere"}, "did you mean \"sphere\"?");
+  expect_all_wrong(R"(
+    slise part.vcad => did you mean "slice"?
+    part.vcad => did you mean "ombre slice part.vcad"?
+    slice part.vcad --dryrun => did you mean "--dry-run"?
+    slice part.vcad other.vcad => one argument too many: "other.vcad"
+    slice part.vcad --printer j570 => did you mean "j750"?
+    slice part.vcad --voxel thin => write for example --voxel 0.1
+    slice part.vcad --force --resume => --force and --resume do not go together
+    voxels part.vcad --ouput part.npy => did you mean "--output"?
+    nodes spere => did you mean "sphere"?
+  )");
 }
 
 TEST(CommandLine, ValuesThatDoNotFitAreReportedWithThoseThatDo) {
-  expect_wrong({"slice", "part.vcad", "--threads", "x"}, "--threads: \"x\" is not a whole number from 1 to 1024");
   for (const char* command : {"slice", "render", "mesh", "voxels", "contours"})
     expect_wrong({command, "part.vcad", "--threads", "0"}, "--threads: \"0\" is not a whole number from 1 to 1024");
-  expect_wrong({"slice", "part.vcad", "--threads", "2.5"}, "--threads: \"2.5\" is not a whole number");
-  expect_wrong({"slice", "part.vcad", "--threads", "1e3"}, "--threads: \"1e3\" is not a whole number");
-  expect_wrong({"render", "part.vcad", "--perspective", "121"}, "--perspective: \"121\" is not a number from 0 to 120");
-  expect_wrong({"render", "part.vcad", "--zoom", "nan"}, "--zoom: \"nan\" is not a number from 0.01 to 1000");
+  expect_all_wrong(R"(
+    slice part.vcad --threads x => --threads: "x" is not a whole number from 1 to 1024
+    slice part.vcad --threads 2.5 => --threads: "2.5" is not a whole number
+    slice part.vcad --threads 1e3 => --threads: "1e3" is not a whole number
+    render part.vcad --perspective 121 => --perspective: "121" is not a number from 0 to 120
+    render part.vcad --zoom nan => --zoom: "nan" is not a number from 0.01 to 1000
+    mesh part.vcad --flavor cura => there is no "cura"; there are generic, prusa, bambu; see
+  )");
   expect_wrong({"slice", "part.vcad", "--dither", "blu-noise"}, "did you mean \"blue-noise\"?\n");
-  expect_wrong({"mesh", "part.vcad", "--flavor", "cura"}, "there is no \"cura\"; there are generic, prusa, bambu; see");
 }
 
 TEST(CommandLine, WhatIsMissingIsReported) {
-  expect_wrong({"slice"}, "the design is missing; write for example ombre slice part.vcad; see ombre slice --help");
-  expect_wrong({"probe", "part.vcad"}, "--at is missing; write ombre probe ... --at X,Y,Z; see");
-  expect_wrong({"bundle"}, "the design is missing; write for example ombre bundle part.vcad; see");
-  expect_wrong({"sheet"}, "folder is missing; write ombre sheet ... DIR; see");
-  expect_wrong({"render", "part.vcad", "--zoom"}, "--zoom needs a value: --zoom X; see");
-  expect_wrong({"render", "part.vcad", "--view"}, "--view needs a value: --view NAME; see");
-  expect_wrong({"slice", "part.vcad", "--layers"}, "--layers needs a value: --layers A:B; see");
-  expect_wrong({"slice", "part.vcad", "--seed", "1", "--seed", "2"}, "--seed is given more than once; see");
+  expect_all_wrong(R"(
+    slice => the design is missing; write for example ombre slice part.vcad; see ombre slice --help
+    probe part.vcad => --at is missing; write ombre probe ... --at X,Y,Z; see
+    bundle => the design is missing; write for example ombre bundle part.vcad; see
+    sheet => folder is missing; write ombre sheet ... DIR; see
+    render part.vcad --zoom => --zoom needs a value: --zoom X; see
+    render part.vcad --view => --view needs a value: --view NAME; see
+    slice part.vcad --layers => --layers needs a value: --layers A:B; see
+    slice part.vcad --seed 1 --seed 2 => --seed is given more than once; see
+  )");
 }
 
 TEST(CommandLine, BundlesSayWhatToWrite) {
-  expect_wrong({"bundle", "part.py"}, "ombre slice part.py --emit json > part.json");
-  expect_wrong({"bundle", "part.ombre"}, "part.ombre is a bundle already");
-  expect_wrong({"bundle", "part.vcad", "-o", "part.zip"}, "write for example -o part.ombre");
-  expect_wrong({"slice", "part.vcad", "--rotate", "90"}, "write for example --rotate 90,0,45");
+  expect_all_wrong(R"(
+    bundle part.py => ombre slice part.py --emit json > part.json
+    bundle part.ombre => part.ombre is a bundle already
+    bundle part.vcad -o part.zip => write for example -o part.ombre
+    slice part.vcad --rotate 90 => write for example --rotate 90,0,45
+  )");
 }
 
 TEST(CommandLine, PicturesSayWhatToWrite) {
-  expect_wrong({"render", "part.vcad", "--size", "800"}, "write for example --size 800x600");
-  expect_wrong({"render", "part.vcad", "--size", "0x600"}, "write for example --size 800x600");
-  expect_wrong({"render", "part.vcad", "--size", "99999x600"}, "at most 16384 each way");
-  expect_wrong({"render", "part.vcad", "--cut", "w=1"}, "write for example --cut x=0");
-  expect_wrong({"render", "part.vcad", "--from", "30"}, "write for example --from 30,20");
-  expect_wrong({"render", "part.vcad", "--from", "30,120"}, "elevation from -90 to 90");
-  expect_wrong({"render", "part.vcad", "--opacity", "clear"}, "write for example --opacity clear=0.2");
-  expect_wrong({"render", "part.vcad", "--opacity", "clear=2"}, "a number from 0 to 1");
-  expect_wrong({"render", "part.vcad", "--background", "#12345"}, "for example #20304a");
-  expect_wrong({"render", "part.vcad", "--box", "0,0,0,1,1,0"}, "write for example --box");
-  expect_wrong({"render", "part.vcad", "--view", "below"}, "below");
+  expect_all_wrong(R"(
+    render part.vcad --size 800 => write for example --size 800x600
+    render part.vcad --size 0x600 => write for example --size 800x600
+    render part.vcad --size 99999x600 => at most 16384 each way
+    render part.vcad --cut w=1 => write for example --cut x=0
+    render part.vcad --from 30 => write for example --from 30,20
+    render part.vcad --from 30,120 => elevation from -90 to 90
+    render part.vcad --opacity clear => write for example --opacity clear=0.2
+    render part.vcad --opacity clear=2 => a number from 0 to 1
+    render part.vcad --background #12345 => for example #20304a
+    render part.vcad --box 0,0,0,1,1,0 => write for example --box
+    render part.vcad --view below => below
+  )");
 }
 
 TEST(CommandLine, MissingFilesAreFailuresOfTheMachine) {

@@ -3,11 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/text/json.h"
-#include "design/lowering.h"
-#include "design/spec.h"
-#include "program/evaluate.h"
-#include "program/passes/passes.h"
+#include "design/test_designs.h"
 
 namespace ombre::design {
 namespace {
@@ -19,7 +15,6 @@ struct Ramp {
 
   static Spec<Ramp> spec() {
     return {"ramp",
-            "test",
             "Rises along x.",
             {{"slope", &Ramp::slope, "Its slope"}, {"low", &Ramp::low, ""}, {"high", &Ramp::high, ""}},
             no_inputs,
@@ -43,9 +38,11 @@ struct Ball {
   Number radius = 1;
   MaterialName material;
   static Spec<Ball> spec() {
-    return {"ball",    "test",
-            "A ball.", {{"radius", &Ball::radius, "", unit::positive_mm}, {"material", &Ball::material, ""}},
-            no_inputs, ""};
+    return {"ball",
+            "A ball.",
+            {{"radius", &Ball::radius, "", unit::positive_mm}, {"material", &Ball::material, ""}},
+            no_inputs,
+            ""};
   }
   Box bounds(const Box& where) const {
     const double r = radius.range(where).hi;
@@ -54,65 +51,9 @@ struct Ball {
   Field distance(const Point& p) const { return length(p.x, p.y, p.z) - radius(p); }
 };
 
-struct Shift {
-  Vec3 by;
-  static Spec<Shift> spec() { return {"shift", "test", "Moved.", {{"by", &Shift::by, ""}}, one_solid, ""}; }
-  Point inner(const Point& p) const { return p.mapped(Affine::translation(-by)); }
-  double scale() const { return 1; }
-  Box reach(const Inputs& in, const Box& where, double margin) const {
-    const Affine map = Affine::translation(by);
-    return image(map, in.reach(0, image(inverse(map), where), margin));
-  }
-};
-
-struct Any {
-  static Spec<Any> spec() { return {"any", "test", "Union.", {}, many_solids, ""}; }
-  Box reach(const Inputs& in, const Box& where, double margin) const {
-    Box box;
-    for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
-    return box;
-  }
-  Field distance(const Inputs& in, const Point& p) const { return program::fold(in.distances(p), program::min); }
-};
-
-class Designs : public testing::Test {
+class Designs : public test::DesignTest {
  protected:
-  Designs() {
-    registry_.add<Ramp, Ball, Shift, Any>();
-    materials_ =
-        *MaterialTable::read(*parse_json(make_source("m", R"({"materials": [{"name": "Red", "r": 1, "g": 2, "b": 3},
-                                                            {"name": "Blue", "r": 3, "g": 2, "b": 1}]})"),
-                                         diagnostics_),
-                             diagnostics_);
-  }
-
-  NodePtr make(const std::string& type, const std::vector<std::pair<std::string, Data>>& values,
-               std::vector<NodePtr> inputs = {}) {
-    const NodeType& t = *registry_.find(type);
-    std::vector<NamedValue> named;
-    for (const auto& [name, data] : values)
-      named.push_back({&t.parameters[static_cast<size_t>(t.parameter(name))], data});
-    return make_node(t, named, std::move(inputs), {materials_, diagnostics_, nullptr, {}, "", ""});
-  }
-
-  double distance(const NodePtr& node, Vec3 p, size_t* bodies = nullptr) {
-    LoweringContext context(materials_, {node});
-    program::Builder builder;
-    Lowering lowering(context, builder);
-    const Field g = lowering.distance(*node, Point::origin_frame(builder));
-    context.finish_bodies();
-    const program::Program called = builder.finish({{"g", g}});
-    if (bodies) *bodies = called.calls.size();
-    const program::Program flat = program::inline_bodies(called);
-    std::vector<double> values;
-    evaluate_point(flat, p, values);
-    return values[flat.outputs[0]];
-  }
-
-  // Returns data that gives a node's output to a parameter.
-  static Data output(const NodePtr& node, const std::string& name) {
-    return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))}, {"output", Data(name)}});
-  }
+  Designs() : DesignTest(test::registry_of<Ramp, Ball, test::Moved, test::Joined>(), test::red_and_blue) {}
 
   static Data formula(const std::string& text, const NodePtr& node, const std::string& name) {
     return Data(DataMembers{{"formula", Data(text)}, {"with", Data(DataMembers{{"v", output(node, name)}})}});
@@ -120,12 +61,6 @@ class Designs : public testing::Test {
 
   // Returns a ball whose radius is 5 where x <= 0, and grows by x/2 from there.
   NodePtr egg() { return make("ball", {{"radius", formula("5 + v/2", make("ramp", {}), "value")}}); }
-
-  Data json_of(const NodePtr& node) { return to_data({materials_, {{"part", node}}, std::nullopt}); }
-
-  Registry registry_;
-  MaterialTable materials_;
-  Diagnostics diagnostics_;
 };
 
 }  // namespace
@@ -140,7 +75,7 @@ TEST_F(Designs, NumbersMayBeOutputsOfNodes) {
 }
 
 TEST_F(Designs, ValuesAreEvaluatedWhereTheirSolidIs) {
-  const NodePtr moved = make("shift", {{"by", Data(DataList{Data(1.0), Data(0.0), Data(0.0)})}}, {egg()});
+  const NodePtr moved = make("moved", {{"by", list({1, 0, 0})}}, {egg()});
   EXPECT_EQ(distance(moved, {4, 4, 0}), 5 - 6.5);
 }
 
@@ -204,25 +139,25 @@ TEST_F(Designs, HashesTellValuesApart) {
 
 TEST_F(Designs, ValuesInTheWrongPlaceAreErrors) {
   const NodePtr ramp = make("ramp", {});
-  EXPECT_FALSE(make("shift", {}, {ramp}));
-  EXPECT_FALSE(make("ball", {{"radius", output(ramp, "gradient")}}));
-  EXPECT_FALSE(make("ball", {{"radius", output(ramp, "vlaue")}}));
-  EXPECT_FALSE(make("ball", {{"material", output(ramp, "value")}}));
-  EXPECT_FALSE(make("shift", {{"by", Data(HostObjectPtr(std::make_shared<NodeObject>(ramp)))}}, {egg()}));
+  EXPECT_FALSE(try_make("moved", {}, {ramp}));
+  EXPECT_FALSE(try_make("ball", {{"radius", output(ramp, "gradient")}}));
+  EXPECT_FALSE(try_make("ball", {{"radius", output(ramp, "vlaue")}}));
+  EXPECT_FALSE(try_make("ball", {{"material", output(ramp, "value")}}));
+  EXPECT_FALSE(try_make("moved", {{"by", object(ramp)}}, {egg()}));
   EXPECT_EQ(to_text(diagnostics_),
-            R"(error: shift takes solids, ramp gives values; give it as a parameter, for example sphere(5 + noise());
+            R"(error: moved takes solids, ramp gives values; give it as a parameter, for example sphere(5 + noise());
 error: expected a number, found the vector "gradient" of ramp; write one of its parts: .gradient.x
 error: this ramp has no output "vlaue"; ramp gives value, share, gradient, mixture
 error: material of ball: expected a material or a mixture of materials, found a number that varies in space; write for example mix(white, black, t)
-error: by of shift: expected three numbers (x, y, z), found a value of ramp; this varies in space, so it is known only where the job evaluates it; write a constant
+error: by of moved: expected three numbers (x, y, z), found a value of ramp; this varies in space, so it is known only where the job evaluates it; write a constant
 )");
 }
 
 TEST_F(Designs, ASolidUnderSeveralFramesIsOneBody) {
   const NodePtr ball = make("ball", {{"radius", Data(2.0)}});
-  const NodePtr two = make("any", {},
-                           {make("shift", {{"by", Data(DataList{Data(5.0), Data(0.0), Data(0.0)})}}, {ball}),
-                            make("shift", {{"by", Data(DataList{Data(-5.0), Data(0.0), Data(0.0)})}}, {ball})});
+  const NodePtr two =
+      make("joined", {},
+           {make("moved", {{"by", list({5, 0, 0})}}, {ball}), make("moved", {{"by", list({-5, 0, 0})}}, {ball})});
   size_t calls = 0;
   EXPECT_EQ(distance(two, {9, 0, 0}, &calls), 2);
   EXPECT_EQ(distance(two, {-4, 0, 0}), -1);
@@ -238,7 +173,8 @@ TEST_F(Designs, NodesWithVeryManyInputsAreRead) {
     nodes.emplace_back(DataMembers{{"id", Data(id)}, {"type", Data("ball")}});
     inputs.emplace_back(id);
   }
-  nodes.insert(nodes.begin(), Data(DataMembers{{"id", Data("all")}, {"type", Data("any")}, {"inputs", Data(inputs)}}));
+  nodes.insert(nodes.begin(),
+               Data(DataMembers{{"id", Data("all")}, {"type", Data("joined")}, {"inputs", Data(inputs)}}));
   const Data part(DataMembers{{"name", Data("part")}, {"node", Data("all")}});
   DataMembers file{{"format", Data("ombre-design")}, {"version", Data(1.0)}};
   file.push_back(materials_.to_data().members()->front());
@@ -252,7 +188,7 @@ TEST_F(Designs, NodesWithVeryManyInputsAreRead) {
 // Each level uses the one below twice, which makes 2^40 paths.
 TEST_F(Designs, SharedNodesAreQueriedOnce) {
   NodePtr node = make("ball", {});
-  for (int level = 0; level < 40; ++level) node = make("any", {}, {node, node});
+  for (int level = 0; level < 40; ++level) node = make("joined", {}, {node, node});
   EXPECT_EQ(distance(node, {3, 0, 0}), 2);
   EXPECT_EQ(node->bounds(design_space()), Box::centered({1, 1, 1}));
   EXPECT_EQ(topological({node}).size(), 41u);
@@ -284,8 +220,7 @@ TEST_F(Designs, HashesLeaveOutWhatDoesNotMatter) {
 
 TEST_F(Designs, TooDeepIsAnError) {
   NodePtr node = make("ball", {});
-  for (int level = 0; level < 1000 && node; ++level)
-    node = make("shift", {{"by", Data(DataList{Data(1.0), Data(0.0), Data(0.0)})}}, {node});
+  for (int level = 0; level < 1000 && node; ++level) node = try_make("moved", {{"by", list({1, 0, 0})}}, {node});
   EXPECT_FALSE(node);
   EXPECT_EQ(to_text(diagnostics_), "error: the design nests deeper than 400 nodes\n");
 }

@@ -3,12 +3,7 @@
 
 #include <cmath>
 
-#include "base/text/json.h"
-#include "design/design.h"
-#include "design/lowering.h"
-#include "design/spec.h"
-#include "program/evaluate.h"
-#include "program/passes/passes.h"
+#include "design/test_designs.h"
 
 namespace ombre::design {
 namespace {
@@ -44,7 +39,6 @@ struct Source {
 
   static Spec<Source> spec() {
     return {"source",
-            "test",
             "Gives everything.",
             {{"ratio", &Source::ratio, ""}, {"low", &Source::low, ""}, {"high", &Source::high, ""}},
             no_inputs,
@@ -106,7 +100,6 @@ struct Sink {
 
   static Spec<Sink> spec() {
     return {"sink",
-            "test",
             "Takes everything.",
             {{"radius", &Sink::radius, ""},
              {"middle", &Sink::middle, ""},
@@ -133,79 +126,23 @@ struct Sink {
 // Struts whose output `along` others pass on, and a map.
 struct Rod {
   static Spec<Rod> spec() {
-    return {"rod", "test", "A rod.", {}, no_inputs, "", {{"along", &Rod::along, ""}, {"place", &Rod::place, ""}}};
+    return {"rod", "A rod.", {}, no_inputs, "", {{"along", &Rod::along, ""}, {"place", &Rod::place, ""}}};
   }
   Box bounds(const Box&) const { return Box::centered({5, 1, 1}); }
   Field distance(const Point& p) const { return max(length(p.y, p.z) - 1, abs(p.x) - 5); }
   Field along(const Ask& ask) const { return ask.p.x * 0.1 + 0.5; }
   VectorField place(const Ask& ask) const { return {ask.p.x, ask.p.y, ask.p.z}; }
 };
-struct Moved {
-  Vec3 by;
-  static Spec<Moved> spec() { return {"moved", "test", "Moved.", {{"by", &Moved::by, ""}}, one_solid, ""}; }
-  Point inner(const Point& p) const { return p.mapped(Affine::translation(-by)); }
-  double scale() const { return 1; }
-  Box reach(const Inputs& in, const Box& where, double margin) const {
-    const Affine map = Affine::translation(by);
-    return image(map, in.reach(0, image(inverse(map), where), margin));
-  }
-};
-struct Both {
-  static Spec<Both> spec() { return {"both", "test", "Union.", {}, many_solids, ""}; }
-  Field distance(const Inputs& in, const Point& p) const { return program::fold(in.distances(p), program::min); }
-};
 
-class Ports : public testing::Test {
+class Ports : public test::DesignTest {
  protected:
-  Ports() {
-    registry_.add<Source, Sink, Rod, Moved, Both>();
-    const auto table = parse_json(make_source("m", R"({"materials": [{"name": "Red", "r": 1, "g": 2, "b": 3},
-                                                                     {"name": "Blue", "r": 3, "g": 2, "b": 1}]})"),
-                                  diagnostics_);
-    materials_ = *MaterialTable::read(*table, diagnostics_);
-  }
+  Ports() : DesignTest(test::registry_of<Source, Sink, Rod, test::Moved, test::Joined>(), test::red_and_blue) {}
 
-  NodePtr make(const std::string& type, const std::vector<std::pair<std::string, Data>>& values,
-               std::vector<NodePtr> inputs = {}) {
-    const NodeType& t = *registry_.find(type);
-    std::vector<NamedValue> named;
-    for (const auto& [name, data] : values)
-      named.push_back({&t.parameters[static_cast<size_t>(t.parameter(name))], data});
-    return make_node(t, named, std::move(inputs), {materials_, diagnostics_, nullptr, {}, "", ""});
-  }
   NodePtr source() { return make("source", {{"ratio", Data("3:2")}, {"low", Data("Red")}, {"high", Data("Blue")}}); }
-  static Data output(const NodePtr& node, const std::string& name) {
-    return Data(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))}, {"output", Data(name)}});
-  }
-
-  // Returns the fields that `ask` gives at p.
-  template <class AskFor>
-  std::vector<double> values(const NodePtr& node, Vec3 p, const AskFor& ask) {
-    LoweringContext context(materials_, {node});
-    program::Builder builder;
-    Lowering lowering(context, builder);
-    std::vector<std::pair<std::string, Field>> outputs;
-    for (const Field field : ask(lowering, Point::origin_frame(builder))) outputs.emplace_back("v", field);
-    context.finish_bodies();
-    const program::Program program = program::inline_bodies(builder.finish(outputs));
-    std::vector<double> all, result;
-    evaluate_point(program, p, all);
-    for (const auto id : program.outputs) result.push_back(all[id]);
-    return result;
-  }
-  std::vector<double> of_output(const NodePtr& node, const std::string& name, Vec3 p) {
-    return values(node, p, [&](Lowering& lowering, const Point& at) {
-      return fields_of(lowering.answer(*node, *node->type().output(name), at));
-    });
-  }
   double named_output(const NodePtr& node, const std::string& name, Vec3 p) {
     return values(node, p, [&](Lowering& lowering, const Point& at) {
       return std::vector{lowering.output(*node, name, at)[0]};
     })[0];
-  }
-  double distance(const NodePtr& node, Vec3 p) {
-    return values(node, p,
-                  [&](Lowering& lowering, const Point& at) { return std::vector{lowering.distance(*node, at)}; })[0];
   }
   // Returns the fractions of materials in the order of their ids.
   std::vector<double> composition(const NodePtr& node, Vec3 p) {
@@ -218,15 +155,11 @@ class Ports : public testing::Test {
   }
   // True if a design with the node is the same when it is written as JSON and read again.
   bool reads_back(const NodePtr& node) {
-    const Data file = to_data({materials_, {{"part", node}}, std::nullopt});
+    const Data file = json_of(node);
     const auto design = read_design(file, registry_, nullptr, diagnostics_);
     EXPECT_TRUE(design) << to_text(diagnostics_);
     return design && print_json_line(to_data(*design)) == print_json_line(file);
   }
-
-  Registry registry_;
-  MaterialTable materials_;
-  Diagnostics diagnostics_;
 };
 
 using Numbers = std::vector<double>;
@@ -315,11 +248,11 @@ TEST_F(Ports, ConstantsGoWhereTheirTypeGoes) {
 
 TEST_F(Ports, OutputsOfTheWrongTypeAreErrors) {
   const NodePtr node = source();
-  EXPECT_FALSE(make("sink", {{"radius", output(node, "ball")}}));
-  EXPECT_FALSE(make("sink", {{"solid", output(node, "number")}}));
-  EXPECT_FALSE(make("sink", {{"whole", output(node, "name")}}));
-  EXPECT_FALSE(make("sink", {{"ratio", Data(2.0)}}));
-  EXPECT_FALSE(make("sink", {{"radius", output(node, "colour")}}));
+  EXPECT_FALSE(try_make("sink", {{"radius", output(node, "ball")}}));
+  EXPECT_FALSE(try_make("sink", {{"solid", output(node, "number")}}));
+  EXPECT_FALSE(try_make("sink", {{"whole", output(node, "name")}}));
+  EXPECT_FALSE(try_make("sink", {{"ratio", Data(2.0)}}));
+  EXPECT_FALSE(try_make("sink", {{"radius", output(node, "colour")}}));
   EXPECT_EQ(to_text(diagnostics_),
             R"(error: expected a number, found the solid "ball" of source
 error: solid of sink: expected a solid, found an object; write a call of one, for example sphere(5)
@@ -330,12 +263,11 @@ error: expected a number, found the colour "colour" of source; write one of its 
 }
 
 TEST_F(Ports, SolidsPassOutputsOnThroughMapsAndUnions) {
-  const NodePtr rod = make("rod", {}),
-                moved = make("moved", {{"by", Data(DataList{Data(20.0), Data(0.0), Data(0.0)})}}, {rod});
+  const NodePtr rod = make("rod", {}), moved = make("moved", {{"by", list({20, 0, 0})}}, {rod});
   EXPECT_TRUE(rod->type().is_solid());
   EXPECT_EQ(named_output(rod, "along", {5, 0, 0}), 1);
   EXPECT_EQ(named_output(moved, "along", {25, 0, 0}), 1);
-  const NodePtr both = make("both", {}, {make("sink", {}), moved, rod});
+  const NodePtr both = make("joined", {}, {make("sink", {}), moved, rod});
   EXPECT_EQ(named_output(both, "along", {-5, 0, 0}), 0);
   EXPECT_EQ(named_output(both, "along", {20, 0, 0}), 0.5);
   EXPECT_EQ(named_output(both, "place", {22, 0, 0}), 2);

@@ -11,6 +11,11 @@ void Reader::keep(const NodePtr& value) const {
   if (values->empty() || values->back() != value) values->push_back(value);
 }
 
+bool Reader::refuse(const std::string& message, const Phrase& hint) const {
+  diagnostics.error(where, message, hint);
+  return false;
+}
+
 bool Reader::fail(const Data& data, const std::string& expected, const Phrase& given_hint, Code code) const {
   Phrase hint = given_hint;
   if (hint.empty() && is_value(data) && data.host_object())

@@ -33,6 +33,8 @@ struct Reader {
   const std::vector<NodePtr>* inputs = nullptr;  // the node's inputs, whose attributes expressions may use
 
   void keep(const NodePtr& value) const;
+  // Adds an error at the call. Returns false.
+  bool refuse(const std::string& message, const Phrase& hint = {}) const;
   bool fail(const Data& data, const std::string& expected, const Phrase& hint = {},
             Code code = Code::parameter_type) const;
 };

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "design/node.h"
@@ -83,9 +84,9 @@ class NodeType {
 
 class Registry {
  public:
-  // Adds node types made from their plain structs (design/spec.h), in the order of the palette.
+  // Adds node types of a category, made from their plain structs (design/spec.h), in the order of the palette.
   template <class... Nodes>
-  void add();
+  void add(std::string_view category);
 
   const std::vector<std::unique_ptr<NodeType>>& types() const { return types_; }
   // Finds a type by name; case, '-' and '_' are ignored.

@@ -1,7 +1,7 @@
 // Makes a node type from a plain struct, using the struct's spec() and its methods.
 //
 // A node is a struct with parameters as members. It has these methods:
-// - static Spec<T> spec() gives its name, category, sentence, parameters, inputs and an example.
+// - static Spec<T> spec() gives its name, sentence, parameters, inputs and an example.
 // - Box bounds(where) const, for leaves, returns a box around the inside within `where`.
 // - Box reach(Inputs, where, margin) const, for other nodes, returns a box around the points with g <= margin.
 // - Field distance([Inputs,] Point) const returns g, which is negative inside.
@@ -109,7 +109,7 @@ struct OutputSpec {
 
 template <class T>
 struct Spec {
-  std::string_view name, category, sentence;
+  std::string_view name, sentence;
   std::vector<Parameter<T>> parameters;
   InputInfo inputs = no_inputs;
   std::string_view example;
@@ -317,9 +317,9 @@ class NodeTypeOf final : public NodeType {
   static_assert(has_right_methods<T>());
 
  public:
-  NodeTypeOf() : spec_(T::spec()) {
+  explicit NodeTypeOf(std::string_view category_) : spec_(T::spec()) {
     name = spec_.name;
-    category = spec_.category;
+    category = category_;
     sentence = spec_.sentence;
     example = spec_.example;
     inputs = spec_.inputs;
@@ -391,8 +391,8 @@ class NodeTypeOf final : public NodeType {
 };
 
 template <class... Nodes>
-void Registry::add() {
-  (add_type(std::make_unique<NodeTypeOf<Nodes>>()), ...);
+void Registry::add(std::string_view category) {
+  (add_type(std::make_unique<NodeTypeOf<Nodes>>(category)), ...);
 }
 
 }  // namespace ombre::design

@@ -152,6 +152,15 @@ class Reading {
     }
   }
 
+  static const auto& conversions() {
+    using Format = gdcm::PixelFormat;
+    static const std::map<Format::ScalarType, decltype(&convert<float>)> table{
+        {Format::UINT8, convert<uint8_t>}, {Format::INT8, convert<int8_t>},     {Format::UINT16, convert<uint16_t>},
+        {Format::INT16, convert<int16_t>}, {Format::UINT32, convert<uint32_t>}, {Format::INT32, convert<int32_t>},
+        {Format::FLOAT32, convert<float>}, {Format::FLOAT64, convert<double>}};
+    return table;
+  }
+
   std::vector<float> values_of(const gdcm::Image& image, const std::string& path) const {
     const auto damaged = [&] { fail("cannot be read: the pixels of \"" + path + "\" are damaged or cut off"); };
     std::vector<char> bytes(image.GetBufferLength());
@@ -163,34 +172,9 @@ class Reading {
     std::vector<float> values(count);
     const double slope = image.GetSlope(), intercept = image.GetIntercept();
     if (!std::isfinite(slope) || !std::isfinite(intercept)) fail("has a scale that is not finite in \"" + path + '"');
-    switch (format.GetScalarType()) {
-      case gdcm::PixelFormat::UINT8:
-        convert<uint8_t>(bytes, slope, intercept, values);
-        break;
-      case gdcm::PixelFormat::INT8:
-        convert<int8_t>(bytes, slope, intercept, values);
-        break;
-      case gdcm::PixelFormat::UINT16:
-        convert<uint16_t>(bytes, slope, intercept, values);
-        break;
-      case gdcm::PixelFormat::INT16:
-        convert<int16_t>(bytes, slope, intercept, values);
-        break;
-      case gdcm::PixelFormat::UINT32:
-        convert<uint32_t>(bytes, slope, intercept, values);
-        break;
-      case gdcm::PixelFormat::INT32:
-        convert<int32_t>(bytes, slope, intercept, values);
-        break;
-      case gdcm::PixelFormat::FLOAT32:
-        convert<float>(bytes, slope, intercept, values);
-        break;
-      case gdcm::PixelFormat::FLOAT64:
-        convert<double>(bytes, slope, intercept, values);
-        break;
-      default:
-        fail("has pixels of a type that is not read in \"" + path + '"');
-    }
+    const auto conversion = conversions().find(format.GetScalarType());
+    if (conversion == conversions().end()) fail("has pixels of a type that is not read in \"" + path + '"');
+    conversion->second(bytes, slope, intercept, values);
     return values;
   }
 

@@ -10,6 +10,16 @@ bool can_outline_text() {
 #endif
 }
 
+TextSide side_called(std::string_view word) {
+  return word == "center" ? TextSide::center : word == "right" ? TextSide::right : TextSide::left;
+}
+
+TextLevel level_called(std::string_view word) {
+  if (word == "bottom") return TextLevel::bottom;
+  if (word == "center") return TextLevel::center;
+  return word == "top" ? TextLevel::top : TextLevel::first_line;
+}
+
 }  // namespace ombre::draw
 
 #ifdef OMBRE_TEXT

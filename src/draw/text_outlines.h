@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/math/polygons.h"
@@ -18,6 +19,9 @@ enum class TextLevel {
   top,
   first_line,  // the baseline of the first line
 };
+// Other words than left, center and right, or than bottom, center and top, mean the left and the first line.
+TextSide side_called(std::string_view word);
+TextLevel level_called(std::string_view word);
 
 struct TextLayout {
   double height_mm = 10;

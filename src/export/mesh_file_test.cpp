@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "base/text/error.h"
+#include "base/text/test_errors.h"
 #include "formats/containers/file.h"
 #include "formats/packages/package_writers.h"
 
@@ -42,12 +43,7 @@ class MeshFile : public testing::Test {
 };
 
 std::string failure(const std::string& path, const formats::MeshDocument& document, const MeshFormat& format) {
-  try {
-    write_mesh_file(path, document, format);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return failure_of([&] { write_mesh_file(path, document, format); });
 }
 
 TEST_F(MeshFile, HasItsNameAndNoOther) {

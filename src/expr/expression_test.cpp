@@ -1,6 +1,6 @@
 #include "expr/expression.h"
 
-#include "program/evaluate.h"
+#include "program/test_evaluation.h"
 
 #include <gtest/gtest.h>
 
@@ -27,10 +27,7 @@ double value(const std::string& text, Vec3 p = {0, 0, 0}) {
   if (!expression) return std::nan("");
   program::Builder builder;
   const auto field = expression->lower(program::Point::origin_frame(builder), nullptr);
-  std::vector<double> values;
-  const auto program = builder.finish({{"v", field}});
-  program::evaluate_point(program, p, values);
-  return values[program.outputs[0]];
+  return program::value_at(builder.finish({{"v", field}}), p);
 }
 
 std::string message(const std::string& text) {

@@ -7,9 +7,10 @@
 
 #include <atomic>
 #include <csignal>
-#include <mutex>
 #include <random>
 #include <thread>
+
+#include "base/system/test_progress.h"
 
 namespace ombre::compile {
 namespace {
@@ -117,15 +118,7 @@ TEST_F(Slice, StopsWhileFinishedLayersAreRead) {
 }
 
 TEST_F(Slice, TellsHowFarReadingFinishedLayersIs) {
-  struct Recorder : Progress {
-    std::vector<HowFar> seen;
-    std::mutex mutex;
-    void update(const HowFar&) override {}
-    void checking(const HowFar& how_far) override {
-      const std::scoped_lock lock(mutex);
-      seen.push_back(how_far);
-    }
-  } recorder;
+  CheckRecorder recorder;
   run(ball_request(), options());
   uint64_t bytes = 0;
   for (const auto& [name, text] : contents(folder()))

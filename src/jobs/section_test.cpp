@@ -1,25 +1,15 @@
 // Tests sections seen flat, against geometry.
 #include <cmath>
 
-#include "jobs/picture/picture.h"
-#include "jobs/test_designs.h"
-#include "load/load.h"
+#include "jobs/test_pictures.h"
 
 namespace ombre::compile {
 namespace {
 
 Picture slice(const std::string& text, SliceView plane, PictureRequest request = {}) {
-  Diagnostics diagnostics;
-  const LoadedPtr loaded = load_text(text, diagnostics);
-  EXPECT_TRUE(loaded) << to_text(diagnostics);
   request.width = request.height = 200;
   request.slice = plane;
-  StopFlag stop;
-  Picture picture;
-  EXPECT_TRUE(take_pictures(
-      *loaded, request, stop, [&](int, const Picture& taken) { picture = taken; }, diagnostics))
-      << to_text(diagnostics);
-  return picture;
+  return picture_of(text, request);
 }
 
 render::Rgba8 dot(const Picture& picture, int64_t column, int64_t row) {
@@ -105,14 +95,11 @@ TEST(Sections, OfMeshesAndOfWhatIsCut) {
 
 TEST(Sections, OfNothingAreSaidToBeEmpty) {
   Diagnostics diagnostics;
-  const LoadedPtr loaded = load_text("difference() { cube(20); sphere(9); cylinder(3, 40); }", diagnostics);
   PictureRequest request;
   request.width = request.height = 50;
   request.slice = {{2, 0}};
   request.box = Box{{-1, -1, -10}, {1, 1, 10}};
-  const StopFlag stop;
-  EXPECT_TRUE(take_pictures(
-      *loaded, request, stop, [](int, const Picture&) {}, diagnostics));
+  EXPECT_TRUE(picture_of("difference() { cube(20); sphere(9); cylinder(3, 40); }", request, diagnostics));
   EXPECT_NE(to_text(diagnostics).find("nothing to be seen"), std::string::npos);
 }
 

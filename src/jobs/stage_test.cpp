@@ -9,6 +9,7 @@
 #include "base/system/byte_pack.h"
 #include "base/system/tasks.h"
 #include "base/text/error.h"
+#include "base/text/test_errors.h"
 #include "jobs/grid/grid_job.h"
 #include "jobs/test_designs.h"
 #include "questions/design_stages.h"
@@ -353,13 +354,7 @@ TEST_F(Stages, ThatNeedMoreMemoryThanThereIsDoNotBegin) {
   const auto kept = stages.source(std::make_shared<PartSize>(solid()), place());
   StageLoan loan;
   loan.memory_bytes = 1000;
-  try {
-    stages.prepare(loan);
-    FAIL() << "there is too little memory";
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("more than the 1000 bytes allowed; allow more with --memory"), std::string::npos) << message;
-  }
+  expect_error([&] { stages.prepare(loan); }, "more than the 1000 bytes allowed; allow more with --memory");
 }
 
 TEST_F(Stages, StopOnRequest) {

@@ -11,6 +11,7 @@
 
 #include "base/text/error.h"
 #include "base/text/json.h"
+#include "base/text/test_errors.h"
 #include "formats/containers/file.h"
 #include "jobs/slice/slice.h"
 
@@ -125,15 +126,6 @@ inline Contents expected(const SliceRequest& request, const fs::path& root) {
   Contents all = contents(options.folder);
   fs::remove_all(options.folder);
   return all;
-}
-
-inline void expect_error(const std::function<void()>& act, const std::string& part) {
-  try {
-    act();
-    ADD_FAILURE() << "no error about: " << part;
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
 }
 
 inline void expect_same(const Contents& a, const Contents& b) {

@@ -98,6 +98,18 @@ program::Program lower_derivatives(const NodePtr& node, const MaterialTable& mat
 class EveryNode : public testing::TestWithParam<std::string> {
  protected:
   const NodeType& type() const { return *registry().find(GetParam()); }
+  // Checks nodes of the type with random parameters, over inputs of that depth.
+  template <class Check>
+  void for_designs(int depth, const Check& check) const {
+    for (unsigned seed = 0; seed < rounds; ++seed) {
+      RandomDesign random(seed);
+      const NodePtr node = random.node(type(), depth);
+      ASSERT_TRUE(node) << random.last_message;
+      check(random, node);
+      if (HasFatalFailure()) return;
+    }
+  }
+
 #ifdef OMBRE_SANITIZED  // sanitizers make each round about twenty times as slow
   static constexpr unsigned rounds = 6;
 #else
@@ -119,10 +131,7 @@ TEST_P(EveryNode, IsDocumented) {
 }
 
 TEST_P(EverySolid, BoundsHoldWhatIsInside) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 2);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(2, [&](RandomDesign& random, const NodePtr& node) {
     const Box where = Box::centered({40, 40, 40});
     const Box bounds = node->bounds(where).expanded(1e-9);
     const auto lowered = lower(node, random.materials, Demand::inside);
@@ -132,14 +141,11 @@ TEST_P(EverySolid, BoundsHoldWhatIsInside) {
       EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " "
                                       << p.z;
     }
-  }
+  });
 }
 
 TEST_P(EverySolid, BoundsWithinABoxHoldWhatIsInsideOfBoth) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 2);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(2, [&](RandomDesign& random, const NodePtr& node) {
     const auto lowered = lower(node, random.materials, Demand::inside);
     for (int i = 0; i < 30; ++i) {
       const Vec3 lo{random.number(-12, 8), random.number(-12, 8), random.number(-12, 8)};
@@ -153,14 +159,11 @@ TEST_P(EverySolid, BoundsWithinABoxHoldWhatIsInsideOfBoth) {
                                         << p.z;
       }
     }
-  }
+  });
 }
 
 TEST_P(EverySolid, IntervalsHoldPoints) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 2);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(2, [&](RandomDesign& random, const NodePtr& node) {
     const auto lowered = lower(node, random.materials, Demand::everywhere);
     for (int i = 0; i < 20; ++i) {
       const Vec3 lo{random.number(-10, 10), random.number(-10, 10), random.number(-10, 10)};
@@ -182,14 +185,11 @@ TEST_P(EverySolid, IntervalsHoldPoints) {
           ASSERT_TRUE(whole[o] == part[o] || (std::isnan(whole[o]) && std::isnan(part[o]))) << o;
       }
     }
-  }
+  });
 }
 
 TEST_P(EverySolid, InsideAgreesWithDistance) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 2);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(2, [&](RandomDesign& random, const NodePtr& node) {
     const auto lowered = lower(node, random.materials, Demand::inside);
     for (int i = 0; i < 200; ++i) {
       const Vec3 p{random.number(-12, 12), random.number(-12, 12), random.number(-12, 12)};
@@ -198,14 +198,11 @@ TEST_P(EverySolid, InsideAgreesWithDistance) {
       EXPECT_EQ(values[0], values[2] <= 0 ? 1 : 0) << values[2] << print_json(round_trip(node, random.materials));
       EXPECT_EQ(values[1], values[2] < 0 ? 1 : 0);
     }
-  }
+  });
 }
 
 TEST_P(EverySolid, FractionsSumToOne) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 2);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(2, [&](RandomDesign& random, const NodePtr& node) {
     for (const Demand demand : {Demand::inside, Demand::everywhere}) {
       const auto lowered = lower(node, random.materials, demand);
       for (int i = 0; i < 200; ++i) {
@@ -220,17 +217,14 @@ TEST_P(EverySolid, FractionsSumToOne) {
         ASSERT_NEAR(sum, 1, 1e-12) << print_json(round_trip(node, random.materials));
       }
     }
-  }
+  });
 }
 
 // |g(p) - g(q)| <= L |p - q| must hold for exact and bounded g.
 TEST_P(EverySolid, KeepsItsLipschitzBound) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 2);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(2, [&](RandomDesign& random, const NodePtr& node) {
     const Metric metric = node->metric();
-    if (metric.is_implicit()) continue;
+    if (metric.is_implicit()) return;
     const auto lowered = lower(node, random.materials, Demand::inside);
     for (int i = 0; i < 200; ++i) {
       const Vec3 p{random.number(-15, 15), random.number(-15, 15), random.number(-15, 15)};
@@ -241,16 +235,13 @@ TEST_P(EverySolid, KeepsItsLipschitzBound) {
       ASSERT_LE(change, metric.lipschitz * length(step) * (1 + 1e-9) + 1e-9)
           << print_json(round_trip(node, random.materials));
     }
-  }
+  });
 }
 
 // From any point, a step of length |g| along the gradient of an exact distance leads to the surface.
 TEST_P(EverySolid, ExactDistancesLeadToTheSurface) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 1);
-    ASSERT_TRUE(node) << random.last_message;
-    if (node->metric().kind != Metric::Kind::exact) continue;
+  for_designs(1, [&](RandomDesign& random, const NodePtr& node) {
+    if (node->metric().kind != Metric::Kind::exact) return;
     const auto lowered = lower(node, random.materials, Demand::inside);
     const auto g = [&](Vec3 p) { return at(lowered.program, p)[2]; };
     for (int i = 0; i < 50; ++i) {
@@ -263,7 +254,7 @@ TEST_P(EverySolid, ExactDistancesLeadToTheSurface) {
       EXPECT_NEAR(g(p - g(p) * gradient), 0, 1e-3)
           << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
     }
-  }
+  });
 }
 
 // Prints the design, reads it, and prints it again.
@@ -281,19 +272,11 @@ void expect_same_when_read(const NodePtr& node, const MaterialTable& materials) 
 }
 
 TEST_P(EverySolid, PrintsAndReadsBack) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 3);
-    ASSERT_TRUE(node) << random.last_message;
-    expect_same_when_read(node, random.materials);
-  }
+  for_designs(3, [&](RandomDesign& random, const NodePtr& node) { expect_same_when_read(node, random.materials); });
 }
 
 TEST_P(EveryValue, PrintsAndReadsBack) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 1);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(1, [&](RandomDesign& random, const NodePtr& node) {
     const NodeType& attribute = *registry().find("attribute");
     Diagnostics diagnostics;
     for (size_t n = 0; n < type().outputs.size(); ++n) {
@@ -312,14 +295,11 @@ TEST_P(EveryValue, PrintsAndReadsBack) {
       ASSERT_TRUE(solid) << to_text(diagnostics);
       expect_same_when_read(solid, random.materials);
     }
-  }
+  });
 }
 
 TEST_P(EveryValue, IntervalsHoldPoints) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 1);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(1, [&](RandomDesign& random, const NodePtr& node) {
     const program::Program program = lower_outputs(node, random.materials);
     for (int i = 0; i < 20; ++i) {
       const Vec3 lo{random.number(-50, 50), random.number(-50, 50), random.number(-50, 50)};
@@ -334,17 +314,14 @@ TEST_P(EveryValue, IntervalsHoldPoints) {
           ASSERT_TRUE(ranges[v].contains(values[v])) << program::to_text(program) << "v" << v << " = " << values[v];
       }
     }
-  }
+  });
 }
 
 // Tests derivatives where a rule exists and the differences on both sides agree. Elsewhere the value has a kink or
 // jump.
 TEST_P(EveryValue, DerivativesMatchDifferences) {
   constexpr double step = 1e-5;
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 1);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(1, [&](RandomDesign& random, const NodePtr& node) {
     const program::Program program = lower_derivatives(node, random.materials);
     for (int i = 0; i < 20 && !program.outputs.empty(); ++i) {
       const Vec3 p{random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)};
@@ -363,14 +340,11 @@ TEST_P(EveryValue, DerivativesMatchDifferences) {
         }
       }
     }
-  }
+  });
 }
 
 TEST_P(EveryValue, DeclaredRangesHoldPoints) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 1);
-    ASSERT_TRUE(node) << random.last_message;
+  for_designs(1, [&](RandomDesign& random, const NodePtr& node) {
     const program::Program program = lower_outputs(node, random.materials);
     for (int i = 0; i < 300; ++i) {
       const auto values = at(program, {random.number(-90, 90), random.number(-90, 90), random.number(-90, 90)});
@@ -383,15 +357,12 @@ TEST_P(EveryValue, DeclaredRangesHoldPoints) {
         place += std::max<size_t>(1, output.type.parts.size());
       }
     }
-  }
+  });
 }
 
 TEST_P(EveryValue, FractionsOfMixturesSumToOne) {
-  for (unsigned seed = 0; seed < rounds; ++seed) {
-    RandomDesign random(seed);
-    const NodePtr node = random.node(type(), 1);
-    ASSERT_TRUE(node) << random.last_message;
-    if (!node->is_mixture()) continue;
+  for_designs(1, [&](RandomDesign& random, const NodePtr& node) {
+    if (!node->is_mixture()) return;
     const program::Program program = lower_outputs(node, random.materials);
     size_t others = 0;  // numbers of the outputs after the mixture
     for (size_t n = node->first_output() + 1; n < type().outputs.size(); ++n)
@@ -406,7 +377,7 @@ TEST_P(EveryValue, FractionsOfMixturesSumToOne) {
       }
       EXPECT_NEAR(sum, 1, 1e-12);
     }
-  }
+  });
 }
 
 const auto by_name = [](const testing::TestParamInfo<std::string>& test) { return test.param; };

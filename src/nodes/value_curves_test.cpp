@@ -133,15 +133,15 @@ TEST_F(ValueCurves, TexturesAreLinearBetweenTheMiddlesOfPixels) {
 TEST_F(ValueCurves, MixturesOfManyHaveTheirShares) {
   const NodePtr mix = make("mix_many", {{"materials", Data(DataList{Data("red"), Data("blue"), Data("clear")})},
                                         {"shares", Data(DataList{Data(1.0), Data("x"), Data("-1")})}});
-  const auto fractions = at(mix, "mixture", {3, 0, 0});
+  const auto fractions = of_output(mix, "mixture", {3, 0, 0});
   EXPECT_NEAR(fractions[0], 0.25, 1e-12);
   EXPECT_NEAR(fractions[1], 0.75, 1e-12);
   EXPECT_EQ(fractions[2], 0);
   const NodePtr lost = make("mix_many", {{"materials", Data(DataList{Data("red"), Data("blue")})},
                                          {"shares", Data(DataList{Data("sqrt(x)"), Data("y")})}});
-  EXPECT_NEAR(at(lost, "mixture", {-1, 3, 0})[1], 1, 1e-12);
-  EXPECT_NEAR(at(lost, "mixture", {4, 6, 0})[1], 0.75, 1e-12);
-  EXPECT_NEAR(at(lost, "mixture", {-1, 0, 0})[0], 1, 1e-12);  // no share is above 0
+  EXPECT_NEAR(of_output(lost, "mixture", {-1, 3, 0})[1], 1, 1e-12);
+  EXPECT_NEAR(of_output(lost, "mixture", {4, 6, 0})[1], 0.75, 1e-12);
+  EXPECT_NEAR(of_output(lost, "mixture", {-1, 0, 0})[0], 1, 1e-12);  // no share is above 0
   EXPECT_NE(error_of("mix_many",
                      {{"materials", Data(DataList{Data("red")})}, {"shares", Data(DataList{Data(1.0), Data(2.0)})}})
                 .find("2 shares for 1 materials"),

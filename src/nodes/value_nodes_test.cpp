@@ -2,40 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
-#include "base/text/json.h"
-#include "design/lowering.h"
-#include "nodes/all_nodes.h"
-#include "program/evaluate.h"
-#include "program/passes/passes.h"
+#include "nodes/test_values.h"
+#include "program/test_evaluation.h"
 
 namespace ombre::nodes {
 namespace {
 
 using namespace design;
 
-class ValueNodes : public testing::Test {
+class ValueNodes : public test::ValueTest {
  protected:
-  ValueNodes() {
-    const auto data = parse_json(make_source("m", R"({"materials": [{"name": "red", "r": 1, "g": 2, "b": 3},
-        {"name": "blue", "r": 3, "g": 2, "b": 1}, {"name": "clear", "r": 4, "g": 4, "b": 4}]})"),
-                                 diagnostics_);
-    materials_ = *MaterialTable::read(*data, diagnostics_);
-  }
-
-  NodePtr make(const std::string& type, const std::vector<std::pair<std::string, Data>>& values) {
-    const NodeType& t = *registry().find(type);
-    std::vector<NamedValue> named;
-    for (const auto& [name, data] : values)
-      named.push_back({&t.parameters[static_cast<size_t>(t.parameter(name))], data});
-    NodePtr node = make_node(t, named, {}, {materials_, diagnostics_, nullptr, {}, "", ""});
-    EXPECT_TRUE(node) << to_text(diagnostics_);
-    return node;
-  }
-
-  static Data object(const NodePtr& node) { return Data(HostObjectPtr(std::make_shared<NodeObject>(node))); }
-
   program::Program numbers(const NodePtr& node, size_t output) {
     LoweringContext context(materials_, {node});
     program::Builder builder;
@@ -57,24 +34,9 @@ class ValueNodes : public testing::Test {
     context.finish_bodies();
     const program::Program program = program::inline_bodies(builder.finish(outputs));
     std::map<std::string, double> result;
-    for (size_t n = 0; n < outputs.size(); ++n) result[outputs[n].first] = value(program, at, n);
+    for (size_t n = 0; n < outputs.size(); ++n) result[outputs[n].first] = value_at(program, at, n);
     return result;
   }
-
-  static double value(const program::Program& program, Vec3 p, size_t output = 0) {
-    std::vector<double> values;
-    evaluate_point(program, p, values);
-    return values[program.outputs[output]];
-  }
-
-  Vec3 random_point(double size) {
-    std::uniform_real_distribution<double> any(-size, size);
-    return {any(random_), any(random_), any(random_)};
-  }
-
-  MaterialTable materials_;
-  Diagnostics diagnostics_;
-  std::mt19937 random_{7};
 };
 
 }  // namespace
@@ -82,7 +44,7 @@ class ValueNodes : public testing::Test {
 // At a lattice corner, all linear functions except its own have weight 0, and its own is 0.
 TEST_F(ValueNodes, NoiseIsOneHalfInTheCorners) {
   const auto noise = numbers(make("noise", {{"size", Data(2.0)}}), 0);
-  for (int n = -300; n < 300; n += 7) EXPECT_EQ(value(noise, {2.0 * n, 4, -6}), 0.5);
+  for (int n = -300; n < 300; n += 7) EXPECT_EQ(value_at(noise, {2.0 * n, 4, -6}), 0.5);
 }
 
 TEST_F(ValueNodes, TheMeanOfNoiseIsOneHalf) {
@@ -90,7 +52,7 @@ TEST_F(ValueNodes, TheMeanOfNoiseIsOneHalf) {
   constexpr int count = 40000;
   double sum = 0, squares = 0, least = 1, greatest = 0;
   for (int n = 0; n < count; ++n) {
-    const double v = value(noise, random_point(144));
+    const double v = value_at(noise, random_point(144));
     sum += v;
     squares += v * v;
     least = std::min(least, v);
@@ -111,8 +73,8 @@ TEST_F(ValueNodes, TheSlopeOfNoiseMatchesDifferences) {
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 step;
       step[axis] = h;
-      const double difference = (value(noise, p + step) - value(noise, p - step)) / (2 * h);
-      EXPECT_NEAR(value(slope, p, static_cast<size_t>(axis)), difference, 1e-7);
+      const double difference = (value_at(noise, p + step) - value_at(noise, p - step)) / (2 * h);
+      EXPECT_NEAR(value_at(slope, p, static_cast<size_t>(axis)), difference, 1e-7);
     }
   }
 }
@@ -128,9 +90,10 @@ TEST_F(ValueNodes, NoiseHasNoSeams) {
       Vec3 below = random_point(5), above = below;
       below.x = border - near;
       above.x = border + near;
-      EXPECT_NEAR(value(noise, below), value(noise, above), 1e-8);
-      for (size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(value(slope, below, axis), value(slope, above, axis), 1e-7);
-      EXPECT_NEAR(value(noise, above), value(noise, above + Vec3{289, -578, 289}), 1e-12);
+      EXPECT_NEAR(value_at(noise, below), value_at(noise, above), 1e-8);
+      for (size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(value_at(slope, below, axis), value_at(slope, above, axis), 1e-7);
+      EXPECT_NEAR(value_at(noise, above), value_at(noise, above + Vec3{289, -578, 289}), 1e-12);
     }
   }
 }
@@ -140,7 +103,7 @@ TEST_F(ValueNodes, SeedsGiveDifferentNoise) {
   int equal = 0;
   for (int n = 0; n < 100; ++n) {
     const Vec3 p = random_point(50);
-    equal += std::abs(value(a, p) - value(b, p)) < 1e-6;
+    equal += std::abs(value_at(a, p) - value_at(b, p)) < 1e-6;
   }
   EXPECT_LT(equal, 3);
 }
@@ -156,10 +119,10 @@ TEST_F(ValueNodes, ThePermutationIsExactInSinglePrecision) {
 
 TEST_F(ValueNodes, MixOfNumbersIsBetweenThem) {
   const auto mix = numbers(make("mix", {{"a", Data(2.0)}, {"b", Data("10 + y")}, {"t", Data("x")}}), 0);
-  EXPECT_EQ(value(mix, {0.25, 0, 0}), 4);
-  EXPECT_EQ(value(mix, {0.5, 4, 0}), 8);
-  EXPECT_EQ(value(mix, {-1, 0, 0}), 2);
-  EXPECT_EQ(value(mix, {7, 1, 0}), 11);
+  EXPECT_EQ(value_at(mix, {0.25, 0, 0}), 4);
+  EXPECT_EQ(value_at(mix, {0.5, 4, 0}), 8);
+  EXPECT_EQ(value_at(mix, {-1, 0, 0}), 2);
+  EXPECT_EQ(value_at(mix, {7, 1, 0}), 11);
 }
 
 TEST_F(ValueNodes, MixOfMaterialsHasTheirShares) {
@@ -181,14 +144,14 @@ TEST_F(ValueNodes, CellsAreThoseOfFloor) {
   for (int n = 0; n < 500; ++n) {
     const Vec3 p = random_point(30);
     const double i = std::floor(p.x / 4 + 0.5), j = std::floor(p.y / 5 + 0.5);
-    EXPECT_EQ(value(index, p, 0), i);
-    EXPECT_EQ(value(index, p, 1), j);
-    EXPECT_EQ(value(index, p, 2), 0);
-    EXPECT_NEAR(value(local, p, 0), p.x / 4 - i, 1e-12);
-    EXPECT_NEAR(value(local, p, 1), p.y / 5 - j, 1e-12);
+    EXPECT_EQ(value_at(index, p, 0), i);
+    EXPECT_EQ(value_at(index, p, 1), j);
+    EXPECT_EQ(value_at(index, p, 2), 0);
+    EXPECT_NEAR(value_at(local, p, 0), p.x / 4 - i, 1e-12);
+    EXPECT_NEAR(value_at(local, p, 1), p.y / 5 - j, 1e-12);
     // The borders are at 2 + 4 i and 2.5 + 5 j.
     const double to_x = std::abs(std::remainder(p.x - 2, 4)), to_y = std::abs(std::remainder(p.y - 2.5, 5));
-    EXPECT_NEAR(value(distance, p), std::min(to_x, to_y), 1e-9);
+    EXPECT_NEAR(value_at(distance, p), std::min(to_x, to_y), 1e-9);
   }
 }
 

@@ -1,12 +1,13 @@
 // Compares symbolic derivatives with finite differences and with derivatives computed by hand.
 #include "program/gradient.h"
-#include "program/evaluate.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <random>
+
+#include "program/test_evaluation.h"
 
 namespace ombre::program {
 namespace {
@@ -32,12 +33,6 @@ std::optional<Both> make(const Formula& formula) {
   const auto by = gradient(of, p);
   if (!by) return std::nullopt;
   return Both{builder.finish({{"value", of}}), builder.finish({{"x", (*by)[0]}, {"y", (*by)[1]}, {"z", (*by)[2]}})};
-}
-
-double at(const Program& program, size_t output, Vec3 p) {
-  std::vector<double> values;
-  evaluate_point(program, p, values);
-  return values[program.outputs[output]];
 }
 
 Formula unary(Op op, double scale = 1, double shift = 0) {
@@ -101,11 +96,12 @@ TEST(Gradient, FollowsDifferences) {
         constexpr double step = 1e-5;
         Vec3 by;
         by[axis] = step;
-        const double up = at(made->value, 0, p + by), down = at(made->value, 0, p - by), here = at(made->value, 0, p);
+        const double up = value_at(made->value, p + by), down = value_at(made->value, p - by),
+                     here = value_at(made->value, p);
         // Skips kinks and jumps.
         if (std::abs((up - here) - (here - down)) > 1e-7) continue;
         const double slope = (up - down) / (2 * step);
-        EXPECT_NEAR(at(made->slopes, static_cast<size_t>(axis), p), slope, 1e-5 * (1 + std::abs(slope)))
+        EXPECT_NEAR(value_at(made->slopes, p, static_cast<size_t>(axis)), slope, 1e-5 * (1 + std::abs(slope)))
             << "formula " << n << " at " << p.x << " " << p.y << " " << p.z << " along axis " << axis;
       }
     }
@@ -120,9 +116,9 @@ TEST(Gradient, IsByThePointsCoordinates) {
   ASSERT_TRUE(by);
   const Program program = builder.finish({{"x", (*by)[0]}, {"y", (*by)[1]}, {"z", (*by)[2]}});
   const Vec3 q{0.5 * 4 + 0.25, 2 * 3 - 1.0, 1.5 * 2 + 2};
-  EXPECT_DOUBLE_EQ(at(program, 0, {4, 3, 2}), q.y);
-  EXPECT_DOUBLE_EQ(at(program, 1, {4, 3, 2}), q.x);
-  EXPECT_DOUBLE_EQ(at(program, 2, {4, 3, 2}), 2 * q.z);
+  EXPECT_DOUBLE_EQ(value_at(program, {4, 3, 2}, 0), q.y);
+  EXPECT_DOUBLE_EQ(value_at(program, {4, 3, 2}, 1), q.x);
+  EXPECT_DOUBLE_EQ(value_at(program, {4, 3, 2}, 2), 2 * q.z);
 }
 
 // The distance from an axis has no derivative on the axis; the result there must stay finite.
@@ -130,7 +126,7 @@ TEST(Gradient, IsZeroWhereRootsAndAnglesHaveNone) {
   const auto root = make([](const Point& p) { return length(p.x, p.y); });
   const auto angle = make([](const Point& p) { return p.builder().apply(Op::atan2, p.y, p.x); });
   for (const auto& made : {root, angle})
-    for (size_t n = 0; n < 3; ++n) EXPECT_EQ(at(made->slopes, n, {0, 0, 1}), 0);
+    for (size_t n = 0; n < 3; ++n) EXPECT_EQ(value_at(made->slopes, {0, 0, 1}, n), 0);
 }
 
 TEST(Gradient, HasNoRuleForSomeThings) {

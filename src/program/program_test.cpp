@@ -4,21 +4,15 @@
 #include <cmath>
 #include <random>
 
-#include "program/evaluate.h"
 #include "program/field.h"
 #include "program/passes/passes.h"
 #include "program/program_text.h"
+#include "program/test_evaluation.h"
 
 namespace ombre::program {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-
-double value(const Program& program, Vec3 p) {
-  std::vector<double> values;
-  evaluate_point(program, p, values);
-  return values[program.outputs[0]];
-}
 
 }  // namespace
 
@@ -41,7 +35,7 @@ TEST(Builder, SharesAmongThousandsAndStartsAnew) {
     for (int n = 1; n <= 3000; ++n) sums.push_back(b.input(0) + n);
     EXPECT_EQ(b.size(), 3u + 2 * 3000u);
     for (int n = 1; n <= 3000; ++n) EXPECT_EQ((b.input(0) + n).id, sums[static_cast<size_t>(n) - 1].id);
-    EXPECT_EQ(value(b.finish({{"v", sums[41]}}), {1, 0, 0}), 43);
+    EXPECT_EQ(value_at(b.finish({{"v", sums[41]}}), {1, 0, 0}), 43);
     b.clear();
     EXPECT_EQ(b.size(), 3u);
   }
@@ -50,17 +44,17 @@ TEST(Builder, SharesAmongThousandsAndStartsAnew) {
 TEST(Builder, DoesNotFoldWhatInfinitiesWouldBreak) {
   Builder b;
   const Field x = b.input(0);
-  EXPECT_TRUE(std::isnan(value(b.finish({{"v", x * 0.0}}), {inf, 0, 0})));
-  EXPECT_TRUE(std::isnan(value(b.finish({{"v", x - x}}), {inf, 0, 0})));
+  EXPECT_TRUE(std::isnan(value_at(b.finish({{"v", x * 0.0}}), {inf, 0, 0})));
+  EXPECT_TRUE(std::isnan(value_at(b.finish({{"v", x - x}}), {inf, 0, 0})));
 }
 
 TEST(Builder, IntegerPowersAreProducts) {
   Builder b;
   const Field x = b.input(0);
-  EXPECT_EQ(value(b.finish({{"v", power(x, b.constant(3))}}), {-2, 0, 0}), -8);
-  EXPECT_EQ(value(b.finish({{"v", power(x, b.constant(10))}}), {2, 0, 0}), 1024);
-  EXPECT_EQ(value(b.finish({{"v", power(x, b.constant(-2))}}), {4, 0, 0}), 1.0 / 16);
-  EXPECT_EQ(value(b.finish({{"v", power(x, b.constant(0))}}), {0, 0, 0}), 1);
+  EXPECT_EQ(value_at(b.finish({{"v", power(x, b.constant(3))}}), {-2, 0, 0}), -8);
+  EXPECT_EQ(value_at(b.finish({{"v", power(x, b.constant(10))}}), {2, 0, 0}), 1024);
+  EXPECT_EQ(value_at(b.finish({{"v", power(x, b.constant(-2))}}), {4, 0, 0}), 1.0 / 16);
+  EXPECT_EQ(value_at(b.finish({{"v", power(x, b.constant(0))}}), {0, 0, 0}), 1);
 }
 
 TEST(Points, ComposeAffineMapsExactly) {
@@ -143,7 +137,7 @@ TEST(InlineBodies, KeepsTheMeaning) {
       b.call(body, 0, b.input(0), b.input(1), b.input(2)) + b.call(body, 0, b.input(1), b.constant(3), b.input(2));
   const Program program = b.finish({{"v", f}});
   EXPECT_EQ(inlined_size(program), static_cast<double>(program.code.size() + 2 * body->code.size()));
-  EXPECT_EQ(value(inline_bodies(program), {3, 4, 0}), 10);
+  EXPECT_EQ(value_at(inline_bodies(program), {3, 4, 0}), 10);
   EXPECT_NE(to_text(program).find("call body0.g"), std::string::npos);
 }
 
@@ -174,7 +168,7 @@ TEST(ComposeAffine, TurnedFramesKnowTheirRanges) {
   evaluate_intervals(program, box, values);
   EXPECT_GT(values[program.outputs[0]].hi, 8.9);
   for (const Vec3 p : {Vec3{1, 5, 7}, Vec3{-0.3, 0, 2}, Vec3{0, 0, 0}})
-    EXPECT_NEAR(value(composed, p), value(program, p), 1e-12);
+    EXPECT_NEAR(value_at(composed, p), value_at(program, p), 1e-12);
 }
 
 TEST(ComposeAffine, LeavesWhatIsNotAffine) {
@@ -182,12 +176,8 @@ TEST(ComposeAffine, LeavesWhatIsNotAffine) {
   const Field x = b.input(0), y = b.input(1);
   const Program program = b.finish({{"product", x * y}, {"ratio", (x + y) / (x + 1)}, {"constant", x - x}});
   const Program composed = compose_affine(program);
-  for (size_t n = 0; n < program.outputs.size(); ++n) {
-    std::vector<double> before, after;
-    evaluate_point(program, {2, 3, 0}, before);
-    evaluate_point(composed, {2, 3, 0}, after);
-    EXPECT_EQ(after[composed.outputs[n]], before[program.outputs[n]]) << program.output_names[n];
-  }
+  for (size_t n = 0; n < program.outputs.size(); ++n)
+    EXPECT_EQ(value_at(composed, {2, 3, 0}, n), value_at(program, {2, 3, 0}, n)) << program.output_names[n];
 }
 
 }  // namespace ombre::program

@@ -40,13 +40,8 @@ draw::RunLayout layout_of(const Text& text) {
   layout.direction = text.direction;
   layout.language = text.language;
   layout.script = text.script;
-  layout.side = text.horizontal == "center"  ? draw::TextSide::center
-                : text.horizontal == "right" ? draw::TextSide::right
-                                             : draw::TextSide::left;
-  layout.level = text.vertical == "top"      ? draw::TextLevel::top
-                 : text.vertical == "center" ? draw::TextLevel::center
-                 : text.vertical == "bottom" ? draw::TextLevel::bottom
-                                             : draw::TextLevel::first_line;
+  layout.side = draw::side_called(text.horizontal);
+  layout.level = draw::level_called(text.vertical);
   return layout;
 }
 

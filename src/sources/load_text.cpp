@@ -68,15 +68,12 @@ std::optional<Font> find_font(const TextRequest& use, sources::Loading& loading)
 }
 
 draw::TextLayout layout_of(const TextRequest& use, double slant) {
-  draw::TextLayout layout{use.height_mm, use.measure == "capitals", use.line_spacing, slant};
-  layout.side = use.h_align == "left"    ? draw::TextSide::left
-                : use.h_align == "right" ? draw::TextSide::right
-                                         : draw::TextSide::center;
-  layout.level = use.v_align == "bottom"   ? draw::TextLevel::bottom
-                 : use.v_align == "top"    ? draw::TextLevel::top
-                 : use.v_align == "center" ? draw::TextLevel::center
-                                           : draw::TextLevel::first_line;
-  return layout;
+  return {use.height_mm,
+          use.measure == "capitals",
+          use.line_spacing,
+          slant,
+          draw::side_called(use.h_align.text()),
+          draw::level_called(use.v_align.text())};
 }
 
 Hash key_of_text(const TextRequest& use, double slant) {

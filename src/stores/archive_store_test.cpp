@@ -64,7 +64,7 @@ TEST_F(ArchiveStoreTest, StoppedJobsResumeToTheSameBytes) {
 
 TEST_F(ArchiveStoreTest, ReplacesAnArchiveOnlyIfItMay) {
   write_text(path_, "mine");
-  expect_refused([&] { ArchiveStore(path_, job_, FolderUse::fresh); }, "job.zip exists already");
+  expect_error([&] { ArchiveStore(path_, job_, FolderUse::fresh); }, "job.zip exists already");
   ArchiveStore archive(path_, job_, FolderUse::replace);
   put_pieces(archive, 0, packed_count);
   EXPECT_EQ(formats::read_file(path_), "mine");

@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <mutex>
 
+#include "base/system/test_progress.h"
 #include "stores/test_piece_job.h"
 
 namespace ombre::stores {
@@ -92,15 +92,7 @@ TEST_F(FolderStoreTest, PiecesWithOtherFilesThanTheJournalStatesAreNotFinished) 
 }
 
 TEST_F(FolderStoreTest, ReadingFinishedPiecesTellsHowFarItIsAndStops) {
-  struct Recorder : Progress {
-    std::vector<HowFar> seen;
-    std::mutex mutex;
-    void update(const HowFar&) override {}
-    void checking(const HowFar& how_far) override {
-      const std::scoped_lock lock(mutex);
-      seen.push_back(how_far);
-    }
-  } recorder;
+  CheckRecorder recorder;
   const FolderContents expected = whole();
   uint64_t bytes = 0;
   for (const auto& [name, text] : expected)
@@ -121,29 +113,29 @@ TEST_F(FolderStoreTest, ReadingFinishedPiecesTellsHowFarItIsAndStops) {
 
 TEST_F(FolderStoreTest, UsedFoldersAreRefused) {
   const FolderContents expected = whole();
-  expect_refused([&] { run(FolderUse::fresh, job_); }, "already holds a text job; continue it with --resume");
-  expect_refused([&] { run(FolderUse::resume, PieceJob(piece_count, "b")); }, "holds another design");
+  expect_error([&] { run(FolderUse::fresh, job_); }, "already holds a text job; continue it with --resume");
+  expect_error([&] { run(FolderUse::resume, PieceJob(piece_count, "b")); }, "holds another design");
   write_text(in_folder("text.json"), "{");
-  expect_refused([&] { run(FolderUse::resume, job_); }, "text.json is damaged");
+  expect_error([&] { run(FolderUse::resume, job_); }, "text.json is damaged");
   run(FolderUse::replace, job_);
   EXPECT_EQ(contents_of(folder()), expected);
   write_text(in_folder("text.json"), R"({"format": "of another program"})");
-  expect_refused([&] { run(FolderUse::replace, job_); }, "was not written by Ombre");
+  expect_error([&] { run(FolderUse::replace, job_); }, "was not written by Ombre");
   write_text(root_.file("file"), "");
-  expect_refused([&] { FolderStore(root_.file("file"), job_, FolderUse::fresh); }, "is a file, and the pieces need a");
+  expect_error([&] { FolderStore(root_.file("file"), job_, FolderUse::fresh); }, "is a file, and the pieces need a");
 }
 
 TEST_F(FolderStoreTest, FilesOfOthersStay) {
   std::filesystem::create_directory(folder());
   write_text(in_folder("thesis.tex"), "years of work");
   for (const FolderUse use : {FolderUse::fresh, FolderUse::resume})
-    expect_refused([&] { run(use, job_); }, "it holds for example thesis.tex");
+    expect_error([&] { run(use, job_); }, "it holds for example thesis.tex");
   run(FolderUse::replace, job_);
   write_text(in_folder("piece_99.txt"), "of no piece");
   run(FolderUse::replace, PieceJob(piece_count, "b"));
   EXPECT_EQ(contents_of(folder()).at("thesis.tex"), "years of work");
   EXPECT_EQ(contents_of(folder()).at("piece_99.txt"), "of no piece");
-  expect_refused([&] { run(FolderUse::replace, PieceJob(100)); }, "piece_99.txt is not part of a text job");
+  expect_error([&] { run(FolderUse::replace, PieceJob(100)); }, "piece_99.txt is not part of a text job");
   EXPECT_TRUE(contents_of(folder()).contains("piece_3.txt"));
 }
 

@@ -94,25 +94,25 @@ TEST_F(ShardStoreTest, AShareResumesFromItsOwnJournal) {
 
 TEST_F(ShardStoreTest, TwoProcessesDoNotDoOneShare) {
   const ShardStore store(folder(), job_, {1, 2});
-  expect_refused([&] { run({1, 2}, 0, 1); }, "does the same share of the job");
+  expect_error([&] { run({1, 2}, 0, 1); }, "does the same share of the job");
   run({2, 2}, 0, 1);
 }
 
 TEST_F(ShardStoreTest, AFolderIsSharedOrUsedAlone) {
   {
     const ShardStore store(folder(), job_, {1, 2});
-    expect_refused([&] { FolderStore(folder(), job_, FolderUse::resume); }, "another run is writing");
+    expect_error([&] { FolderStore(folder(), job_, FolderUse::resume); }, "another run is writing");
   }
   const FolderStore alone(folder(), job_, FolderUse::resume);
-  expect_refused([&] { run({1, 2}, 0, 1); }, "another run is writing");
+  expect_error([&] { run({1, 2}, 0, 1); }, "another run is writing");
 }
 
 TEST_F(ShardStoreTest, OtherJobsAndForeignFilesAreRefused) {
   run({1, 2}, 0, 1);
-  expect_refused([&] { ShardStore(folder(), PieceJob(shared_count, "b"), {2, 2}); }, "holds another design");
+  expect_error([&] { ShardStore(folder(), PieceJob(shared_count, "b"), {2, 2}); }, "holds another design");
   std::filesystem::remove(folder() + "/text.json");
   write_text(folder() + "/thesis.tex", "");
-  expect_refused([&] { run({2, 2}, 0, 1); }, "it holds for example thesis.tex");
+  expect_error([&] { run({2, 2}, 0, 1); }, "it holds for example thesis.tex");
 }
 
 TEST_F(ShardStoreTest, GatheringNamesGapsAndRepeatedPieces) {
@@ -125,7 +125,7 @@ TEST_F(ShardStoreTest, GatheringNamesGapsAndRepeatedPieces) {
   EXPECT_EQ(some.repeated, (std::vector<Repeated>{{7, {"journal-1-of-3.jsonl", "journal-2-of-3.jsonl"}}}));
   EXPECT_EQ(some.finished.size(), 10U);  // 2 to 8, 10, 11 and 14
   EXPECT_EQ(gather(folder(), job_, {3, 9}).gaps, std::vector<PieceRange>{});
-  expect_refused([&] { gather(folder(), PieceJob(shared_count, "b"), {0, 1}); }, "holds another design");
+  expect_error([&] { gather(folder(), PieceJob(shared_count, "b"), {0, 1}); }, "holds another design");
 }
 
 }  // namespace ombre::stores

@@ -13,6 +13,7 @@
 #include "base/system/temporary_folder.h"
 #include "base/text/error.h"
 #include "base/text/json.h"
+#include "base/text/test_errors.h"
 #include "formats/containers/file.h"
 #include "stores/store.h"
 #include "stores/stored_job.h"
@@ -89,15 +90,6 @@ inline FolderContents contents_of(const std::string& folder) {
 
 inline void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
-}
-
-inline void expect_refused(const std::function<void()>& act, const std::string& part) {
-  try {
-    act();
-    ADD_FAILURE() << "no error about: " << part;
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
 }
 
 }  // namespace ombre::stores

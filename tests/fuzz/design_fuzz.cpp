@@ -8,6 +8,7 @@
 
 #include "base/text/json.h"
 #include "design/design.h"
+#include "fuzz/checks.h"
 #include "load/node_registry.h"
 #include "program/evaluate.h"
 #include "program/passes/passes.h"
@@ -17,17 +18,8 @@ namespace {
 
 using namespace ombre;
 
-void require(bool condition) {
-  if (!condition) std::abort();
-}
-
-void check_places(const Diagnostics& diagnostics) {
-  for (const Diagnostic& diagnostic : diagnostics.list()) {
-    const SourceRange& where = diagnostic.where;
-    require(!where.source || (where.begin <= where.end && where.begin <= where.source->text().size()));
-  }
-  (void)to_text(diagnostics);
-}
+using fuzz::check_places;
+using fuzz::require;
 
 std::optional<design::Design> read(const std::string& text) {
   Diagnostics diagnostics;

@@ -8,6 +8,7 @@
 
 #include "base/text/diagnostic.h"
 #include "expr/expression.h"
+#include "fuzz/checks.h"
 #include "program/evaluate.h"
 
 namespace {
@@ -16,9 +17,7 @@ using namespace ombre;
 
 constexpr size_t longest = 4096;  // longer ones only take longer
 
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+using fuzz::require;
 
 void check_places(const Diagnostics& diagnostics) {
   for (const Diagnostic& diagnostic : diagnostics.list()) {

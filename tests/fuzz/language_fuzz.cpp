@@ -2,10 +2,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "fuzz/checks.h"
+#include "fuzz/small_limits.h"
 #include "lang/engine/ast_print.h"
 #include "lang/engine/interpret.h"
 #include "lang/engine/parser.h"
@@ -37,19 +38,9 @@ class Permissive : public lang::Vocabulary {
 
 lang::Options small_options(const std::string& text) {
   lang::Options options;
-  options.limits.elements = 10'000;
-  options.limits.text_bytes = 1'000'000;
-  options.limits.instances = 10'000;
-  options.limits.calls = 10'000;
-  options.limits.steps = 100'000;
-  options.limits.closures = 2'000;
-  options.limits.files = 10;
+  options.limits = fuzz::small_limits();
   options.definitions.push_back({"defined", Data(3.0)});
-  options.read_file = [text](const std::string& path) -> std::optional<std::string> {
-    if (path == "self") return text;
-    if (path == "lib") return "module m(a = 1) { children(); cube(a); } function f(x) = x + 1; v = 2;";
-    return std::nullopt;
-  };
+  options.read_file = [text](const std::string& path) { return fuzz::file_for_script(text, path); };
   return options;
 }
 
@@ -71,10 +62,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Permissive vocabulary;
   Diagnostics diagnostics;
   lang::run(make_source("fuzz.vcad", text), vocabulary, small_options(text), diagnostics);
-  for (const Diagnostic& diagnostic : diagnostics.list()) {
-    const SourceRange& where = diagnostic.where;
-    if (where.source && (where.begin > where.end || where.begin > where.source->text().size())) std::abort();
-  }
-  (void)to_text(diagnostics);
+  fuzz::check_places(diagnostics);
   return 0;
 }

@@ -2,9 +2,9 @@
 // again.
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 #include <string>
 
+#include "fuzz/small_limits.h"
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/customizer.h"
 #include "lang/openscad/run_script.h"
@@ -16,21 +16,10 @@ namespace openscad = lang::openscad;
 
 openscad::Options small_options(const std::string& text) {
   openscad::Options options;
-  options.limits.elements = 10'000;
-  options.limits.text_bytes = 1'000'000;
-  options.limits.instances = 10'000;
-  options.limits.calls = 10'000;
-  options.limits.steps = 100'000;
-  options.limits.closures = 2'000;
+  options.limits = fuzz::small_limits();
   options.limits.depth = 2'000;
-  options.limits.list_depth = 200;
-  options.limits.files = 10;
   options.definitions = {"defined=3"};
-  options.read_file = [text](const std::string& path) -> std::optional<std::string> {
-    if (path == "self") return text;
-    if (path == "lib") return "module m(a = 1) { children(); cube(a); } function f(x) = x + 1; v = 2;";
-    return std::nullopt;
-  };
+  options.read_file = [text](const std::string& path) { return fuzz::file_for_script(text, path); };
   return options;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/math/run.h"
 #include "formats/images/png.h"
+#include "fuzz/checks.h"
 
 namespace {
 
@@ -17,9 +18,7 @@ using namespace ombre::formats;
 constexpr size_t longest = 4096;  // longer ones only take longer
 constexpr uint32_t most_voxels = 1 << 16;
 
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+using fuzz::require;
 
 // Steps through the input; behind its end there are zeros.
 class Bytes {

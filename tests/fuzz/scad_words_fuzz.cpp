@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "fuzz/checks.h"
+#include "fuzz/small_limits.h"
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/run_script.h"
 #include "lang/vcad/scad_words.h"
@@ -29,14 +31,9 @@ const design::MaterialTable& materials() {
 
 openscad::Options small_options() {
   openscad::Options options;
-  options.limits.elements = 10'000;
-  options.limits.text_bytes = 1'000'000;
+  options.limits = fuzz::small_limits();
   options.limits.instances = 2'000;
-  options.limits.calls = 10'000;
-  options.limits.steps = 100'000;
-  options.limits.closures = 2'000;
   options.limits.depth = 500;
-  options.limits.list_depth = 200;
   return options;
 }
 
@@ -55,10 +52,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Diagnostics diagnostics;
   const auto made = words.finish(tree, {source, 0, 0}, diagnostics);
   if (!made && !diagnostics.has_errors() && messages.list().empty()) std::abort();
-  for (const Diagnostic& diagnostic : diagnostics.list()) {
-    const SourceRange& where = diagnostic.where;
-    if (where.source && (where.begin > where.end || where.begin > where.source->text().size())) std::abort();
-  }
-  (void)to_text(diagnostics);
+  fuzz::check_places(diagnostics);
   return 0;
 }

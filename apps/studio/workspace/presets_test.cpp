@@ -5,6 +5,7 @@
 
 #include "base/text/error.h"
 #include "base/text/json.h"
+#include "base/text/test_errors.h"
 #include "studio/workspace/test_folder.h"
 
 namespace ombre::studio {
@@ -131,12 +132,7 @@ TEST(Presets, SayWhereNothingCanBeWritten) {
   presets.save("part.vcad", "a", values, false);
   const std::string before = folder.read("part.presets.json");
   fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
-  std::string message;
-  try {
-    presets.save("part.vcad", "b", values, false);
-  } catch (const Error& error) {
-    message = error.what();
-  }
+  const std::string message = failure_of([&] { presets.save("part.vcad", "b", values, false); });
   fs::permissions(folder.path, fs::perms::owner_all);
   EXPECT_NE(message.find("choose a folder that you may write to"), std::string::npos) << message;
   EXPECT_EQ(folder.read("part.presets.json"), before);

@@ -102,11 +102,24 @@ def length(value: Any) -> float:
     return size
 
 
+def not_negative(value: Any, what: str = "0 or more") -> float:
+    size = number(value)
+    if size < 0:
+        raise ValueError(f"expected {what}, found {size:g}")
+    return size
+
+
 def radius_of_blend(value: Any) -> float:
-    k = number(value)
-    if k < 0:
-        raise ValueError(f"expected a radius of 0 or more (mm), found {k:g}")
-    return k
+    return not_negative(value, "a radius of 0 or more (mm)")
+
+
+def instance_of(*kinds: type[Any]) -> Callable[[Any], Any]:
+    """The reader of values of these classes."""
+    def read_instance(value: Any) -> Any:
+        if not isinstance(value, kinds):
+            raise _expected("a " + " or ".join(kind.__name__ for kind in kinds), value)
+        return value
+    return read_instance
 
 
 def boolean(value: Any) -> bool:

@@ -9,7 +9,7 @@ import numpy
 
 import ombre
 
-from ._arguments import Point, length, number, read, vector
+from ._arguments import Point, instance_of, length, number, read, vector
 from ._solids import _Leaf, _one, _unset
 
 
@@ -49,12 +49,6 @@ class Cone(_Leaf):
         return ombre.cone(self._base, 0, self._height, self._material)
 
 
-def _cap(value: Any) -> CapMode:
-    if not isinstance(value, CapMode):
-        raise TypeError(f"expected a CapMode, found {type(value).__name__}")
-    return value
-
-
 def _end_of(cap: CapMode, radius: float, side: int, height: float, material: int) -> list[ombre.Solid]:
     """A ball around an end of a bar along z, or the half beyond it."""
     if cap is CapMode.Butt or radius == 0:
@@ -76,7 +70,8 @@ class Strut(_Leaf):
         super().__init__()
         ends = {"start": vector, "end": vector}
         plain = {**ends, "radius": length, "material": _one}
-        capped = {**ends, "r1": number, "r2": number, "cap1": _cap, "cap2": _cap, "material": _one}
+        cap = instance_of(CapMode)
+        capped = {**ends, "r1": number, "r2": number, "cap1": cap, "cap2": cap, "material": _one}
         values = read("Strut", ({}, plain, capped), arguments, named)
         self._start: Point = values.get("start", (0, 0, 0))
         self._end: Point = values.get("end", (10, 0, 0))

@@ -7,7 +7,7 @@ from typing import Any
 
 import ombre
 
-from ._arguments import Optional, Point, length, number, read, size, text, vector, voxel_size
+from ._arguments import Optional, Point, instance_of, length, number, read, size, text, vector, voxel_size
 from ._materials import MaterialDefs
 from ._solids import _Leaf
 from ._tree import Unary, as_node
@@ -104,7 +104,7 @@ class Convolve(Unary):
     """Filters the composition and attributes: Convolve(child, [names], kernel, [rx, ry, rz]), radii in mm."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        form = {"child": as_node, "names": _names, "kernel": _any_kernel, "radius": vector,
+        form = {"child": as_node, "names": _names, "kernel": instance_of(BoxKernel, CustomKernel), "radius": vector,
                 "override_voxel_size": Optional(voxel_size, None)}
         values = read("Convolve", (form,), arguments, named)
         super().__init__(values["child"])
@@ -147,8 +147,9 @@ class Voxels(_Leaf):
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
-        values = read("Voxels", ({"file": text, "voxel_size": voxel_size, "min": vector, "material_defs": _materials},
-                                 {"voxel_size": voxel_size, "min": vector}), arguments, named)
+        place = {"voxel_size": voxel_size, "min": vector}
+        forms = ({"file": text, **place, "material_defs": instance_of(MaterialDefs)}, place)
+        values = read("Voxels", forms, arguments, named)
         self._file: str | None = values.get("file")
         self._size: Point = values["voxel_size"]
         self._min: Point = values["min"]
@@ -174,18 +175,6 @@ class Voxels(_Leaf):
 
 
 _voxels = voxel_size
-
-
-def _any_kernel(value: Any) -> BoxKernel | CustomKernel:
-    if not isinstance(value, (BoxKernel, CustomKernel)):
-        raise TypeError(f"expected a BoxKernel or CustomKernel, found {type(value).__name__}")
-    return value
-
-
-def _materials(value: Any) -> MaterialDefs:
-    if not isinstance(value, MaterialDefs):
-        raise TypeError(f"expected MaterialDefs, found {type(value).__name__}")
-    return value
 
 
 def _filtered(names: list[str], node: Unary) -> list[str]:

@@ -8,7 +8,8 @@ import numpy
 
 import ombre
 
-from ._arguments import Optional, Point, boolean, length, material, number, read, size, text, vector
+from ._arguments import (Optional, Point, boolean, instance_of, length, material, not_negative, number, read, size, text,
+                         vector)
 from ._enums import LatticeType
 from ._functions import expression
 from ._tree import Node, _call_place
@@ -117,12 +118,6 @@ def _edges(value: Any) -> list[tuple[Point, Point]]:
     return edges
 
 
-def _lattice_type(value: Any) -> LatticeType:
-    if not isinstance(value, LatticeType):
-        raise TypeError(f"expected a LatticeType, found {type(value).__name__}")
-    return value
-
-
 _cells = {LatticeType.BodyCenteredCubic: "bcc", LatticeType.FaceCenteredCubic: "fcc", LatticeType.Cubic: "cubic",
           LatticeType.KelvinCell: "kelvin"}
 
@@ -135,9 +130,9 @@ class GraphLattice(_Leaf):
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
-        values = read("GraphLattice", ({"edges": _edges, "radius": length, "material": _one},
-                                       {"type": _lattice_type, "size": size, "radius": length, "material": _one}),
-                      arguments, named)
+        struts = {"radius": length, "material": _one}
+        forms = ({"edges": _edges, **struts}, {"type": instance_of(LatticeType), "size": size, **struts})
+        values = read("GraphLattice", forms, arguments, named)
         shape = ({"edges": values["edges"]} if "edges" in values
                  else {"cell": _cells[values["type"]], "size": values["size"]})
         self._shape: dict[str, Any] = shape
@@ -223,11 +218,11 @@ class SignedDistanceField(_Leaf):
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
-        steps = Optional(_steps, 0)
-        form = {"vdb_path": text, "grid_name": Optional(text, "occupancy"), "half_width_voxels": Optional(_steps, 3),
-                "closing_steps": steps, "dilation_voxels": steps, "smoothing_steps": Optional(_steps, 3),
-                "material": _one}
-        values = read("SignedDistanceField", (form, {"volume": _volume, "material": _one}), arguments, named)
+        none, three = Optional(not_negative, 0), Optional(not_negative, 3)
+        form = {"vdb_path": text, "grid_name": Optional(text, "occupancy"), "half_width_voxels": three,
+                "closing_steps": none, "dilation_voxels": none, "smoothing_steps": three, "material": _one}
+        own = {"volume": instance_of(FloatVolume), "material": _one}
+        values = read("SignedDistanceField", (form, own), arguments, named)
         self._material = values["material"]
         self._closing, self._dilation = values.get("closing_steps", 0), values.get("dilation_voxels", 0)
         self._smoothing, self._is_binary = values.get("smoothing_steps", 0), False
@@ -251,19 +246,6 @@ class SignedDistanceField(_Leaf):
         if self._dilation:
             solid = ombre.dilate(solid, self._dilation * min(pitch), pitch=pitch)
         return ombre.smooth(solid, self._smoothing * min(pitch), pitch=pitch) if self._smoothing else solid
-
-
-def _steps(value: Any) -> float:
-    steps = number(value)
-    if steps < 0:
-        raise ValueError(f"expected 0 or more, found {steps:g}")
-    return steps
-
-
-def _volume(value: Any) -> FloatVolume:
-    if not isinstance(value, FloatVolume):
-        raise TypeError(f"expected a FloatVolume, found {type(value).__name__}")
-    return value
 
 
 def _find(node: str, path: str) -> str:

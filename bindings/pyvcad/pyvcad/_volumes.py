@@ -9,7 +9,7 @@ import numpy
 
 import ombre
 
-from ._arguments import Optional, Point, boolean, length, number, read, size, text
+from ._arguments import Optional, Point, boolean, instance_of, length, number, read, size, text
 from ._vectors import Vec2, Vec3, Vec4
 
 
@@ -209,10 +209,7 @@ class PNGColorMode(enum.Enum):
     COLOR_RGBA = 4
 
 
-def _mode(value: Any) -> PNGColorMode:
-    if not isinstance(value, PNGColorMode):
-        raise TypeError(f"expected a PNGColorMode, found {type(value).__name__}")
-    return value
+_mode = instance_of(PNGColorMode)
 
 
 class PNGLoader:

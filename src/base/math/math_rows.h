@@ -4,13 +4,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/math/elementary_functions.h"
+
 namespace ombre::math {
 
 // Computes out[n] = f(in[n]). `in` and `out` may be the same.
 using RowFunction = void (*)(const double* in, double* out, size_t count);
-
-#define OMBRE_ELEMENTARY_FUNCTIONS(F) \
-  F(sin) F(cos) F(tan) F(asin) F(acos) F(atan) F(sinh) F(cosh) F(tanh) F(exp) F(log) F(log10) F(log2)
 
 struct RowFunctions {
 #define OMBRE_ROW_FUNCTION(name) RowFunction name;

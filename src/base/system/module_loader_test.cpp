@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/text/error.h"
+#include "base/text/test_errors.h"
 
 namespace ombre {
 namespace {
@@ -10,26 +10,14 @@ namespace {
 TEST(ModuleLoader, SaysWhatCannotBeDoneWithoutAModule) {
   const Module module{"ombre_of_no_one", "zlib", "zip archives", "zlib1g-dev", "OMBRE_ZIP", "unpack them"};
   EXPECT_FALSE(has_module(module));
-  try {
-    load_symbol(module, "ombre_calls");
-    FAIL() << "a module that is not there was loaded";
-  } catch (const Error& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "this ombre was built without zlib, which zip archives need; ./dev build release makes it (zlib1g-dev, "
-        "-DOMBRE_ZIP=ON), or unpack them");
-  }
+  EXPECT_EQ(failure_of([&] { load_symbol(module, "ombre_calls"); }),
+            "this ombre was built without zlib, which zip archives need; ./dev build release makes it (zlib1g-dev, "
+            "-DOMBRE_ZIP=ON), or unpack them");
 }
 
 TEST(ModuleLoader, SaysWhatCannotBeLoaded) {
-  try {
-    load_symbol("/nowhere/libombre_of_no_one.so", "ombre_calls", "zip archives");
-    FAIL() << "a library that is not there was loaded";
-  } catch (const Error& error) {
-    EXPECT_TRUE(std::string(error.what())
-                    .starts_with("zip archives need /nowhere/libombre_of_no_one.so, which cannot be loaded: "))
-        << error.what();
-  }
+  expect_error([] { load_symbol("/nowhere/libombre_of_no_one.so", "ombre_calls", "zip archives"); },
+               "zip archives need /nowhere/libombre_of_no_one.so, which cannot be loaded: ");
 }
 
 TEST(ModuleLoader, FindsFunctionsOfLibraries) {

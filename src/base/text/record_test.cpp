@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/text/json.h"
+#include "base/text/test_cases.h"
 
 namespace ombre {
 namespace {
@@ -89,37 +90,29 @@ TEST(Record, SetsWhatTheObjectHas) {
 }
 
 TEST(Record, ReportsMistakesWithPlaceAndRemedy) {
-  EXPECT_EQ(complaint("[1]"),
-            "1:1: error: expected a tray in braces, not a list of 1; its members are label, depth_mm, "
-            "count, open, finish, colour, screws, spare");
-  EXPECT_EQ(complaint("{}"), R"(1:1: error: a tray needs "label"; write "label": "bolts")");
+  for_cases(R"(
+    [1]
+      => 1:1: error: expected a tray in braces, not a list of 1; its members are label, depth_mm, count, open, finish, colour, screws, spare
+    {} => 1:1: error: a tray needs "label"; write "label": "bolts"
+    {"lable": "a", "label": "b"} => 1:12: error: a tray has no "lable"; did you mean "label"?
+    {"label": " "} => 1:12: error: expected a text for "label", not the text " "
+    {"label": "a", "count": 300} => 1:25: error: expected a whole number from 1 to 255 for "count", not 300
+    {"label": "a", "count": 1.5} => 1:25: error: expected a whole number from 1 to 255 for "count", not 1.5
+    {"label": "a", "depth_mm": 0} => 1:28: error: expected a number above 0, up to 90 for "depth_mm", not 0
+    {"label": "a", "open": 1} => 1:24: error: expected true or false for "open", not 1
+    {"label": "a", "finish": "glosy"} => 1:27: error: there is no finish "glosy"; did you mean "glossy"?
+    {"label": "a", "finish": "rough"} => 1:27: error: there is no finish "rough"; write one of "matte", "glossy"
+    {"label": "a", "finish": null} => 1:26: error: expected one of "matte", "glossy" for "finish", not nothing
+    {"label": "a", "colour": [1, 2]} => 1:26: error: expected 3 numbers for "colour", not a list of 2; write [r, g, b]
+    {"label": "a", "colour": [1, 2, 256]} => 1:33: error: expected a whole number from 0 to 255 for "colour", not 256
+    {"label": "a", "screws": {}} => 1:26: error: expected a list for "screws", in square brackets, not an object
+    {"label": "a", "screws": [{}, {"pitch_mm": -1}]} => 1:44: error: expected a number above 0 for "pitch_mm", not -1
+    {"label": "a", "spare": 3} => 1:25: error: expected a screw in braces, not 3; its members are pitch_mm, head
+    {"label": "a", "open": true, "depth_mm": 4} => 1:42: error: an open tray is deeper
+  )",
+            [](const std::string& text, const std::string& expected) { EXPECT_EQ(complaint(text), expected) << text; });
   EXPECT_EQ(complaint(R"({"lable": "a", "label": "b"})", tray_record(), Code::unknown_key),
             R"(1:12: error: a tray has no "lable"; did you mean "label"?)");
-  EXPECT_EQ(complaint(R"({"label": " "})"), R"(1:12: error: expected a text for "label", not the text " ")");
-  EXPECT_EQ(complaint(R"({"label": "a", "count": 300})"),
-            R"(1:25: error: expected a whole number from 1 to 255 for "count", not 300)");
-  EXPECT_EQ(complaint(R"({"label": "a", "count": 1.5})"),
-            R"(1:25: error: expected a whole number from 1 to 255 for "count", not 1.5)");
-  EXPECT_EQ(complaint(R"({"label": "a", "depth_mm": 0})"),
-            R"(1:28: error: expected a number above 0, up to 90 for "depth_mm", not 0)");
-  EXPECT_EQ(complaint(R"({"label": "a", "open": 1})"), R"(1:24: error: expected true or false for "open", not 1)");
-  EXPECT_EQ(complaint(R"({"label": "a", "finish": "glosy"})"),
-            R"(1:27: error: there is no finish "glosy"; did you mean "glossy"?)");
-  EXPECT_EQ(complaint(R"({"label": "a", "finish": "rough"})"),
-            R"(1:27: error: there is no finish "rough"; write one of "matte", "glossy")");
-  EXPECT_EQ(complaint(R"({"label": "a", "finish": null})"),
-            R"(1:26: error: expected one of "matte", "glossy" for "finish", not nothing)");
-  EXPECT_EQ(complaint(R"({"label": "a", "colour": [1, 2]})"),
-            R"(1:26: error: expected 3 numbers for "colour", not a list of 2; write [r, g, b])");
-  EXPECT_EQ(complaint(R"({"label": "a", "colour": [1, 2, 256]})"),
-            R"(1:33: error: expected a whole number from 0 to 255 for "colour", not 256)");
-  EXPECT_EQ(complaint(R"({"label": "a", "screws": {}})"),
-            R"(1:26: error: expected a list for "screws", in square brackets, not an object)");
-  EXPECT_EQ(complaint(R"({"label": "a", "screws": [{}, {"pitch_mm": -1}]})"),
-            R"(1:44: error: expected a number above 0 for "pitch_mm", not -1)");
-  EXPECT_EQ(complaint(R"({"label": "a", "spare": 3})"),
-            "1:25: error: expected a screw in braces, not 3; its members are pitch_mm, head");
-  EXPECT_EQ(complaint(R"({"label": "a", "open": true, "depth_mm": 4})"), "1:42: error: an open tray is deeper");
 }
 
 TEST(Record, ReportsSeveralAtOnceAndChecksOnlyWhatIsRight) {

@@ -10,13 +10,17 @@ namespace {
 
 using program::Builder;
 
-// A source whose channel n is x + n * y. It records the number of channels of each call.
-class FourChannels : public program::FieldSource {
+class AnySource : public program::FieldSource {
  public:
-  std::string name() const override { return "four channels"; }
+  std::string name() const override { return "any"; }
   Hash content() const override { return {1, 4}; }
   Box bounds() const override { return Box::centered({9, 9, 9}); }
   int channel(std::string_view) const override { return 0; }
+};
+
+// A source whose channel n is x + n * y. It records the number of channels of each call.
+class FourChannels : public AnySource {
+ public:
   double sample(int channel, Vec3 p) const override { return p.x + channel * p.y; }
   void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
                        std::span<double* const> values) const override {
@@ -28,12 +32,8 @@ class FourChannels : public program::FieldSource {
 };
 
 // A source with value x that records the points at which it is sampled.
-class QueriedPoints : public program::FieldSource {
+class QueriedPoints : public AnySource {
  public:
-  std::string name() const override { return "queried points"; }
-  Hash content() const override { return {1, 5}; }
-  Box bounds() const override { return Box::centered({9, 9, 9}); }
-  int channel(std::string_view) const override { return 0; }
   double sample(int, Vec3 p) const override {
     queried.push_back(p.x);
     return p.x;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/text/error.h"
+#include "base/text/test_errors.h"
 #include "fea/model/test_element_meshes.h"
 #include "fea/solve/mesh_elastic.h"
 
@@ -77,15 +78,6 @@ Solution solve_small(const StopFlag* stop = nullptr) {
   const MeshModel model = mesh_model_of(block_of(ElementKind::c3d4, {1, 1, 1}, {1, 1, 1}), {1000, 0.3, 0});
   const auto ends = [](Vec3) { return true; };
   return solve_by_calculix(model, held(model.mesh, ends, [](Vec3 p) { return Vec3{0, 0, 1e-3 * p.z}; }), {}, stop);
-}
-
-std::string failure_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing failed";
 }
 
 TEST_F(FakeProgram, FailuresAreReported) {

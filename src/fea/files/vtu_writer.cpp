@@ -5,27 +5,12 @@
 #include <functional>
 #include <string>
 
+#include "formats/containers/xml_text.h"
+
 namespace ombre::fea {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file says so");
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
 
 // The arrays after the XML, each with its length before it.
 class Appended {
@@ -33,7 +18,7 @@ class Appended {
   // Adds an array. `write` is called later, with a function that takes the array's bytes.
   std::string add(std::string_view type, const std::string& name, size_t components, uint64_t bytes,
                   std::function<void(const Sink&)> write) {
-    const std::string tag = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + escaped(name) +
+    const std::string tag = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + formats::xml_escaped(name) +
                             "\" NumberOfComponents=\"" + std::to_string(components) +
                             "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
     offset_ += bytes + sizeof bytes;

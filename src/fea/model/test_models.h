@@ -1,6 +1,9 @@
 // Makes blocks of bricks for tests.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -51,6 +54,25 @@ inline Model model_of(Bricks bricks, Elastic elastic) {
   Model model{std::move(bricks), {{"one", elastic}}, {}, {}};
   model.section_of.assign(model.bricks.count(), 0);
   return model;
+}
+
+inline constexpr Elastic rigid{2850, 0.39, 0};
+
+// Displacements that are linear in space, and so have the same strains everywhere.
+inline Vec3 linear_displacement(Vec3 p) {
+  return {1e-3 * p.x + 2e-3 * p.y - 1e-3 * p.z, 5e-4 * p.x - 1e-3 * p.y, 3e-3 * p.z + 1e-3 * p.y};
+}
+// Expects the stresses that Hooke's law gives for their strains in the rigid material.
+inline void expect_linear_stresses(const std::vector<std::array<double, 6>>& stresses_mpa) {
+  const double lambda = 2850 * 0.39 / (1.39 * 0.22), mu = 2850 / (2 * 1.39), trace = 3e-3;
+  const double wanted[]{lambda * trace + 2 * mu * 1e-3,
+                        lambda * trace - 2 * mu * 1e-3,
+                        lambda * trace + 2 * mu * 3e-3,
+                        mu * 2.5e-3,
+                        mu * 1e-3,
+                        mu * -1e-3};
+  for (const auto& stress : stresses_mpa)
+    for (size_t n = 0; n < 6; ++n) EXPECT_NEAR(stress[n], wanted[n], 1e-5);
 }
 
 // Prescribes displacements by a function of the node's place, at nodes for which `where` is true; axes with NaN stay

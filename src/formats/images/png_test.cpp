@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/text/error.h"
+#include "base/text/test_errors.h"
 
 namespace ombre::formats {
 namespace {
@@ -343,14 +344,8 @@ TEST(Png, PicturesKeepTheirPixels) {
 
 TEST(Png, DamagedFilesAreErrorsThatNameTheFile) {
   const std::string whole = encode_png(random_layer(50, 50, 3, 5, 1), palette_of(3), {});
-  for (const size_t kept : {size_t{0}, size_t{4}, size_t{20}, whole.size() / 2, whole.size() - 13}) {
-    try {
-      decode_png(std::string_view(whole).substr(0, kept), "layer.png");
-      ADD_FAILURE() << "read " << kept << " bytes of " << whole.size();
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("layer.png"), std::string::npos);
-    }
-  }
+  for (const size_t kept : {size_t{0}, size_t{4}, size_t{20}, whole.size() / 2, whole.size() - 13})
+    expect_error([&] { decode_png(std::string_view(whole).substr(0, kept), "layer.png"); }, "layer.png");
   std::string flipped = whole;
   flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 0x40);
   EXPECT_THROW(decode_png(flipped, "layer.png"), Error);
@@ -386,12 +381,7 @@ std::string with_header(uint32_t width, uint32_t height, int depth, bool is_inte
 }
 
 std::string message_of(const std::string& bytes, uint64_t most_pixels) {
-  try {
-    decode_png(bytes, "map.png", most_pixels);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return failure_of([&] { decode_png(bytes, "map.png", most_pixels); });
 }
 
 }  // namespace

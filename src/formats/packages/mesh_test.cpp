@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/text/error.h"
+#include "base/text/test_errors.h"
 #include "formats/containers/file.h"
 #include "formats/packages/read_mesh.h"
 
@@ -181,13 +182,8 @@ TEST(Mesh, EveryTruncationIsAMeshOrAMessage) {
 
 TEST(File, SaysWhichFoldersWereSearched) {
   Diagnostics diagnostics;
-  try {
-    read_mesh("no/such.stl", diagnostics);
-    FAIL();
-  } catch (const Error& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("cannot read no/such.stl: No such file or directory (looked for /"), std::string::npos) << text;
-  }
+  expect_error([&] { read_mesh("no/such.stl", diagnostics); },
+               "cannot read no/such.stl: No such file or directory (looked for /");
   EXPECT_THROW(read_file(OMBRE_SOURCE_DIR), Error);
   EXPECT_NE(read_file(std::string(OMBRE_SOURCE_DIR) + "/CMakeLists.txt").find("project(ombre"), std::string::npos);
 }

@@ -140,16 +140,21 @@ TEST(ThreeMf, SettingsHaveTheNamesOfTheirSlicer) {
   EXPECT_FALSE(slicer_key_of(""));
 }
 
-TEST(ThreeMf, PartsOfBambuStudioHaveNames) {
-  const std::string config =
-      "<config><object id=\"3\"><metadata key=\"name\" value=\"all\"/>"
-      "<part id=\"1\" subtype=\"normal_part\"><metadata key=\"name\" value=\"lid\"/></part>"
-      "<part id=\"2\" subtype=\"modifier_part\"/></object></config>";
+// Returns an archive of Bambu Studio with an object of two parts, and the settings of both.
+std::string bambu(const std::string& settings, const std::string& project = "") {
   const std::string resources =
       object(1) + object(2) + components(3, "<component objectid=\"1\"/><component objectid=\"2\"/>");
-  const Mesh mesh = read(zipped({relationships(),
-                                 {"3D/a.model", model(resources, "<item objectid=\"3\"/>")},
-                                 {"Metadata/model_settings.config", config}}));
+  return zipped({relationships(),
+                 {"3D/a.model", model(resources, "<item objectid=\"3\"/>")},
+                 {"Metadata/model_settings.config", "<config><object id=\"3\">" + settings + "</object></config>"},
+                 {"Metadata/project_settings.config", project}});
+}
+
+TEST(ThreeMf, PartsOfBambuStudioHaveNames) {
+  const Mesh mesh =
+      read(bambu("<metadata key=\"name\" value=\"all\"/>"
+                 "<part id=\"1\" subtype=\"normal_part\"><metadata key=\"name\" value=\"lid\"/></part>"
+                 "<part id=\"2\" subtype=\"modifier_part\"/>"));
   ASSERT_EQ(mesh.groups.size(), 1u);
   EXPECT_EQ(mesh.groups[0].name, "lid");
   EXPECT_EQ(mesh.groups[0].object, "all");
@@ -157,17 +162,12 @@ TEST(ThreeMf, PartsOfBambuStudioHaveNames) {
 
 // Parts with their own colours keep them; extruder 0 means that of the object.
 TEST(ThreeMf, PartsWithoutColoursGetThoseOfTheirExtruders) {
-  const std::string config =
-      "<config><object id=\"3\"><metadata key=\"extruder\" value=\"2\"/>"
-      "<part id=\"1\" subtype=\"normal_part\"><metadata key=\"extruder\" value=\"1\"/></part>"
-      "<part id=\"2\" subtype=\"normal_part\"><metadata key=\"extruder\" value=\"0\"/></part></object></config>";
-  const std::string resources =
-      object(1) + object(2) + components(3, "<component objectid=\"1\"/><component objectid=\"2\"/>");
-  const auto with = [&](const std::string& project) {
-    return zipped({relationships(),
-                   {"3D/a.model", model(resources, "<item objectid=\"3\"/>")},
-                   {"Metadata/model_settings.config", config},
-                   {"Metadata/project_settings.config", project}});
+  const auto with = [](const std::string& project) {
+    return bambu(
+        "<metadata key=\"extruder\" value=\"2\"/>"
+        "<part id=\"1\" subtype=\"normal_part\"><metadata key=\"extruder\" value=\"1\"/></part>"
+        "<part id=\"2\" subtype=\"normal_part\"><metadata key=\"extruder\" value=\"0\"/></part>",
+        project);
   };
   const Mesh mesh = read(with("{\"filament_colour\": [\"#FF0000\", \"#0000FF80\"]}"));
   ASSERT_EQ(mesh.groups.size(), 2u);

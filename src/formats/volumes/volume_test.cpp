@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/text/error.h"
+#include "base/text/test_errors.h"
 #include "formats/containers/gzip.h"
 #include "formats/volumes/npy.h"
 #include "formats/volumes/nrrd.h"
@@ -27,12 +28,7 @@ VoxelVolume read_whole(std::string_view bytes, const std::string* companion = nu
 }
 
 std::string volume_problem(const std::string& bytes, const std::string* companion = nullptr) {
-  try {
-    read_whole(bytes, companion);
-    return "none";
-  } catch (const Error& error) {
-    return error.what();
-  }
+  return failure_of([&] { read_whole(bytes, companion); });
 }
 
 // Returns what is wrong with a description that has this member besides those that it needs.

@@ -220,12 +220,17 @@ TEST(BeamSource, EvenScalingKeepsDistancesExact) {
   }
 }
 
-// A ball with a radius of 3 mm lies half in a cuboid.
-TEST(CombinedSource, ClipsAndUnites) {
+// Returns a ball with a radius of 3 mm.
+program::SourceField ball_source() {
   BeamLattice lattice;
   lattice.vertices = {{0, 0, 0}};
   lattice.balls = {{0, 3}};
-  const auto ball = source_of(placed(lattice));
+  return source_of(placed(lattice));
+}
+
+// The ball lies half in a cuboid.
+TEST(CombinedSource, ClipsAndUnites) {
+  const auto ball = ball_source();
   const auto cuboid = make_mesh_source("b", test::cuboid({0, -4, -4}, {4, 4, 4}), Hash{});
   const double whole = 36 * pi;
   EXPECT_NEAR(volume_of(*make_clipped_source(ball, cuboid, true)), whole / 2, 0.5);
@@ -240,10 +245,7 @@ TEST(CombinedSource, ClipsAndUnites) {
 }
 
 TEST(CombinedSource, DistancesHaveTheRightSign) {
-  BeamLattice lattice;
-  lattice.vertices = {{0, 0, 0}};
-  lattice.balls = {{0, 3}};
-  const auto ball = source_of(placed(lattice));
+  const auto ball = ball_source();
   const auto cuboid = make_mesh_source("b", test::cuboid({0, -4, -4}, {4, 4, 4}), Hash{});
   if (cuboid->channel("distance") < 0) GTEST_SKIP() << "this build has no distances to meshes";
   const auto at = [](const program::SourceField& source, double x) {

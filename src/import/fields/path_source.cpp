@@ -86,76 +86,70 @@ const LineSegment& nearest_of(const std::vector<LineSegment>& segments, Vec3 p) 
   return *found;
 }
 
-class PathSource final : public program::FieldSource {
+// Has the channel "distance", and another one that the nearest segment determines.
+class NearestSegment : public program::FieldSource {
+ public:
+  NearestSegment(const char* name, const char* other_name, const std::vector<Vec3>& points,
+                 std::vector<LineSegment> segments)
+      : name_(name), other_(other_name), content_(content_of(name, points)), segments_(std::move(segments)) {}
+
+  std::string name() const override { return name_; }
+  Hash content() const override { return content_; }
+  Box bounds() const override { return segments_.bounds(); }
+  int channel(std::string_view channel_name) const override {
+    return channel_name == "distance" ? 0 : channel_name == other_ ? 1 : -1;
+  }
+  double sample(int channel, Vec3 p) const override {
+    return channel == 0 ? segments_.distance(p) : other(segments_.nearest(p), p);
+  }
+  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
+    answer_all(
+        segments_, points,
+        [&](const std::vector<LineSegment>& near, size_t n) {
+          values[n] = channel == 0 ? least_distance(near, points[n]) : other(nearest_of(near, points[n]), points[n]);
+        },
+        [&](size_t n) { values[n] = sample(channel, points[n]); });
+  }
+  Interval range(int channel, const Box& box) const override {
+    return channel == 0 ? distance_range(segments_, box) : other_range();
+  }
+
+ private:
+  virtual double other(const LineSegment& nearest, Vec3 p) const = 0;
+  virtual Interval other_range() const = 0;
+
+  const char *name_, *other_;
+  Hash content_;
+  SegmentTree segments_;
+};
+
+class PathSource final : public NearestSegment {
  public:
   explicit PathSource(const std::vector<Vec3>& points)
-      : content_(content_of("path", points)), lines_(segments_of(points)), before_(points.size(), 0) {
+      : NearestSegment("path", "along", points, segments_of(points)), before_(points.size(), 0) {
     for (size_t n = 1; n < points.size(); ++n) before_[n] = before_[n - 1] + length(points[n] - points[n - 1]);
   }
 
-  std::string name() const override { return "path"; }
-  Hash content() const override { return content_; }
-  Box bounds() const override { return lines_.bounds(); }
-  int channel(std::string_view channel_name) const override {
-    return channel_name == "distance" ? 0 : channel_name == "along" ? 1 : -1;
-  }
-  double sample(int channel, Vec3 p) const override {
-    return channel == 0 ? lines_.distance(p) : along(lines_.nearest(p), p);
-  }
-  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
-    answer_all(
-        lines_, points,
-        [&](const std::vector<LineSegment>& near, size_t n) {
-          values[n] = channel == 0 ? least_distance(near, points[n]) : along(nearest_of(near, points[n]), points[n]);
-        },
-        [&](size_t n) { values[n] = sample(channel, points[n]); });
-  }
-  Interval range(int channel, const Box& box) const override {
-    return channel == 0 ? distance_range(lines_, box) : Interval(0, 1);
-  }
-
  private:
-  double along(const LineSegment& segment, Vec3 p) const {
+  double other(const LineSegment& segment, Vec3 p) const override {
     const double from = before_[segment.number], to = before_[segment.number + 1], whole = before_.back();
     return whole > 0 ? std::clamp((from + nearest_share(segment, p) * (to - from)) / whole, 0.0, 1.0) : 0;
   }
+  Interval other_range() const override { return {0, 1}; }
 
-  Hash content_;
-  SegmentTree lines_;
   std::vector<double> before_;  // length of the path up to each point
 };
 
-class PointsSource final : public program::FieldSource {
+class PointsSource final : public NearestSegment {
  public:
   explicit PointsSource(const std::vector<Vec3>& points)
-      : content_(content_of("points", points)), count_(points.size()), points_(points_as_segments(points)) {}
-
-  std::string name() const override { return "points"; }
-  Hash content() const override { return content_; }
-  Box bounds() const override { return points_.bounds(); }
-  int channel(std::string_view channel_name) const override {
-    return channel_name == "distance" ? 0 : channel_name == "index" ? 1 : -1;
-  }
-  double sample(int channel, Vec3 p) const override {
-    return channel == 0 ? points_.distance(p) : static_cast<double>(points_.nearest(p).number);
-  }
-  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
-    answer_all(
-        points_, points,
-        [&](const std::vector<LineSegment>& near, size_t n) {
-          values[n] =
-              channel == 0 ? least_distance(near, points[n]) : static_cast<double>(nearest_of(near, points[n]).number);
-        },
-        [&](size_t n) { values[n] = sample(channel, points[n]); });
-  }
-  Interval range(int channel, const Box& box) const override {
-    return channel == 0 ? distance_range(points_, box) : Interval(0, static_cast<double>(count_ - 1));
-  }
+      : NearestSegment("points", "index", points, points_as_segments(points)), count_(points.size()) {}
 
  private:
-  Hash content_;
+  double other(const LineSegment& point, Vec3) const override { return point.number; }
+  Interval other_range() const override { return {0, static_cast<double>(count_ - 1)}; }
+
   size_t count_;
-  SegmentTree points_;
 };
 
 }  // namespace

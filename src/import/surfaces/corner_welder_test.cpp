@@ -10,18 +10,9 @@ namespace {
 
 using namespace test;
 
-// Returns a mesh in which each triangle has its own corners, displaced by up to `noise` along each axis.
 Mesh apart(const Mesh& mesh, double noise) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> off(-noise, noise);
-  Mesh soup;
-  for (const auto& triangle : mesh.triangles) {
-    const auto first = static_cast<uint32_t>(soup.vertices.size());
-    for (const uint32_t corner : triangle)
-      soup.vertices.push_back(mesh.vertices[corner] + Vec3{off(random), off(random), off(random)});
-    soup.triangles.push_back({first, first + 1, first + 2});
-  }
-  return soup;
+  return test::apart(mesh, random, noise);
 }
 
 TEST(CornerWelder, RoundingIsMended) {

@@ -28,19 +28,6 @@ Mesh without_triangles(Mesh mesh, std::mt19937& random, double share) {
   return mesh;
 }
 
-// Returns the mesh as separate triangles, each slightly displaced, so that no edge has a partner.
-Mesh loose(const Mesh& mesh, std::mt19937& random, double trifle) {
-  std::uniform_real_distribution<double> shift(-trifle, trifle);
-  Mesh result;
-  for (const auto& t : mesh.triangles) {
-    const auto first = static_cast<uint32_t>(result.vertices.size());
-    for (const uint32_t corner : t)
-      result.vertices.push_back(mesh.vertices[corner] + Vec3{shift(random), shift(random), shift(random)});
-    result.triangles.push_back({first, first + 1, first + 2});
-  }
-  return result;
-}
-
 std::vector<Mesh> open_meshes() {
   std::mt19937 random(11);
   Mesh box = cuboid({-1, -2, -3}, {1, 2, 3});
@@ -56,8 +43,8 @@ std::vector<Mesh> open_meshes() {
           cut_off(sphere(3, 4), -2),
           without_triangles(torus(3, 1, 20, 10), random, 0.1),
           without_triangles(torus(3, 1, 20, 10), random, 0.5),
-          loose(sphere(3, 2), random, 1e-4),
-          loose(cut_off(sphere(3, 3), 1), random, 1e-2),
+          apart(sphere(3, 2), random, 1e-4),
+          apart(cut_off(sphere(3, 3), 1), random, 1e-2),
           Mesh{}};
 }
 

@@ -19,6 +19,19 @@ inline SurfacePtr surface_of(const Mesh& mesh) {
   return std::make_shared<Surface>(Surface{mesh.vertices, mesh.triangles});
 }
 
+// Returns the mesh as triangles that share no corners, which are displaced by up to `most` along each axis.
+inline Mesh apart(const Mesh& mesh, std::mt19937& random, double most) {
+  std::uniform_real_distribution<double> shift(-most, most);
+  Mesh soup;
+  for (const auto& triangle : mesh.triangles) {
+    const auto first = static_cast<uint32_t>(soup.vertices.size());
+    for (const uint32_t corner : triangle)
+      soup.vertices.push_back(mesh.vertices[corner] + Vec3{shift(random), shift(random), shift(random)});
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
 inline void add_quad(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   mesh.triangles.push_back({a, b, c});
   mesh.triangles.push_back({a, c, d});

@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/math/line_simplification.h"
+
 namespace ombre::compile {
 namespace {
 
@@ -286,27 +288,14 @@ class EdgeFinder {
     return far - points.begin();
   }
 
-  // Leaves out points that lie within the tolerance of the line (Douglas and Peucker, 1973).
+  // Leaves out points that lie within the tolerance of the line.
   std::vector<Vec3> simplified(const std::vector<Vec3>& points) const {
-    std::vector<bool> kept(points.size());
-    kept.front() = kept.back() = true;
-    std::vector<std::pair<size_t, size_t>> spans{{0, points.size() - 1}};
-    while (!spans.empty()) {
-      const auto [begin, end] = spans.back();
-      spans.pop_back();
-      size_t far = begin;
-      double most = tolerance_mm_;
-      const Vec3 along = points[end] - points[begin];
-      for (size_t n = begin + 1; n < end; ++n) {
-        const Vec3 away = points[n] - points[begin];
-        const double share = dot(along, along) > 0 ? std::clamp(dot(away, along) / dot(along, along), 0.0, 1.0) : 0;
-        if (const double off = length(away - share * along); off > most) most = off, far = n;
-      }
-      if (far == begin) continue;
-      kept[far] = true;
-      spans.emplace_back(begin, far);
-      spans.emplace_back(far, end);
-    }
+    const auto distance = [&](size_t n, size_t begin, size_t end) {
+      const Vec3 along = points[end] - points[begin], away = points[n] - points[begin];
+      const double share = dot(along, along) > 0 ? std::clamp(dot(away, along) / dot(along, along), 0.0, 1.0) : 0;
+      return length(away - share * along);
+    };
+    const std::vector<bool> kept = kept_points(points.size(), tolerance_mm_, distance);
     std::vector<Vec3> left;
     for (size_t n = 0; n < points.size(); ++n)
       if (kept[n]) left.push_back(points[n]);

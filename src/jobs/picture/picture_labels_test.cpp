@@ -3,9 +3,7 @@
 
 #include <cmath>
 
-#include "jobs/picture/picture.h"
-#include "jobs/test_designs.h"
-#include "load/load.h"
+#include "jobs/test_pictures.h"
 #include "questions/colour_map.h"
 
 namespace ombre::compile {
@@ -20,17 +18,11 @@ class Labels : public testing::Test {
   }
 
   std::optional<Picture> take(const std::string& text, PictureRequest request) {
-    const LoadedPtr loaded = load_text(text, diagnostics);
-    EXPECT_TRUE(loaded) << to_text(diagnostics);
     if (request.width == 800) {
       request.width = width;
       request.height = height;
     }
-    std::optional<Picture> picture;
-    const StopFlag stop;
-    take_pictures(
-        *loaded, request, stop, [&](int, const Picture& taken) { picture = taken; }, diagnostics);
-    return picture;
+    return picture_of(text, request, diagnostics);
   }
 
   Diagnostics diagnostics;

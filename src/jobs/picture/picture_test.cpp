@@ -4,8 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "jobs/test_designs.h"
-#include "load/load.h"
+#include "jobs/test_pictures.h"
 #include "program/evaluate.h"
 #include "program/passes/passes.h"
 #include "questions/build.h"
@@ -281,20 +280,13 @@ TEST(Pictures, WhatIsWrongIsSaid) {
 
 // The view is flat, so colours are those of the map.
 TEST(Pictures, ColoursFollowAValue) {
-  const auto picture_of = [](const std::string& text, const std::string& by, std::optional<Interval> range) {
-    Diagnostics diagnostics;
-    const LoadedPtr loaded = load_text(text, diagnostics);
+  const auto coloured = [](const std::string& text, const std::string& by, std::optional<Interval> range) {
     PictureRequest request;
     request.width = request.height = 40;
     request.slice = {{2, 0}};
     request.by = by;
     request.range = range;
-    Picture found;
-    StopFlag stop;
-    EXPECT_TRUE(take_pictures(
-        *loaded, request, stop, [&](int, const Picture& p) { found = p; }, diagnostics))
-        << to_text(diagnostics);
-    return found;
+    return picture_of(text, request);
   };
   const auto expect_map = [](const Picture& picture, const std::function<double(double x)>& share, int tolerance) {
     for (int64_t column = 4; column < 36; ++column) {
@@ -308,12 +300,12 @@ TEST(Pictures, ColoursFollowAValue) {
   const std::string dosed = "attribute(\"dose\", \"3 + 0.2*x\") { " + block + " }";  // 2 to 4
   // The range is that of about 48 samples along the part, which begin half a step inside.
   expect_map(
-      picture_of(dosed, "dose", std::nullopt), [](double x) { return (x + 5) / 10; }, 8);
+      coloured(dosed, "dose", std::nullopt), [](double x) { return (x + 5) / 10; }, 8);
   expect_map(
-      picture_of(dosed, "dose", Interval(0, 3)), [](double x) { return (3 + 0.2 * x) / 3; }, 2);
+      coloured(dosed, "dose", Interval(0, 3)), [](double x) { return (3 + 0.2 * x) / 3; }, 2);
   const std::string graded = "fgrade([\"0.5 + x/20\", \"0.5 - x/20\"], [\"red\", \"blue\"]) { " + block + " }";
   expect_map(
-      picture_of(graded, "blue", std::nullopt), [](double x) { return 0.5 - x / 20; }, 2);
+      coloured(graded, "blue", std::nullopt), [](double x) { return 0.5 - x / 20; }, 2);
 }
 
 TEST(Pictures, ValuesThatAreNotThereAreAnError) {

@@ -12,6 +12,7 @@
 #include "formats/drawings/plane_writers.h"
 #include "formats/images/uncoloured.h"
 #include "solids/booleans.h"
+#include "solids/colour_bytes.h"
 
 namespace ombre::compile {
 namespace {
@@ -24,13 +25,6 @@ using solids::Pieces;
 using solids::Solid;
 
 constexpr std::string_view part_place = "{part}";
-
-formats::Rgba bytes_of(const solids::Colour& colour) {
-  formats::Rgba bytes{};
-  for (size_t n = 0; n < bytes.size(); ++n)
-    bytes[n] = static_cast<uint8_t>(std::lround(255 * std::clamp(colour[n], 0.0, 1.0)));
-  return bytes;
-}
 
 std::string name_of(const Piece& piece) {
   const solids::Attributes& attributes = piece.attributes;
@@ -101,8 +95,8 @@ std::optional<std::string> drawing_of(const Pieces& pieces, const std::string& t
   std::vector<formats::DrawnRegion> regions;
   for (const Piece& piece : pieces) {
     const auto& colour = piece.attributes.colour;
-    regions.push_back(
-        {piece.attributes.part, colour ? std::optional(bytes_of(*colour)) : std::nullopt, piece.region()->rings});
+    regions.push_back({piece.attributes.part, colour ? std::optional(solids::bytes_of(*colour)) : std::nullopt,
+                       piece.region()->rings});
   }
   return ending == ".svg" ? formats::drawing_svg(title, regions) : formats::drawing_dxf(regions);
 }
@@ -171,7 +165,7 @@ MeshDocument document_of(const Pieces& pieces, const std::string& title) {
     const auto& [material, part, colour] = piece.attributes;
     MeshBody body{part, mesh.points, mesh.triangles};
     if (!material.empty() || colour) {
-      const formats::Rgba bytes = colour ? bytes_of(*colour) : formats::uncoloured;
+      const formats::Rgba bytes = colour ? solids::bytes_of(*colour) : formats::uncoloured;
       auto& list = document.materials;
       auto same = std::find_if(list.begin(), list.end(), [&, name = material](const formats::MeshMaterial& m) {
         return m.name == name && m.colour == bytes;

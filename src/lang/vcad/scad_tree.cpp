@@ -8,6 +8,7 @@
 #include "design/source_loader.h"
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/script_evaluator.h"
+#include "solids/colour_bytes.h"
 
 namespace ombre::lang {
 namespace {
@@ -32,13 +33,6 @@ Data matrix_of(const Affine& map) {
   }
   rows.emplace_back(DataList{Data(0.0), Data(0.0), Data(0.0), Data(1.0)});
   return {std::move(rows)};
-}
-
-design::Rgba rgba_of(const solids::Colour& colour) {
-  design::Rgba bytes{};
-  for (size_t n = 0; n < bytes.size(); ++n)
-    bytes[n] = static_cast<uint8_t>(std::lround(255 * std::clamp(colour[n], 0.0, 1.0)));
-  return bytes;
 }
 
 // Returns the name of the call at that position: "hull".
@@ -184,7 +178,7 @@ WordSolids ScadTreeReader::solids_of(const TreePtr& pointer) {
   if (const auto* colour = std::get_if<solids::SetColour>(&tree.operation)) {
     if (colour->colour[0] < 0) return group(tree.children);  // sets only the opacity
     return with(tree, "material", "materials",
-                Data(design::nearest_material(rgba_of(colour->colour), materials_).name));
+                Data(design::nearest_material(solids::bytes_of(colour->colour), materials_).name));
   }
   if (const auto* part = std::get_if<solids::SetPart>(&tree.operation)) {
     WordSolids solids = group(tree.children);

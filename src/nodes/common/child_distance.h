@@ -38,9 +38,8 @@ inline bool check_child_variables(const design::Reader& reader, const design::No
   };
   if (use("d")) warn_of_implicit_distance(reader, input);
   if (!use("t") || input.output_type(design::along_output)) return true;
-  reader.diagnostics.error(reader.where, "\"t\", the place along a strut, is used over what has no struts",
-                           "use it directly over strut or lattice");
-  return false;
+  return reader.refuse("\"t\", the place along a strut, is used over what has no struts",
+                       "use it directly over strut or lattice");
 }
 
 }  // namespace ombre::nodes

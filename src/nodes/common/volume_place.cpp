@@ -17,23 +17,18 @@ std::optional<Affine> turn_of(PatientSpace from, std::string_view wanted) {
   return std::nullopt;
 }
 
-bool fail(const design::Reader& reader, const std::string& message, const Phrase& hint) {
-  reader.diagnostics.error(reader.where, message, hint);
-  return false;
-}
-
 }  // namespace
 
 bool VolumePlace::read_volume(const design::Reader& reader, const std::string& segment) {
-  if (!reader.loader) return fail(reader, "volumes cannot be read here", "");
+  if (!reader.loader) return reader.refuse("volumes cannot be read here");
   design::VolumeRequest request{path, series, voxel_channel, segment};
   grid = reader.loader->source(request, reader);
   if (!grid) return false;
   segment_label = request.label;
   path = request.file;
   if (!grid->space_from_index && !spacing && space != "index")
-    return fail(reader, "the volume \"" + path.path + "\" does not say how large its voxels are",
-                "write " + spelled::parameter("spacing", "(0.5, 0.5, 1)") + ", in mm along its axes");
+    return reader.refuse("the volume \"" + path.path + "\" does not say how large its voxels are",
+                         "write " + spelled::parameter("spacing", "(0.5, 0.5, 1)") + ", in mm along its axes");
   here_from_index = placed();
   if (!turn(reader)) return false;
   index_from_here = inverse(here_from_index);
@@ -61,21 +56,21 @@ Affine VolumePlace::placed() const {
 bool VolumePlace::turn(const design::Reader& reader) {
   if (space == "index") {
     if (spacing || origin)
-      return fail(reader, "space=\"index\" counts voxels, which have no spacing and no origin", "leave these out");
+      return reader.refuse("space=\"index\" counts voxels, which have no spacing and no origin", "leave these out");
     here_from_index = Affine{};
     return true;
   }
   const std::string file = "the volume \"" + path.path + '"';
   if (space == "file") {
     if (grid->space == PatientSpace::las || grid->space == PatientSpace::left_handed)
-      return fail(reader, file + " has left-handed axes, in which it would be mirrored here",
-                  grid->space == PatientSpace::las ? "write " + spelled::parameter("space", "\"RAS\"") + " or " +
-                                                         spelled::parameter("space", "\"LPS\"")
-                                                   : Phrase("save it in a right-handed space"));
+      return reader.refuse(file + " has left-handed axes, in which it would be mirrored here",
+                           grid->space == PatientSpace::las ? "write " + spelled::parameter("space", "\"RAS\"") +
+                                                                  " or " + spelled::parameter("space", "\"LPS\"")
+                                                            : Phrase("save it in a right-handed space"));
     return true;
   }
   const auto map = turn_of(grid->space, space.text());
-  if (!map) return fail(reader, file + " does not say where the right side of a patient is", "leave space out");
+  if (!map) return reader.refuse(file + " does not say where the right side of a patient is", "leave space out");
   here_from_index = *map * here_from_index;
   return true;
 }

@@ -1,9 +1,10 @@
 // Copies of a solid in rows, grids and circles, and mirrored.
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
+#include "nodes/common/parameter_checks.h"
 #include "nodes/common/shapes.h"
 #include "nodes/lattices/lattice_copies.h"
-#include "nodes/lattices/lattice_families.h"
 #include "nodes/lattices/turned_copies.h"
 
 namespace ombre::nodes {
@@ -133,20 +134,16 @@ struct LatticeArray : Array<T> {
                    const Node& child) {
     copies = LatticeCopies(frame, rows, child.bounds(design_space()));
     if (copies.around_count() <= most_queries) return true;
-    reader.diagnostics.error(reader.where,
-                             "the copies of " + std::string(reader.node) +
-                                 " overlap so much that each point would ask more than 10000 of them",
-                             "make the steps larger, or give the child an end");
-    return false;
+    return reader.refuse("the copies of " + std::string(reader.node) +
+                             " overlap so much that each point would ask more than 10000 of them",
+                         "make the steps larger, or give the child an end");
   }
 };
 
 bool has_step(const Reader& reader, double step_mm) {
   if (step_mm > 0) return true;
-  reader.diagnostics.error(reader.where,
-                           "a step of " + std::string(reader.node) + " is 0: the copies would lie on one another",
-                           "write how far it is from one copy to the next, in mm");
-  return false;
+  return reader.refuse("a step of " + std::string(reader.node) + " is 0: the copies would lie on one another",
+                       "write how far it is from one copy to the next, in mm");
 }
 
 struct ArrayLinear : LatticeArray<ArrayLinear> {
@@ -157,7 +154,6 @@ struct ArrayLinear : LatticeArray<ArrayLinear> {
   static Spec<ArrayLinear> spec() {
     return {
         "array_linear",
-        "arrays",
         "Copies of its child in a row.",
         {{"count", &ArrayLinear::count, "Number of copies, including the child itself", required(from_to(1, 100'000))},
          {"step", &ArrayLinear::step, "Distance from one copy to the next along x, y and z", required(unit::mm)},
@@ -192,7 +188,6 @@ struct ArrayGrid : LatticeArray<ArrayGrid> {
 
   static Spec<ArrayGrid> spec() {
     return {"array_grid",
-            "arrays",
             "Copies of its child in a grid along x, y and z.",
             {{"counts", &ArrayGrid::counts, "Number of copies along x, y and z", required(from_to(1, 100'000))},
              {"steps", &ArrayGrid::steps, "Distance from one copy to the next along x, y and z", required(unit::mm)},
@@ -243,7 +238,6 @@ struct ArrayPolar : Array<ArrayPolar> {
   static Spec<ArrayPolar> spec() {
     return {
         "array_polar",
-        "arrays",
         "Copies of its child around an axis, each turned about it.",
         {{"count", &ArrayPolar::count, "Number of copies, including the child itself", required(from_to(1, 10'000))},
          {"axis", &ArrayPolar::axis, "Direction of the axis; copies are turned about it right-handed"},
@@ -258,17 +252,10 @@ struct ArrayPolar : Array<ArrayPolar> {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
-    const auto fail = [&](const std::string& message, const Phrase& hint) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
-    if (length(axis) == 0)
-      return fail("the axis of array_polar has no direction",
-                  "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
-                                             "for example (1, 1, 0)"));
+    if (!has_direction(reader, "axis", axis)) return false;
     if (angle == 0 && count > 1)
-      return fail("the angle of array_polar is 0: the copies would lie on one another",
-                  "write for example " + spelled::parameter("angle", "90"));
+      return reader.refuse("the angle of array_polar is 0: the copies would lie on one another",
+                           "write for example " + spelled::parameter("angle", "90"));
     const bool is_full = std::abs(angle) == 360;
     const double degrees = count == 1 ? 0 : angle / (is_full ? count : count - 1);
     const Affine turn_from_here = turned_to_z(axis) * Affine::translation(-around);
@@ -299,7 +286,6 @@ struct ArrayMirror : Array<ArrayMirror> {
 
   static Spec<ArrayMirror> spec() {
     return {"array_mirror",
-            "arrays",
             "Its child and the child's mirror image.",
             {{"normal", &ArrayMirror::normal, "Direction perpendicular to the plane", required()},
              {"around", &ArrayMirror::around, "A point on the plane", unit::mm},
@@ -308,13 +294,7 @@ struct ArrayMirror : Array<ArrayMirror> {
             "array_mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};
   }
 
-  bool complete(const Reader& reader) const {
-    if (length(normal) > 0) return true;
-    reader.diagnostics.error(reader.where, "the normal of array_mirror has no direction",
-                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
-                                                        "for example (1, 1, 0)"));
-    return false;
-  }
+  bool complete(const Reader& reader) const { return has_direction(reader, "normal", normal); }
 
   double most_queries_at_once() const { return 2; }
   std::vector<Point> holding(const Point& p) const { return {p, p.mapped(image_from_here())}; }
@@ -342,6 +322,6 @@ struct ArrayMirror : Array<ArrayMirror> {
 
 }  // namespace
 
-void add_arrays(Registry& registry) { registry.add<ArrayLinear, ArrayGrid, ArrayPolar, ArrayMirror>(); }
+void add_arrays(Registry& registry) { registry.add<ArrayLinear, ArrayGrid, ArrayPolar, ArrayMirror>("arrays"); }
 
 }  // namespace ombre::nodes

@@ -1,7 +1,8 @@
 // Solids given by a formula.
 #include "design/spec.h"
+#include "nodes/common/families.h"
+#include "nodes/common/parameter_checks.h"
 #include "nodes/common/shapes.h"
-#include "nodes/lattices/lattice_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -15,7 +16,6 @@ struct Function {
 
   static Spec<Function> spec() {
     return {"function",
-            "implicit solids",
             "All points where an expression is 0 or less.",
             {{"expression", &Function::expression, "Expression in x, y, z, rho, phic, r, theta, phis", required()},
              {"material", &Function::material, "Its material"},
@@ -25,15 +25,7 @@ struct Function {
             "function((-8, -8, -8), (8, 8, 8), \"sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)\", \"red\");"};
   }
 
-  bool complete(const Reader& reader) const {
-    if (min.has_value() != max.has_value()) {
-      reader.diagnostics.error(reader.where, "function needs both corners of its box, min and max, or none");
-      return false;
-    }
-    if (!min || (min->x < max->x && min->y < max->y && min->z < max->z)) return true;
-    reader.diagnostics.error(reader.where, "the box of function is empty: max must be greater than min on each axis");
-    return false;
-  }
+  bool complete(const Reader& reader) const { return is_box_or_none(reader, min, max); }
 
   Metric metric() const { return Metric::implicit(); }
   Box reach(const Inputs&, const Box& where, double margin) const {
@@ -53,6 +45,6 @@ struct Function {
 
 }  // namespace
 
-void add_implicit_solids(Registry& registry) { registry.add<Function>(); }
+void add_implicit_solids(Registry& registry) { registry.add<Function>("implicit solids"); }
 
 }  // namespace ombre::nodes

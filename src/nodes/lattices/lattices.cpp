@@ -1,8 +1,8 @@
 // Lattices of struts: named unit cells, or graphs of edges.
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/segments.h"
 #include "nodes/common/strut_families.h"
-#include "nodes/lattices/lattice_families.h"
 #include "nodes/lattices/unit_cells.h"
 
 namespace ombre::nodes {
@@ -26,7 +26,6 @@ struct Lattice {
 
   static Spec<Lattice> spec() {
     return {"lattice",
-            "lattices",
             "Struts with round ends: a unit cell centred on the origin, or a graph of edges. tile repeats unit cells.",
             {{"cell", &Lattice::cell, "Name of the unit cell; none: the edges are used", cell_choices()},
              {"size", &Lattice::size, "Size of the unit cell along x, y and z", unit::positive_mm},
@@ -49,11 +48,10 @@ struct Lattice {
       segments_ = is_cell ? of_cell() : of_edges();
       return true;
     }
-    reader.diagnostics.error(
-        reader.where, is_cell ? "lattice has both a unit cell and edges" : "lattice has neither a unit cell nor edges",
+    return reader.refuse(
+        is_cell ? "lattice has both a unit cell and edges" : "lattice has neither a unit cell nor edges",
         "write " + spelled::call("lattice", {{"cell", "\"bcc\""}, {"size", "(10, 10, 10)"}, {"radius", "1"}}) + " or " +
             spelled::call("lattice", {{"edges", "[[(0, 0, 0), (10, 0, 0)]]"}, {"radius", "1"}}));
-    return false;
   }
 
   Metric metric() const { return segments_.size() == 1 ? Metric::exact() : Metric::bounded(); }
@@ -230,6 +228,6 @@ std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node) 
   return lattice ? lattice->data.shapes() : std::nullopt;
 }
 
-void add_lattices(Registry& registry) { registry.add<Lattice>(); }
+void add_lattices(Registry& registry) { registry.add<Lattice>("lattices"); }
 
 }  // namespace ombre::nodes

@@ -6,9 +6,9 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/repeated_points.h"
 #include "nodes/common/shapes.h"
-#include "nodes/lattices/lattice_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -24,7 +24,6 @@ struct Hull {
 
   static Spec<Hull> spec() {
     return {"hull",
-            "point solids",
             "The convex hull of points: the smallest convex solid that contains all of them.",
             {{"points", &Hull::points, "At least four points, not all in one plane", required(unit::points)},
              {"material", &Hull::material, "Its material"}},
@@ -36,17 +35,13 @@ struct Hull {
 
   bool complete(const Reader& reader) {
     OfPoints<Plane> found = hull_planes(points.at);
-    if (!found.problem.empty()) {
-      reader.diagnostics.error(reader.where, "points of hull: " + found.problem);
-      return false;
-    }
+    if (!found.problem.empty()) return reader.refuse("points of hull: " + found.problem);
     planes = std::move(found.list);
     for (const Vec3& p : points.at) middle = middle + (1 / static_cast<double>(points.at.size())) * p;
     depth = Box::inf;
     for (const Plane& plane : planes) depth = std::min(depth, plane.offset - dot(plane.normal, middle));
     if (depth > 0) return true;
-    reader.diagnostics.error(reader.where, "points of hull: all points lie in one plane");
-    return false;
+    return reader.refuse("points of hull: all points lie in one plane");
   }
 
   // Near edges and corners the surface is farther away than the planes.
@@ -83,7 +78,6 @@ struct Tube {
 
   static Spec<Tube> spec() {
     return {"tube",
-            "point solids",
             "A round bar along lines, or along a smooth curve through points. Joints are round.",
             {{"points", &Tube::points, "At least two points on its centre line", required(unit::points)},
              {"radius", &Tube::radius, "Its radius", unit::positive_mm},
@@ -103,16 +97,12 @@ struct Tube {
   bool makes_nothing() const { return points.at.empty(); }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message) {
-      reader.diagnostics.error(reader.where, message);
-      return false;
-    };
-    if (!reader.loader) return fail("tubes cannot be made here");
+    if (!reader.loader) return reader.refuse("tubes cannot be made here");
     const std::vector<Vec3> corners = without_repeated(points.at, size_of(points.at), closed);
     const size_t least = closed ? 3 : 2;
     if (corners.size() < least)
-      return fail(std::string(closed ? "a closed tube" : "a tube") + " needs at least " + std::to_string(least) +
-                  " points, found " + std::to_string(corners.size()));
+      return reader.refuse(std::string(closed ? "a closed tube" : "a tube") + " needs at least " +
+                           std::to_string(least) + " points, found " + std::to_string(corners.size()));
     path = curve == "smooth" ? smooth_path(corners) : corners;
     if (closed && curve != "smooth") path.push_back(corners.front());
     PathRequest request{path};
@@ -171,6 +161,6 @@ struct Tube {
 
 }  // namespace
 
-void add_point_solids(Registry& registry) { registry.add<Hull, Tube>(); }
+void add_point_solids(Registry& registry) { registry.add<Hull, Tube>("point solids"); }
 
 }  // namespace ombre::nodes

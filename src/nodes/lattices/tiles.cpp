@@ -3,9 +3,9 @@
 
 #include "base/text/text.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/struts.h"
-#include "nodes/lattices/lattice_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -20,7 +20,6 @@ struct Tile {
   static Spec<Tile> spec() {
     return {
         "tile",
-        "lattices",
         "Repeats its child along x, y and z, without end unless limited: cut it with an intersection. Expressions "
         "below it may use the copy's indices ci, cj, ck.",
         {{"size", &Tile::size,
@@ -35,16 +34,12 @@ struct Tile {
   }
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
-    const auto fail = [&](const std::string& message, const Phrase& hint) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
     const Box box = inputs[0]->bounds(design_space());
-    if (box.is_empty()) return fail("tile has nothing to repeat", "");
+    if (box.is_empty()) return reader.refuse("tile has nothing to repeat");
     const Traits traits = inputs[0]->traits_of_shape();
     const Vec3 step = size.value_or(traits.cell_size.value_or(box.size()));
     if (step == Vec3{})
-      return fail(
+      return reader.refuse(
           "tile repeats along no axis",
           "write for example " + spelled::either("tile((10, 10, 0))", "\"size\": [10, 10, 0]", "tile((10, 10, 0))"));
     double copies = 1;
@@ -56,14 +51,15 @@ struct Tile {
       if (first) axis.first = (*first)[n];
       if (last) axis.last = (*last)[n];
       if (axis.first > axis.last || !is_limit(axis.first) || !is_limit(axis.last))
-        return fail("the limits of tile are whole numbers, first not above last",
-                    "write for example " + spelled::parameter("first", "(0, 0, 0)") + ", " +
-                        spelled::parameter("last", "(9, 9, 0)"));
+        return reader.refuse("the limits of tile are whole numbers, first not above last",
+                             "write for example " + spelled::parameter("first", "(0, 0, 0)") + ", " +
+                                 spelled::parameter("last", "(9, 9, 0)"));
       if (axis.step == 0) continue;
       if (axis.hi - axis.lo >= design_limit_mm)
-        return fail("the child of tile is unbounded along " + std::string(1, "xyz"[n]),
-                    inputs[0]->uses_cell() ? "bound sizes that use ci, cj or ck, for example clamp(0.5, 1 + 0.1*ci, 2)"
-                                           : "cut it to size first, or write 0 for that axis");
+        return reader.refuse("the child of tile is unbounded along " + std::string(1, "xyz"[n]),
+                             inputs[0]->uses_cell()
+                                 ? "bound sizes that use ci, cj or ck, for example clamp(0.5, 1 + 0.1*ci, 2)"
+                                 : "cut it to size first, or write 0 for that axis");
       axis.is_one_enough = step[n] >= traits.nearest_copy_is_enough_from[n];
       axis.middle = axis.is_one_enough ? 0 : 0.5 * (axis.lo + axis.hi);
       copies *= 2 * axis.neighbours(true) + 1;
@@ -73,8 +69,9 @@ struct Tile {
     repetitions_ = inputs[0]->depth() <= small ? 1 : copies;
     constexpr double most = 343;
     if (copies <= most) return true;
-    return fail("what tile repeats is many times as large as its steps: " + format_number(copies) + " copies overlap",
-                "give steps at least half as long as the child is");
+    return reader.refuse(
+        "what tile repeats is many times as large as its steps: " + format_number(copies) + " copies overlap",
+        "give steps at least half as long as the child is");
   }
 
   Traits traits() const { return {.most_evaluations_of_input = repetitions_, .gives_cell = true}; }
@@ -262,6 +259,6 @@ std::optional<TileCopies> tile_copies_of(const design::Node& node) {
   return tile ? std::optional(tile->data.all_copies()) : std::nullopt;
 }
 
-void add_tiles(Registry& registry) { registry.add<Tile>(); }
+void add_tiles(Registry& registry) { registry.add<Tile>("lattices"); }
 
 }  // namespace ombre::nodes

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "design/spec.h"
-#include "nodes/lattices/lattice_families.h"
+#include "nodes/common/families.h"
 #include "program/gradient.h"
 
 namespace ombre::nodes {
@@ -104,7 +104,6 @@ struct Tpms {
 
   static Spec<Tpms> spec() {
     return {"tpms",
-            "lattices",
             "A triply periodic minimal surface, without end: cut it with an intersection.",
             {{"surface", &Tpms::surface, "Name of the surface", one_of(surface_names())},
              {"kind", &Tpms::kind, "sheet: a wall along the surface; solid: the side where the function is below level",
@@ -202,6 +201,6 @@ struct Tpms {
 
 }  // namespace
 
-void add_tpms(Registry& registry) { registry.add<Tpms>(); }
+void add_tpms(Registry& registry) { registry.add<Tpms>("lattices"); }
 
 }  // namespace ombre::nodes

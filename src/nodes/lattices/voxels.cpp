@@ -5,8 +5,8 @@
 #include "base/text/text.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
-#include "nodes/lattices/lattice_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -40,7 +40,6 @@ struct Voxels {
 
   static Spec<Voxels> spec() {
     return {"voxel",
-            "imported",
             "The pixels of a stack of PNG images as voxels. Each has the material of its colour.",
             {{"path", &Voxels::path, "A folder with an image for each layer, from the lowest up, or a single image",
               required()},
@@ -56,10 +55,7 @@ struct Voxels {
   }
 
   bool complete(const Reader& reader) {
-    if (!reader.loader) {
-      reader.diagnostics.error(reader.where, "images cannot be read here");
-      return false;
-    }
+    if (!reader.loader) return reader.refuse("images cannot be read here");
     ImageStackRequest request{path};
     stack = reader.loader->source(request, reader);
     if (!stack) return false;
@@ -151,12 +147,10 @@ struct Voxels {
       reader.diagnostics.warning(reader.where, what, "each gets the material with the nearest colour");
       return true;
     }
-    reader.diagnostics.error(reader.where, what,
-                             "write " +
-                                 spelled::parameter("materials", "[[\"" + unknown.front() + "\", \"" +
-                                                                     reader.materials.first().name + "\"]]") +
-                                 ", or " + spelled::parameter("match", "\"nearest\""));
-    return false;
+    return reader.refuse(what, "write " +
+                                   spelled::parameter("materials", "[[\"" + unknown.front() + "\", \"" +
+                                                                       reader.materials.first().name + "\"]]") +
+                                   ", or " + spelled::parameter("match", "\"nearest\""));
   }
 
   static constexpr MaterialId void_id = 0;
@@ -164,6 +158,6 @@ struct Voxels {
 
 }  // namespace
 
-void add_voxels(Registry& registry) { registry.add<Voxels>(); }
+void add_voxels(Registry& registry) { registry.add<Voxels>("imported"); }
 
 }  // namespace ombre::nodes

@@ -4,8 +4,9 @@
 
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
+#include "nodes/common/families.h"
+#include "nodes/common/parameter_checks.h"
 #include "nodes/common/shapes.h"
-#include "nodes/materials/material_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -44,18 +45,34 @@ Point on_surface(const Inputs& in, size_t solid, const Point& p, Field distance)
   return along_normal(in, solid, p, p, -distance);
 }
 
+// A solid whose points have what the input of that number has at their places.
+template <class Map, size_t laid>
+struct Laid {
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return in.composition(laid, place_of(in, p), demand);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return in.attribute(laid, name, place_of(in, p), demand);
+  }
+  Numbers4 passed(const Inputs& in, std::string_view output, const Point& p) const {
+    return in.output(laid, output, place_of(in, p));
+  }
+
+ private:
+  Point place_of(const Inputs& in, const Point& p) const { return static_cast<const Map&>(*this).place(in, p); }
+};
+
 // Maps a pattern onto a surface. The pattern's x and y are the position on the surface, and its z is the height above
 // it. The position is that of the surface's nearest point q, in a frame whose third axis is `direction`:
 // - planar: the first two coordinates of q.
 // - cylindrical: the arc around the third axis up to q, and q's third coordinate.
 // - spherical: arcs on the sphere around `around` through q, along its equator and from there to q.
-struct ConformalMap {
+struct ConformalMap : Laid<ConformalMap, 1> {
   Choice mapping = "planar";
   Vec3 direction{0, 0, 1}, around;
 
   static Spec<ConformalMap> spec() {
     return {"conformal_map",
-            "maps",
             "Lays a flat pattern, its second child, along the surface of its first child. The pattern's z is the "
             "height above the surface; its x and y are a place on it.",
             {{"mapping", &ConformalMap::mapping,
@@ -71,11 +88,7 @@ struct ConformalMap {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
     warn_of_implicit_distance(reader, *inputs[0], "conformal_map");
-    if (length(direction) > 0) return true;
-    reader.diagnostics.error(reader.where, "the ref_dir of conformal_map has no direction",
-                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
-                                                        "for example (1, 1, 0)"));
-    return false;
+    return has_direction(reader, "ref_dir", direction);
   }
 
   Metric metric() const { return Metric::implicit(); }
@@ -85,15 +98,6 @@ struct ConformalMap {
   Field distance(const Inputs& in, const Point& p) const { return in.distance(1, place(in, p)); }
   Field membership(const Inputs& in, const Point& p, Border border) const {
     return in.membership(1, place(in, p), border);
-  }
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return in.composition(1, place(in, p), demand);
-  }
-  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return in.attribute(1, name, place(in, p), demand);
-  }
-  Numbers4 passed(const Inputs& in, std::string_view output, const Point& p) const {
-    return in.output(1, output, place(in, p));
   }
 
   // Returns where the pattern can reach. Points lie at most the pattern's height above the base, and no farther than
@@ -113,10 +117,6 @@ struct ConformalMap {
     return intersect(box, image(inverse(frame()), places.expanded(farthest)));
   }
 
- private:
-  // Returns the map from points to the frame of positions.
-  Affine frame() const { return turned_to_z(direction) * Affine::translation(-around); }
-
   // Returns the point at which the pattern is evaluated.
   Point place(const Inputs& in, const Point& p) const {
     const Field height = in.distance(0, p);
@@ -128,17 +128,20 @@ struct ConformalMap {
     const Field radius = length(q.x, q.y, q.z);
     return q.moved_to(around_axis * radius, angle(q.z, across) * radius, height);
   }
+
+ private:
+  // Returns the map from points to the frame of positions.
+  Affine frame() const { return turned_to_z(direction) * Affine::translation(-around); }
 };
 
 // Maps a child from one surface to another. For a point p at height h above the second surface, q is the nearest point
 // of that surface. The child is evaluated at height h above the point of the first surface that is nearest to q.
-struct SurfaceMap {
+struct SurfaceMap : Laid<SurfaceMap, 2> {
   double height = 10;
 
   static Spec<SurfaceMap> spec() {
     return {
         "surface_map",
-        "maps",
         "Moves its third child from the surface of its first child to that of its second, keeping heights above the "
         "surface.",
         {{"height", &SurfaceMap::height, "Greatest height above and below the surfaces; anything farther is cut off",
@@ -163,19 +166,10 @@ struct SurfaceMap {
     return logical_and(in.membership(2, place(in, p), border),
                        at_most(abs(in.distance(1, p)), p.constant(height), border));
   }
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return in.composition(2, place(in, p), demand);
-  }
-  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return in.attribute(2, name, place(in, p), demand);
-  }
-  Numbers4 passed(const Inputs& in, std::string_view output, const Point& p) const {
-    return in.output(2, output, place(in, p));
-  }
 
   Box reach(const Inputs& in, const Box& where, double margin) const { return in.reach(1, where, height + margin); }
 
- private:
+  // Returns the point at which the child is evaluated.
   static Point place(const Inputs& in, const Point& p) {
     const Field h = in.distance(1, p);
     const Point there = on_surface(in, 1, p, h), here = on_surface(in, 0, there, in.distance(0, there));
@@ -185,6 +179,6 @@ struct SurfaceMap {
 
 }  // namespace
 
-void add_maps(Registry& registry) { registry.add<ConformalMap, SurfaceMap>(); }
+void add_maps(Registry& registry) { registry.add<ConformalMap, SurfaceMap>("maps"); }
 
 }  // namespace ombre::nodes

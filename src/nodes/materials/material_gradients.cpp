@@ -3,7 +3,7 @@
 
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/materials/material_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -12,11 +12,9 @@ using namespace design;
 
 bool same_length(const Reader& reader, size_t functions, size_t materials, std::string_view noun) {
   if (functions == materials) return true;
-  reader.diagnostics.error(reader.where,
-                           std::string(reader.node) + " has " + std::to_string(functions) + " " + std::string(noun) +
-                               " for " + std::to_string(materials) + " materials",
-                           "give one for each");
-  return false;
+  return reader.refuse(std::string(reader.node) + " has " + std::to_string(functions) + " " + std::string(noun) +
+                           " for " + std::to_string(materials) + " materials",
+                       "give one for each");
 }
 
 // Turns raw values into fractions, one for each material. Where the values are unusable, the input's own composition is
@@ -121,7 +119,6 @@ struct FGrade {
 
   static Spec<FGrade> spec() {
     return {"fgrade",
-            "material gradients",
             "Sets the composition of its child by formulas, one for each material.",
             {{"functions", &FGrade::functions,
               "Expressions; d is the signed distance of the child, t the position along its struts",
@@ -136,10 +133,7 @@ struct FGrade {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
     if (!same_length(reader, functions.size(), materials.size(), "functions")) return false;
-    if (functions.empty()) {
-      reader.diagnostics.error(reader.where, "fgrade needs at least one function and its material");
-      return false;
-    }
+    if (functions.empty()) return reader.refuse("fgrade needs at least one function and its material");
     return check_child_variables(reader, *inputs[0], functions);
   }
 
@@ -159,7 +153,6 @@ struct Material {
 
   static Spec<Material> spec() {
     return {"material",
-            "material gradients",
             "Sets the composition of its child: one material, or a mixture.",
             {{"materials", &Material::materials, "One or more materials or mixtures", required(mixable())},
              {"fractions", &Material::fractions, "A share for each material, as numbers or fields; none: equal shares",
@@ -175,13 +168,9 @@ struct Material {
     for (const Number& fraction : fractions) {
       total += fraction.constant() ? *fraction.constant() : 1;
       if (!fraction.constant() || *fraction.constant() >= 0) continue;
-      reader.diagnostics.error(reader.where, "a fraction of a material is negative");
-      return false;
+      return reader.refuse("a fraction of a material is negative");
     }
-    if (total <= 0) {
-      reader.diagnostics.error(reader.where, "the fractions of the materials are all zero");
-      return false;
-    }
+    if (total <= 0) return reader.refuse("the fractions of the materials are all zero");
     return check_child_variables(reader, *inputs[0], fractions);
   }
 
@@ -195,6 +184,6 @@ struct Material {
 
 }  // namespace
 
-void add_material_gradients(Registry& registry) { registry.add<FGrade, Material>(); }
+void add_material_gradients(Registry& registry) { registry.add<FGrade, Material>("material gradients"); }
 
 }  // namespace ombre::nodes

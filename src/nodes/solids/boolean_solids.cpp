@@ -1,8 +1,8 @@
 // Solids that are joined, cut and complemented, optionally with a blend along their seams.
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/solids/blends.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -66,7 +66,6 @@ struct Union {
 
   static Spec<Union> spec() {
     return {"union",
-            "booleans",
             "The union of its children: all points that are in at least one of them.",
             {{"materials", &Union::materials,
               "Composition where children overlap: mix, the mean of all; that of the first or last child; or blend, a "
@@ -81,10 +80,8 @@ struct Union {
 
   bool complete(const Reader& reader) const {
     if (!(materials == "blend") || !blend().is_plain()) return true;
-    reader.diagnostics.error(
-        reader.where, "materials=\"blend\" of union needs a radius to blend over",
-        "write for example " + spelled::call("union", {{"blend", "1"}, {"materials", "\"blend\""}}));
-    return false;
+    return reader.refuse("materials=\"blend\" of union needs a radius to blend over",
+                         "write for example " + spelled::call("union", {{"blend", "1"}, {"materials", "\"blend\""}}));
   }
 
   Blend blend() const { return {blend_radius, join == "chamfer"}; }
@@ -218,7 +215,6 @@ struct Intersection {
 
   static Spec<Intersection> spec() {
     return {"intersection",
-            "booleans",
             "The intersection of its children: all points that are in every one of them.",
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
              {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
@@ -276,7 +272,6 @@ struct Difference {
 
   static Spec<Difference> spec() {
     return {"difference",
-            "booleans",
             "Its first child without all others: the points that are in the first and in none of the others.",
             {{"blend", &Difference::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Difference::join, join_doc, join_choices()}},
@@ -319,7 +314,6 @@ struct Difference {
 struct Negate {
   static Spec<Negate> spec() {
     return {"negate",
-            "booleans",
             "Everything outside its child. It is unbounded: use it inside an intersection.",
             {},
             {1, 1, false, OfNothing::counts},
@@ -346,7 +340,6 @@ struct Empty {
 
   static Spec<Empty> spec() {
     return {"empty",
-            "booleans",
             "An empty solid, without any point. Solids made from it alone, or cut out of it, are empty too.",
             {},
             no_inputs,
@@ -361,6 +354,6 @@ struct Empty {
 
 }  // namespace
 
-void add_booleans(Registry& registry) { registry.add<Union, Intersection, Difference, Negate, Empty>(); }
+void add_booleans(Registry& registry) { registry.add<Union, Intersection, Difference, Negate, Empty>("booleans"); }
 
 }  // namespace ombre::nodes

@@ -1,7 +1,7 @@
 // Solids with flat faces.
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -15,7 +15,6 @@ struct Cube {
   static Spec<Cube> spec() {
     return {
         "cube",
-        "box solids",
         "A cube centred on the origin.",
         {{"side", &Cube::side, "Length of an edge", unit::positive_mm}, {"material", &Cube::material, "Its material"}},
         no_inputs,
@@ -41,7 +40,6 @@ struct RectPrism {
 
   static Spec<RectPrism> spec() {
     return {"rectprism",
-            "box solids",
             "A block with edges along the axes, centred on the origin.",
             {{"size", &RectPrism::size, "Lengths along x, y and z", unit::positive_mm},
              {"material", &RectPrism::material, "Its material"}},
@@ -65,7 +63,6 @@ struct HalfSpace {
 
   static Spec<HalfSpace> spec() {
     return {"half_space",
-            "box solids",
             "Everything behind a plane. Use it to cut other solids.",
             {{"normal", &HalfSpace::normal, "Outward direction; any length", required()},
              {"offset", &HalfSpace::offset, "Distance of the plane from the origin along the normal", unit::mm},
@@ -76,9 +73,8 @@ struct HalfSpace {
 
   bool complete(const Reader& reader) const {
     if (length(normal) > 0) return true;
-    reader.diagnostics.error(reader.where, "the normal of half_space has no direction",
-                             "write for example " + spelled::value("(0, 0, 1)"));
-    return false;
+    return reader.refuse("the normal of half_space has no direction",
+                         "write for example " + spelled::value("(0, 0, 1)"));
   }
 
   Box bounds(const Box& where) const {
@@ -100,6 +96,6 @@ struct HalfSpace {
 
 }  // namespace
 
-void add_box_solids(Registry& registry) { registry.add<Cube, RectPrism, HalfSpace>(); }
+void add_box_solids(Registry& registry) { registry.add<Cube, RectPrism, HalfSpace>("box solids"); }
 
 }  // namespace ombre::nodes

@@ -3,11 +3,11 @@
 
 #include "base/text/text.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/filter_stages.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/stage_fields.h"
 #include "nodes/common/whole_stages.h"
-#include "nodes/solids/solid_families.h"
 #include "nodes/stages/box_sum.h"
 
 namespace ombre::nodes {
@@ -34,14 +34,18 @@ Composition filtered_composition(const Inputs& in, const Point& p, Demand demand
   return own;
 }
 
-Field filtered_attribute(const Inputs& in, const std::string& name, const Point& p, Demand demand,
-                         const StagePtr& stage) {
-  const Field own = in.attribute(0, name, p, demand), weight = read_channel(in, stage, "share", p);
-  return select(less(p.constant(0), weight), read_channel(in, stage, "attribute " + name, p) / weight, own);
-}
-
 bool holds(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
+}
+
+// Returns the child's own attribute if it is none of the filtered ones.
+Field filtered_attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand, const StagePtr& stage,
+                         const std::vector<std::string>& filtered) {
+  const Field own = in.attribute(0, name, p, demand);
+  if (!holds(filtered, name)) return own;
+  const Field weight = read_channel(in, stage, "share", p);
+  return select(less(p.constant(0), weight), read_channel(in, stage, "attribute " + std::string(name), p) / weight,
+                own);
 }
 
 // Returns false and adds a diagnostic if the child does not have one of the attributes.
@@ -51,10 +55,8 @@ bool check_attributes(const Reader& reader, const NodePtr& child, const std::vec
     if (const auto declared = node->declares()) known.push_back(declared->name);
   for (const std::string& name : names) {
     if (holds(known, name)) continue;
-    reader.diagnostics.error(reader.where,
-                             "the child of " + std::string(reader.node) + " has no attribute \"" + name + '"',
-                             known.empty() ? "it has none" : "it has " + join(known, ", "));
-    return false;
+    return reader.refuse("the child of " + std::string(reader.node) + " has no attribute \"" + name + '"',
+                         known.empty() ? "it has none" : "it has " + join(known, ", "));
   }
   return true;
 }
@@ -71,7 +73,6 @@ struct VoxelBlend {
   static Spec<VoxelBlend> spec() {
     return {
         "blend",
-        "convolutions",
         "Gives each voxel of its child the mean composition of the voxels in a box around it. The shape does not "
         "change.",
         {{"size", &VoxelBlend::size, "Number of voxels of the box along x, y and z", required(from_to(1, 1000))},
@@ -101,7 +102,6 @@ struct Convolve {
   static Spec<Convolve> spec() {
     return {
         "convolve",
-        "convolutions",
         "Gives each voxel of its child the weighted mean of the compositions around it. The shape does not change.",
         {{"kernel", &Convolve::kernel,
           "Weights as lists along x of lists along y of lists along z; of n weights, number floor(n / 2) belongs to "
@@ -129,8 +129,7 @@ struct Convolve {
     return filtered_composition(in, p, demand, stage, count_void);
   }
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return holds(attributes, name) ? filtered_attribute(in, std::string(name), p, demand, stage)
-                                   : in.attribute(0, name, p, demand);
+    return filtered_attribute(in, name, p, demand, stage, attributes);
   }
 };
 
@@ -154,9 +153,8 @@ constexpr const char* about_sigma_voxels = "Standard deviation in voxels along x
 bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& voxels) {
   const bool has_voxels = voxels && voxels->x + voxels->y + voxels->z > 0;
   if ((sigma > 0) != has_voxels) return true;
-  reader.diagnostics.error(reader.where, std::string(reader.node) + " needs either sigma or sigma_voxels, more than 0",
-                           "write for example " + spelled::parameter("sigma", "0.5") + ", in mm");
-  return false;
+  return reader.refuse(std::string(reader.node) + " needs either sigma or sigma_voxels, more than 0",
+                       "write for example " + spelled::parameter("sigma", "0.5") + ", in mm");
 }
 
 LinearFilter gaussian_in(const Width& width, Vec3 cell_mm) { return LinearFilter::gaussian(width.in_cells(cell_mm)); }
@@ -171,7 +169,6 @@ struct Gaussian {
 
   static Spec<Gaussian> spec() {
     return {"gaussian",
-            "convolutions",
             "Blurs its child's composition with weights of a normal distribution. The shape does not change.",
             {{"sigma", &Gaussian::sigma, about_sigma, unit::not_negative_mm},
              {"sigma_voxels", &Gaussian::sigma_voxels, about_sigma_voxels, from_to(0, 200)},
@@ -194,8 +191,7 @@ struct Gaussian {
     return filtered_composition(in, p, demand, stage, count_void);
   }
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return holds(attributes, name) ? filtered_attribute(in, std::string(name), p, demand, stage)
-                                   : in.attribute(0, name, p, demand);
+    return filtered_attribute(in, name, p, demand, stage, attributes);
   }
 };
 
@@ -207,7 +203,6 @@ struct Sharpen {
   static Spec<Sharpen> spec() {
     return {
         "sharpen",
-        "convolutions",
         "Makes borders between its child's materials steeper, by unsharp masking. The shape does not change.",
         {{"amount", &Sharpen::amount, "Factor of the difference from a Gaussian blur, which is added", positive("")},
          {"sigma", &Sharpen::sigma, about_sigma, unit::not_negative_mm},
@@ -240,7 +235,6 @@ struct Majority {
   static Spec<Majority> spec() {
     return {
         "majority",
-        "convolutions",
         "Gives each voxel of its child the most frequent material in the box around it. The shape does not change.",
         {{"size", &Majority::size, "Number of voxels of the box along x, y and z", from_to(1, 99)},
          {"count_void", &Majority::count_void, about_void},
@@ -267,7 +261,6 @@ struct Median {
 
   static Spec<Median> spec() {
     return {"median",
-            "convolutions",
             "Gives each voxel of its child the median of attributes in the box around it. The shape does not change.",
             {{"attributes", &Median::attributes, "Names of the attributes", required()},
              {"size", &Median::size, "Number of voxels of the box along x, y and z", from_to(1, 99)},
@@ -283,8 +276,7 @@ struct Median {
   }
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return holds(attributes, name) ? filtered_attribute(in, std::string(name), p, demand, stage)
-                                   : in.attribute(0, name, p, demand);
+    return filtered_attribute(in, name, p, demand, stage, attributes);
   }
 };
 
@@ -296,7 +288,6 @@ struct Smooth {
 
   static Spec<Smooth> spec() {
     return {"smooth",
-            "convolutions",
             "Smooths the surface of its child: a point is inside if at least half of a Gaussian around it is inside "
             "the child.",
             {{"sigma", &Smooth::sigma, about_sigma, unit::not_negative_mm},
@@ -338,11 +329,9 @@ struct Smooth {
  private:
   bool make_kept(const Reader& reader, const NodePtr& child, const Width& width,
                  const std::function<LinearFilter(Vec3)>& filter) {
-    if (width.voxels && !pitch) {
-      reader.diagnostics.error(reader.where, "keep_volume needs to know how wide the Gaussian is in mm",
-                               "write for example " + spelled::parameter("sigma", "0.5") + " in place of sigma_voxels");
-      return false;
-    }
+    if (width.voxels && !pitch)
+      return reader.refuse("keep_volume needs to know how wide the Gaussian is in mm",
+                           "write for example " + spelled::parameter("sigma", "0.5") + " in place of sigma_voxels");
     // Sides move outward by less than a sigma, to compensate for the volume that corners and edges lose.
     const Vec3 voxels = width.voxels.value_or(Vec3{});
     const double widest =
@@ -370,7 +359,6 @@ struct Morphed : StagedSolid {
          "closing(1) difference() { cube(6, \"red\"); rectprism((12, 1, 1), \"red\"); }"}};
     const Words& word = words[static_cast<size_t>(what)];
     return {word.name,
-            "convolutions",
             word.sentence,
             {{"radius", &Morphed::radius, "Radius of the ball", required(positive("mm"))},
              {"pitch", &Morphed::pitch, about_pitch, unit::positive_mm}},
@@ -388,7 +376,7 @@ struct Morphed : StagedSolid {
 
 void add_convolutions(Registry& registry) {
   registry.add<VoxelBlend, Convolve, Gaussian, Sharpen, Majority, Median, Smooth, Morphed<Morphology::dilate>,
-               Morphed<Morphology::erode>, Morphed<Morphology::opening>, Morphed<Morphology::closing>>();
+               Morphed<Morphology::erode>, Morphed<Morphology::opening>, Morphed<Morphology::closing>>("convolutions");
 }
 
 }  // namespace ombre::nodes

@@ -4,8 +4,8 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -28,13 +28,18 @@ MaterialName material_of(const std::string& name, const MaterialName& otherwise,
 // materials.
 bool check_mixture(const MaterialName& material, const Choice& materials, const Reader& reader) {
   if (!material.mixture.node || materials == "one") return true;
-  reader.diagnostics.error(
-      reader.where,
-      std::string(reader.node) +
-          " has a mixture, which is for the whole of it, and is asked for the materials of the file",
-      "leave out " + spelled::parameter("materials", '"' + std::string(materials.text()) + '"') +
-          ", or name one material for what has none in the file");
-  return false;
+  return reader.refuse(std::string(reader.node) +
+                           " has a mixture, which is for the whole of it, and is asked for the materials of the file",
+                       "leave out " + spelled::parameter("materials", '"' + std::string(materials.text()) + '"') +
+                           ", or name one material for what has none in the file");
+}
+
+// Returns false and adds a diagnostic if materials are given for names that are not asked for.
+bool check_map(const std::vector<MaterialForName>& material_map, const Choice& materials, const Reader& reader) {
+  return !(materials == "one") || material_map.empty() ||
+         reader.refuse("material_map of " + std::string(reader.node) + ": the materials of the file are not asked for",
+                       "write " + spelled::parameter("materials", "\"names\"") + " or " +
+                           spelled::parameter("materials", "\"colours\"") + " too");
 }
 
 // Returns the material for the request of a file. For a mixture it does not matter.
@@ -133,7 +138,6 @@ struct Mesh : SolidOfParts {
   static Spec<Mesh> spec() {
     return {
         "mesh",
-        "imported",
         "A solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in their "
         "own unit; or by the outer sides of a mesh of results: VTU, XDMF, FRD or INP.",
         {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
@@ -155,16 +159,8 @@ struct Mesh : SolidOfParts {
   }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
-    if (!reader.loader) return fail("meshes cannot be read here");
-    if (materials == "one" && !material_map.empty())
-      return fail("material_map of mesh: the materials of the file are not asked for",
-                  "write " + spelled::parameter("materials", "\"names\"") + " or " +
-                      spelled::parameter("materials", "\"colours\"") + " too");
-    if (!check_mixture(material, materials, reader)) return false;
+    if (!reader.loader) return reader.refuse("meshes cannot be read here");
+    if (!check_map(material_map, materials, reader) || !check_mixture(material, materials, reader)) return false;
     const MaterialName named = material_for_request(material, reader);
     MeshRequest request{path, {object, inside_rule, materials, named, material_map}, deform};
     loaded = reader.loader->source(request, reader);
@@ -192,7 +188,6 @@ struct Scad : SolidOfParts {
   static Spec<Scad> spec() {
     return {
         "scad",
-        "imported",
         "A solid that an OpenSCAD script makes, in mm. Arguments with other names are values for the script's "
         "variables.",
         {{"path", &Scad::path, "The script; relative to this one, then to the working directory", required()},
@@ -215,19 +210,13 @@ struct Scad : SolidOfParts {
   }
 
   bool complete(const Reader& reader) {
-    if (!reader.loader) {
-      reader.diagnostics.error(reader.where, "OpenSCAD scripts cannot be run here");
-      return false;
-    }
+    if (!reader.loader) return reader.refuse("OpenSCAD scripts cannot be run here");
     if (material.mixture.node && materials == "auto") materials = "one";
     if (!check_mixture(material, materials, reader)) return false;
     ScadRequest request{path, script, variables, part, materials, material_for_request(material, reader), material_map};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
-    if (loaded->parts.empty()) {
-      reader.diagnostics.error(reader.where, "the script makes no solid");
-      return false;
-    }
+    if (loaded->parts.empty()) return reader.refuse("the script makes no solid");
     path.path = request.file.path;
     for (const MeshPart& one : loaded->parts)
       parts.push_back({material_of(one.material, material, reader), one.source});
@@ -253,7 +242,6 @@ struct Cad {
   static Spec<Cad> spec() {
     return {
         "cad",
-        "imported",
         "A solid from a CAD file: STEP or IGES, in the file's own unit.",
         {{"path", &Cad::path, "The file; relative to the script, then to the working directory", required()},
          {"material", &Cad::material, "Its material; with the file's materials, that of parts without one", mixable()},
@@ -275,16 +263,8 @@ struct Cad {
   }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
-    if (!reader.loader) return fail("CAD files cannot be read here");
-    if (materials == "one" && !material_map.empty())
-      return fail("material_map of cad: the materials of the file are not asked for",
-                  "write " + spelled::parameter("materials", "\"names\"") + " or " +
-                      spelled::parameter("materials", "\"colours\"") + " too");
-    if (!check_mixture(material, materials, reader)) return false;
+    if (!reader.loader) return reader.refuse("CAD files cannot be read here");
+    if (!check_map(material_map, materials, reader) || !check_mixture(material, materials, reader)) return false;
     const MaterialName named = material_for_request(material, reader);
     CadRequest request{path, {object, "nonzero", materials, named, material_map}, mode == "exact", tolerance};
     parts = reader.loader->source(request, reader);
@@ -318,6 +298,6 @@ struct Cad {
 
 }  // namespace
 
-void add_imported(Registry& registry) { registry.add<Mesh, Scad, Cad>(); }
+void add_imported(Registry& registry) { registry.add<Mesh, Scad, Cad>("imported"); }
 
 }  // namespace ombre::nodes

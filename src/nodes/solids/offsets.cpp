@@ -1,7 +1,7 @@
 // Solids bounded by level sets of a child's distance: grown, shrunk, hollowed.
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/solids/solid_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -29,7 +29,6 @@ struct Offset {
 
   static Spec<Offset> spec() {
     return {"offset",
-            "offsets",
             "Grows its child by a distance, or shrinks it. Edges and corners become round when they grow.",
             {{"distance", &Offset::distance_mm,
               "Distance by which the surface moves outward; negative: inward. A formula may vary from point to point",
@@ -69,7 +68,6 @@ struct Shell {
 
   static Spec<Shell> spec() {
     return {"shell",
-            "offsets",
             "A wall along the surface of its child.",
             {{"thickness", &Shell::thickness, "Thickness of the wall", required(unit::positive_mm)},
              {"side", &Shell::side, "Position of the wall: inward of the surface, outward, or centred on it",
@@ -108,6 +106,6 @@ struct Shell {
 
 }  // namespace
 
-void add_offsets(Registry& registry) { registry.add<Offset, Shell>(); }
+void add_offsets(Registry& registry) { registry.add<Offset, Shell>("offsets"); }
 
 }  // namespace ombre::nodes

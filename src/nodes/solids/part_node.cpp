@@ -3,7 +3,7 @@
 
 #include "base/system/assert.h"
 #include "design/spec.h"
-#include "nodes/solids/solid_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -17,7 +17,6 @@ struct Part {
 
   static Spec<Part> spec() {
     return {"part",
-            "parts",
             "Names a part of the design: sets the label \"part\" of everything in its braces. Outer names take "
             "precedence over inner ones.",
             {{"name", &Part::name, "Its name", required()}},
@@ -27,8 +26,7 @@ struct Part {
 
   bool complete(const Reader& reader) const {
     if (!name.empty()) return true;
-    reader.diagnostics.error(reader.where, "a part needs a name");
-    return false;
+    return reader.refuse("a part needs a name");
   }
 
   AttributeDeclaration declares() const {
@@ -49,6 +47,6 @@ struct Part {
 
 }  // namespace
 
-void add_parts(Registry& registry) { registry.add<Part>(); }
+void add_parts(Registry& registry) { registry.add<Part>("parts"); }
 
 }  // namespace ombre::nodes

@@ -14,11 +14,6 @@ using design::Reader;
 // Tolerances relative to the size of the polygon.
 constexpr double flattest_area = 1e-8, farthest_from_plane = 1e-6;
 
-bool fail(const Reader& reader, const std::string& message, const Phrase& hint = {}) {
-  reader.diagnostics.error(reader.where, message, hint);
-  return false;
-}
-
 // Returns a vector normal to the plane of the points, whose length is twice their area.
 Vec3 area_vector(const std::vector<Vec3>& points) {
   Vec3 sum;
@@ -45,7 +40,7 @@ std::optional<Affine> plane_of(const Points& outer, const Reader& reader) {
   const Vec3 area = area_vector(outer.at);
   const double size = size_of(outer.at);
   if (!(length(area) > flattest_area * size * size)) {
-    fail(reader, "the points of " + std::string(reader.node) + " lie on a line, or go round no area");
+    reader.refuse("the points of " + std::string(reader.node) + " lie on a line, or go round no area");
     return std::nullopt;
   }
   const Vec3 normal = (1 / length(area)) * area;
@@ -67,10 +62,9 @@ std::optional<Ring> laid(const Points& points, const Affine& plane_from_here, do
     worst = n;
   }
   if (farthest > room) {
-    fail(reader,
-         "point " + std::to_string(worst + 1) + " of " + what + " lies " + format_rounded(farthest) +
-             " mm off the plane of the others",
-         "all points of a polygon and its holes lie in one plane");
+    reader.refuse("point " + std::to_string(worst + 1) + " of " + what + " lies " + format_rounded(farthest) +
+                      " mm off the plane of the others",
+                  "all points of a polygon and its holes lie in one plane");
     return std::nullopt;
   }
   return checked_ring(std::move(ring), what, reader);
@@ -83,7 +77,7 @@ std::optional<Ring> checked_ring(Ring ring, const std::string& what, const Reade
   for (const Vec2 p : ring) box = hull(box, Box{{p.x, p.y, 0}, {p.x, p.y, 0}});
   ring = without_repeated(ring, length(box.size()), true);
   if (ring.size() < 3) {
-    fail(reader, what + " needs at least 3 points, found " + std::to_string(ring.size()));
+    reader.refuse(what + " needs at least 3 points, found " + std::to_string(ring.size()));
     return std::nullopt;
   }
   const Vec2 first = ring[1] - ring[0];
@@ -91,14 +85,14 @@ std::optional<Ring> checked_ring(Ring ring, const std::string& what, const Reade
     return std::abs(cross(first, p - ring[0])) <= flattest_area * length(first) * length(box.size());
   });
   if (!are_on_line) return ring;
-  fail(reader, "the points of " + what + " lie on a line, or go round no area");
+  reader.refuse("the points of " + what + " lie on a line, or go round no area");
   return std::nullopt;
 }
 
 std::optional<PlanePolygons> PlanePolygons::read(const Points& outer, const std::vector<Points>& holes,
                                                  const Reader& reader) {
   if (outer.at.size() < 3) {
-    fail(reader, std::string(reader.node) + " needs at least 3 points, found " + std::to_string(outer.at.size()));
+    reader.refuse(std::string(reader.node) + " needs at least 3 points, found " + std::to_string(outer.at.size()));
     return std::nullopt;
   }
   const auto plane = plane_of(outer, reader);

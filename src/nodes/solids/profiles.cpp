@@ -6,10 +6,10 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/repeated_points.h"
 #include "nodes/common/shapes.h"
 #include "nodes/solids/plane_polygons.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -20,12 +20,6 @@ Field ask(const program::SourceField& source, const char* channel, Field x, Fiel
   const int number = source->channel(channel);
   ASSERT(number >= 0);
   return x.builder->source(source, number, x, y, x.builder->constant(0));
-}
-
-bool needs_loader(const Reader& reader) {
-  if (reader.loader) return true;
-  reader.diagnostics.error(reader.where, "polygons cannot be read here");
-  return false;
 }
 
 struct PolygonExtrude {
@@ -40,7 +34,6 @@ struct PolygonExtrude {
 
   static Spec<PolygonExtrude> spec() {
     return {"polygon_extrude",
-            "profiles",
             "An extruded polygon. Points of two numbers lie in XY and are extruded along z; points of three numbers "
             "are extruded along the normal around which they go counterclockwise.",
             {{"vertices", &PolygonExtrude::vertices,
@@ -61,7 +54,7 @@ struct PolygonExtrude {
   bool makes_nothing() const { return vertices.at.empty(); }
 
   bool complete(const Reader& reader) {
-    if (!needs_loader(reader)) return false;
+    if (!reader.loader) return reader.refuse("polygons cannot be read here");
     auto plane = PlanePolygons::read(vertices, holes, reader);
     if (!plane) return false;
     here_from_plane = plane->here_from_plane;
@@ -110,7 +103,6 @@ struct Revolve {
 
   static Spec<Revolve> spec() {
     return {"revolve",
-            "profiles",
             "A polygon revolved about the z axis, right-handed from +x.",
             {{"profile", &Revolve::profile,
               "Its corners in order: [rho, z], with rho the distance from the axis; if it crosses itself, all enclosed "
@@ -125,20 +117,16 @@ struct Revolve {
   bool makes_nothing() const { return profile.at.empty(); }
 
   bool complete(const Reader& reader) {
-    if (!needs_loader(reader)) return false;
+    if (!reader.loader) return reader.refuse("polygons cannot be read here");
     Ring ring;
     const double on_axis = noise_of_points * size_of(profile.at);
     for (size_t n = 0; n < profile.at.size(); ++n) {
       Vec3 p = profile.at[n];
       if (std::abs(p.x) <= on_axis) p.x = 0;
-      if (!profile.are_flat || p.x < 0) {
-        reader.diagnostics.error(
-            reader.where,
-            "point " + std::to_string(n + 1) + " of revolve " +
-                (profile.are_flat ? "lies beyond the axis: its rho is below 0" : "has three numbers"),
-            "write [rho, z] for each point, with rho of at least 0");
-        return false;
-      }
+      if (!profile.are_flat || p.x < 0)
+        return reader.refuse("point " + std::to_string(n + 1) + " of revolve " +
+                                 (profile.are_flat ? "lies beyond the axis: its rho is below 0" : "has three numbers"),
+                             "write [rho, z] for each point, with rho of at least 0");
       ring.push_back({p.x, p.y});
     }
     const auto checked = checked_ring(std::move(ring), "revolve", reader);
@@ -213,6 +201,6 @@ struct Revolve {
 
 }  // namespace
 
-void add_profiles(Registry& registry) { registry.add<PolygonExtrude, Revolve>(); }
+void add_profiles(Registry& registry) { registry.add<PolygonExtrude, Revolve>("profiles"); }
 
 }  // namespace ombre::nodes

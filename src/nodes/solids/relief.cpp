@@ -4,8 +4,8 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -22,7 +22,6 @@ struct Relief {
   static Spec<Relief> spec() {
     return {
         "relief",
-        "imported",
         "A plate that is higher where an image is brighter, centred on the z axis, with its foot on z = 0.",
         {{"path", &Relief::path,
           "A PNG file, gray or in colours; only its brightness counts; relative to the script, then to the working "
@@ -38,10 +37,7 @@ struct Relief {
   }
 
   bool complete(const Reader& reader) {
-    if (!reader.loader) {
-      reader.diagnostics.error(reader.where, "images cannot be read here");
-      return false;
-    }
+    if (!reader.loader) return reader.refuse("images cannot be read here");
     ImageRequest request{path};
     image = reader.loader->source(request, reader);
     path = request.file;
@@ -77,6 +73,6 @@ struct Relief {
 
 }  // namespace
 
-void add_relief(Registry& registry) { registry.add<Relief>(); }
+void add_relief(Registry& registry) { registry.add<Relief>("imported"); }
 
 }  // namespace ombre::nodes

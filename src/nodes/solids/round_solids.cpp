@@ -1,9 +1,9 @@
 // Solids made from circles.
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/segments.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/strut_families.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -17,7 +17,6 @@ struct Sphere {
   static Spec<Sphere> spec() {
     return {
         "sphere",
-        "round solids",
         "A ball centred on the origin.",
         {{"radius", &Sphere::radius, "Its radius", unit::positive_mm}, {"material", &Sphere::material, "Its material"}},
         no_inputs,
@@ -41,7 +40,6 @@ struct Ellipsoid {
 
   static Spec<Ellipsoid> spec() {
     return {"ellipsoid",
-            "round solids",
             "A ball stretched along the axes, centred on the origin.",
             {{"radii", &Ellipsoid::radii, "Half lengths along x, y and z", unit::positive_mm},
              {"material", &Ellipsoid::material, "Its material"}},
@@ -71,7 +69,6 @@ struct Cylinder {
 
   static Spec<Cylinder> spec() {
     return {"cylinder",
-            "round solids",
             "A cylinder along z, centred on the origin.",
             {{"radius", &Cylinder::radius, "Its radius", unit::positive_mm},
              {"height", &Cylinder::height, "Its length along z", unit::positive_mm},
@@ -96,7 +93,6 @@ struct Cone {
 
   static Spec<Cone> spec() {
     return {"cone",
-            "round solids",
             "A cone or frustum along z, centred on the origin, with its base down.",
             {{"base", &Cone::base, "Radius at the lower end", unit::not_negative_mm},
              {"top", &Cone::top, "Radius at the upper end; 0: a point", unit::not_negative_mm},
@@ -108,8 +104,7 @@ struct Cone {
 
   bool complete(const Reader& reader) const {
     if (!base.constant() || !top.constant() || *base.constant() + *top.constant() > 0) return true;
-    reader.diagnostics.error(reader.where, "a cone needs a radius greater than 0 at one of its ends");
-    return false;
+    return reader.refuse("a cone needs a radius greater than 0 at one of its ends");
   }
 
   Box bounds(const Box& where) const {
@@ -137,7 +132,6 @@ struct Torus {
 
   static Spec<Torus> spec() {
     return {"torus",
-            "round solids",
             "A ring that lies flat in XY, centred on the origin.",
             {{"ring", &Torus::ring, "Radius of the centre line", unit::positive_mm},
              {"tube", &Torus::tube, "Radius of the tube", unit::positive_mm},
@@ -166,7 +160,6 @@ struct Strut {
   static Spec<Strut> spec() {
     return {
         "strut",
-        "round solids",
         "A cylinder from one point to another.",
         {{"start", &Strut::start, "Centre of one end", unit::mm},
          {"end", &Strut::end, "Centre of the other end", unit::mm},
@@ -181,8 +174,7 @@ struct Strut {
 
   bool complete(const Reader& reader) const {
     if (length(end - start) > 0) return true;
-    reader.diagnostics.error(reader.where, "a strut needs two different end points");
-    return false;
+    return reader.refuse("a strut needs two different end points");
   }
 
   Box bounds(const Box& where) const {
@@ -251,6 +243,8 @@ std::optional<StrutShape> single_strut(const design::Node& node) {
   return strut ? strut->data.shape() : std::nullopt;
 }
 
-void add_round_solids(Registry& registry) { registry.add<Sphere, Ellipsoid, Cylinder, Cone, Torus, Strut>(); }
+void add_round_solids(Registry& registry) {
+  registry.add<Sphere, Ellipsoid, Cylinder, Cone, Torus, Strut>("round solids");
+}
 
 }  // namespace ombre::nodes

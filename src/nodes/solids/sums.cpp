@@ -1,8 +1,8 @@
 // Solids whose distances are added: organic joints and level sets.
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/solids/blends.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -18,7 +18,6 @@ struct Sum {
   static Spec<Sum> spec() {
     return {
         "sum",
-        "booleans",
         "Joins its children organically, or takes a level set of their summed distances.",
         {{"blend", &Sum::blend,
           "Distance from its surface up to which a child swells its neighbours; 0: the level set is used",
@@ -96,6 +95,6 @@ struct Sum {
 
 }  // namespace
 
-void add_sums(Registry& registry) { registry.add<Sum>(); }
+void add_sums(Registry& registry) { registry.add<Sum>("booleans"); }
 
 }  // namespace ombre::nodes

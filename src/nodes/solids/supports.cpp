@@ -1,7 +1,7 @@
 // Supports, which hold a part up while it is printed.
 #include "design/source_loader.h"
 #include "design/spec.h"
-#include "nodes/solids/solid_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -21,7 +21,6 @@ struct Support {
     angles.greatest = 90;
     Spec<Support> spec{
         "support",
-        "supports",
         "The supports that the solid in its braces needs when it is built layer by layer. They stand on its lowest "
         "layer or on parts of the solid below. The solid itself is not included.",
         {{"angle", &Support::angle,
@@ -48,10 +47,7 @@ struct Support {
                                {{"node", "support"}, {"parameter", "material"}});
       return false;
     }
-    if (!reader.loader) {
-      reader.diagnostics.error(reader.where, "supports cannot be found here");
-      return false;
-    }
+    if (!reader.loader) return reader.refuse("supports cannot be found here");
     if (clearance > 0 && inputs[0]->metric().is_implicit())
       reader.diagnostics.warning(Code::distance_unknown, reader.where,
                                  "clearance needs distances, but this shape only gives a sign",
@@ -92,6 +88,6 @@ struct Support {
 
 }  // namespace
 
-void add_supports(Registry& registry) { registry.add<Support>(); }
+void add_supports(Registry& registry) { registry.add<Support>("supports"); }
 
 }  // namespace ombre::nodes

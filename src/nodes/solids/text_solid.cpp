@@ -2,8 +2,8 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -23,7 +23,6 @@ struct Letters {
 
   static Spec<Letters> spec() {
     return {
-        "text",
         "text",
         "Solid letters in XY, read from above, with half of their depth on each side of z = 0.",
         {{"text", &Letters::text, "The text; lines end with \\n", required()},
@@ -50,10 +49,7 @@ struct Letters {
   bool makes_nothing() const { return text.find_first_not_of(" \t\r\n") == std::string::npos; }
 
   bool complete(const Reader& reader) {
-    if (!reader.loader) {
-      reader.diagnostics.error(reader.where, "texts cannot be made here");
-      return false;
-    }
+    if (!reader.loader) return reader.refuse("texts cannot be made here");
     TextRequest request{font, text, style, h_align, v_align, measure, height, line_spacing};
     outline = reader.loader->source(request, reader);
     font = request.font;
@@ -84,6 +80,6 @@ struct Letters {
 
 }  // namespace
 
-void add_text(Registry& registry) { registry.add<Letters>(); }
+void add_text(Registry& registry) { registry.add<Letters>("text"); }
 
 }  // namespace ombre::nodes

@@ -2,7 +2,8 @@
 #include <map>
 
 #include "design/spec.h"
-#include "nodes/solids/solid_families.h"
+#include "nodes/common/families.h"
+#include "nodes/common/parameter_checks.h"
 
 namespace ombre::nodes {
 namespace {
@@ -35,7 +36,6 @@ struct Translate : Transform<Translate> {
 
   static Spec<Translate> spec() {
     return {"translate",
-            "transforms",
             "Moves what is in its braces.",
             {{"by", &Translate::by, "Distance along x, y and z", required(unit::mm)}},
             one_solid,
@@ -53,7 +53,6 @@ struct Rotate : Transform<Rotate> {
 
   static Spec<Rotate> spec() {
     return {"rotate",
-            "transforms",
             "Turns what is in its braces about fixed axes, right-handed.",
             {{"angles", &Rotate::angles, "Angles about x (pitch), y (yaw) and z (roll)", unit::degrees},
              {"order", &Rotate::order, "Order of the axes, the first turn first",
@@ -65,13 +64,7 @@ struct Rotate : Transform<Rotate> {
             "rotate(axis=z, deg=45) { cube(6, \"red\"); }"};
   }
 
-  bool complete(const Reader& reader) const {
-    if (!axis || length(*axis) > 0) return true;
-    reader.diagnostics.error(reader.where, "the axis of rotate has no direction",
-                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
-                                                        "for example (1, 1, 0)"));
-    return false;
-  }
+  bool complete(const Reader& reader) const { return !axis || has_direction(reader, "axis", *axis); }
 
   Affine here_from_input() const {
     Affine turn;
@@ -93,7 +86,6 @@ struct Scale : Transform<Scale> {
 
   static Spec<Scale> spec() {
     return {"scale",
-            "transforms",
             "Stretches what is in its braces, away from the origin.",
             {{"by", &Scale::by, "Factors along x, y and z; not 0", required()}},
             one_solid,
@@ -102,8 +94,7 @@ struct Scale : Transform<Scale> {
 
   bool complete(const Reader& reader) const {
     if (by.x != 0 && by.y != 0 && by.z != 0) return true;
-    reader.diagnostics.error(reader.where, "a factor of scale is 0, which would flatten the part");
-    return false;
+    return reader.refuse("a factor of scale is 0, which would flatten the part");
   }
 
   Affine here_from_input() const { return Affine::scaling(by); }
@@ -114,20 +105,13 @@ struct Mirror : Transform<Mirror> {
 
   static Spec<Mirror> spec() {
     return {"mirror",
-            "transforms",
             "Mirrors what is in its braces at a plane through the origin.",
             {{"normal", &Mirror::normal, "Direction perpendicular to the plane", required()}},
             one_solid,
             "mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};
   }
 
-  bool complete(const Reader& reader) const {
-    if (length(normal) > 0) return true;
-    reader.diagnostics.error(reader.where, "the normal of mirror has no direction",
-                             "write " + spelled::either("x, y, z or for example (1, 1, 0)", "for example [1, 1, 0]",
-                                                        "for example (1, 1, 0)"));
-    return false;
-  }
+  bool complete(const Reader& reader) const { return has_direction(reader, "normal", normal); }
 
   Affine here_from_input() const {
     const Vec3 n = (1 / length(normal)) * normal;
@@ -144,7 +128,6 @@ struct Matrix : Transform<Matrix> {
   static Spec<Matrix> spec() {
     return {
         "matrix",
-        "transforms",
         "Applies an affine map to what is in its braces.",
         {{"matrix", &Matrix::matrix, "3 or 4 rows of 4 numbers; the last column is a translation in mm", required()}},
         one_solid,
@@ -154,8 +137,7 @@ struct Matrix : Transform<Matrix> {
   bool complete(const Reader& reader) const {
     const Stretch s = stretch(matrix);
     if (determinant(matrix) != 0 && s.least > 1e-9 * s.greatest) return true;
-    reader.diagnostics.error(reader.where, "this matrix flattens space: its determinant is 0, or nearly so");
-    return false;
+    return reader.refuse("this matrix flattens space: its determinant is 0, or nearly so");
   }
 
   Affine here_from_input() const { return matrix; }
@@ -163,6 +145,6 @@ struct Matrix : Transform<Matrix> {
 
 }  // namespace
 
-void add_transforms(Registry& registry) { registry.add<Translate, Rotate, Scale, Mirror, Matrix>(); }
+void add_transforms(Registry& registry) { registry.add<Translate, Rotate, Scale, Mirror, Matrix>("transforms"); }
 
 }  // namespace ombre::nodes

@@ -3,9 +3,9 @@
 #include <map>
 
 #include "base/text/text.h"
+#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/volume_place.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -41,11 +41,8 @@ struct VolumeSolid : VolumePlace {
     parameters.emplace_back("segment", &VolumeSolid::segment,
                             "Name or ID of a segment of a .seg.nrrd file, in place of a label");
     return {"volume_solid",
-            "imported",
             "The region of a grid of numbers (a scan, say) where the numbers reach a level or equal a label.",
-            std::move(parameters),
-            no_inputs,
-            "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};
+            std::move(parameters), no_inputs, "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};
   }
 
   bool complete(const Reader& reader) {
@@ -53,12 +50,10 @@ struct VolumeSolid : VolumePlace {
     if (!read_volume(reader, segment)) return false;
     if (by == "otsu") level = grid->otsu_level;
     if (!upper || (above && *upper >= level)) return true;
-    reader.diagnostics.error(
-        reader.where,
+    return reader.refuse(
         above ? "upper of volume_solid is below its level, so nothing is inside"
               : "upper of volume_solid goes with values above the level, not with above=false",
         "write for example " + spelled::parameter("level", "60") + ", " + spelled::parameter("upper", "200"));
-    return false;
   }
 
   Metric metric() const { return Metric::implicit(); }
@@ -85,10 +80,9 @@ struct VolumeSolid : VolumePlace {
  private:
   bool check_segment(const Reader& reader) const {
     if (label < 0 && voxel_channel < 0) return true;
-    reader.diagnostics.error(
-        reader.where, std::string("a segment has a number of its own") + (label < 0 ? ", in a channel of its own" : ""),
+    return reader.refuse(
+        std::string("a segment has a number of its own") + (label < 0 ? ", in a channel of its own" : ""),
         label < 0 ? "leave channel out" : "leave label out, or segment");
-    return false;
   }
 
   // Returns the number of the chosen label or segment, or a negative number if there is none.
@@ -114,7 +108,6 @@ struct Volume : VolumePlace {
 
   static Spec<Volume> spec() {
     return {"volume",
-            "values",
             "Numbers of a grid from a file (a scan, say), at the point where they are used.",
             with_place<Volume>({{"outside", &Volume::outside, "Value outside the grid"},
                                 {"clamp", &Volume::clamp,
@@ -186,7 +179,6 @@ struct Transfer {
   static Spec<Transfer> spec() {
     Spec<Transfer> spec{
         "transfer",
-        "values",
         "The material for a number: a transfer function for scans, or the materials of labels.",
         {{"value", &Transfer::value, "The number", required()},
          {"stops", &Transfer::stops, "Pairs of a number and a material, with numbers in ascending order", required()},
@@ -206,16 +198,13 @@ struct Transfer {
   }
 
   bool complete(const Reader& reader) const {
-    const auto fail = [&](const std::string& message, const Phrase& hint) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
-    if (stops.empty()) return fail("transfer has no stops", "write for example [[0, \"clear\"], [100, \"red\"]]");
+    if (stops.empty())
+      return reader.refuse("transfer has no stops", "write for example [[0, \"clear\"], [100, \"red\"]]");
     for (size_t n = 1; n < stops.size(); ++n)
       if (!(stops[n - 1].at < stops[n].at))
-        return fail("the stops of transfer are not in rising order: " + format_number(stops[n].at) + " follows " +
-                        format_number(stops[n - 1].at),
-                    "sort them by their numbers");
+        return reader.refuse("the stops of transfer are not in rising order: " + format_number(stops[n].at) +
+                                 " follows " + format_number(stops[n - 1].at),
+                             "sort them by their numbers");
     return true;
   }
 
@@ -262,6 +251,9 @@ struct Transfer {
 
 }  // namespace
 
-void add_volumes(Registry& registry) { registry.add<VolumeSolid, Volume, Transfer>(); }
+void add_volumes(Registry& registry) {
+  registry.add<VolumeSolid>("imported");
+  registry.add<Volume, Transfer>("values");
+}
 
 }  // namespace ombre::nodes

@@ -5,7 +5,8 @@
 
 #include "base/math/math.h"
 #include "base/text/text.h"
-#include "nodes/solids/solid_families.h"
+#include "nodes/common/families.h"
+#include "nodes/common/parameter_checks.h"
 #include "nodes/solids/warp.h"
 
 namespace ombre::nodes {
@@ -41,7 +42,6 @@ struct Twist : Warp<Twist> {
 
   static Spec<Twist> spec() {
     return {"twist",
-            "warps",
             "Turns each cross section of its child about the z axis by an angle proportional to z.",
             {{"rate", &Twist::rate, "Angle per height, right-handed; nothing turns at z = 0", required(any("deg/mm"))}},
             one_solid,
@@ -74,7 +74,6 @@ struct Taper : Warp<Taper> {
 
   static Spec<Taper> spec() {
     return {"taper",
-            "warps",
             "Widens or narrows its child along z, about the z axis.",
             {{"factor", &Taper::factor, "Factor of x and y at the height to_z and beyond", required(positive(""))},
              {"from_z", &Taper::from_z, "Height at which the child keeps its width, and beyond", unit::mm},
@@ -86,10 +85,9 @@ struct Taper : Warp<Taper> {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     if (from_z != to_z) return Warp::complete(reader, inputs);
-    reader.diagnostics.error(
-        reader.where, "from_z and to_z of taper are the same height",
+    return reader.refuse(
+        "from_z and to_z of taper are the same height",
         "write for example " + spelled::parameter("from_z", "0") + ", " + spelled::parameter("to_z", "20"));
-    return false;
   }
 
   Point inner(const Point& p) const {
@@ -156,7 +154,6 @@ struct Bend : Warp<Bend> {
 
   static Spec<Bend> spec() {
     return {"bend",
-            "warps",
             "Bends its child in the xz plane: the x axis becomes a circle that begins at the origin.",
             {{"radius", &Bend::radius,
               "Radius of that circle, whose centre lies at z = radius; negative: below. Lengths at z = 0 do not change",
@@ -167,12 +164,11 @@ struct Bend : Warp<Bend> {
 
   bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) {
     if (radius != 0) return Warp::complete(reader, inputs);
-    reader.diagnostics.error(
-        reader.where, "the radius of bend is 0",
+    return reader.refuse(
+        "the radius of bend is 0",
         "write for example " +
             spelled::either("bend(20), or bend(-20)", "\"radius\": 20, or -20", "bend(20), or bend(-20)") +
             " to bend downward");
-    return false;
   }
 
   Point inner(const Point& p) const {
@@ -211,7 +207,6 @@ struct Remap : Warp<Remap> {
 
   static Spec<Remap> spec() {
     return {"remap",
-            "warps",
             "Lays a flat child around a cylinder along z, or a ball: its x goes around, its y upward, its z outward.",
             {{"to", &Remap::to,
               "cylinder; or sphere, with x the length along the equator and y the length from there to the poles",
@@ -303,7 +298,6 @@ struct FormulaWarp {
 
   static Spec<FormulaWarp> spec() {
     return {"warp",
-            "warps",
             "Evaluates its child at another point, given by three formulas: at (x*2, y, z), it is half as wide.",
             {{"x", &FormulaWarp::x, "Coordinate x of the other point", required(unit::mm)},
              {"y", &FormulaWarp::y, "Coordinate y of the other point", required(unit::mm)},
@@ -314,15 +308,7 @@ struct FormulaWarp {
             "warp(\"x - 1.5*sin(z/2)\", \"y\", \"z\") { cylinder(3, 20, \"red\"); }"};
   }
 
-  bool complete(const Reader& reader) const {
-    if (min.has_value() != max.has_value()) {
-      reader.diagnostics.error(reader.where, "warp needs both corners of its box, min and max, or none");
-      return false;
-    }
-    if (!min || (min->x < max->x && min->y < max->y && min->z < max->z)) return true;
-    reader.diagnostics.error(reader.where, "the box of warp is empty: max must be greater than min on each axis");
-    return false;
-  }
+  bool complete(const Reader& reader) const { return is_box_or_none(reader, min, max); }
 
   Metric metric() const { return Metric::implicit(); }
   Point inner(const Point& p) const { return p.moved_to(x(p), y(p), z(p)); }
@@ -353,6 +339,6 @@ struct FormulaWarp {
 
 }  // namespace
 
-void add_warps(Registry& registry) { registry.add<Twist, Taper, Bend, Remap, FormulaWarp>(); }
+void add_warps(Registry& registry) { registry.add<Twist, Taper, Bend, Remap, FormulaWarp>("warps"); }
 
 }  // namespace ombre::nodes

@@ -1,10 +1,10 @@
 // Solids computed from all voxels of another: its parts, filled hollows, distances.
 #include "base/text/text.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/stage_fields.h"
 #include "nodes/common/whole_stages.h"
-#include "nodes/solids/solid_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -21,7 +21,6 @@ struct KeepPartsOf : StagedSolid {
   static Spec<KeepPartsOf> spec() {
     return {
         "keep_parts",
-        "voxel shapes",
         "Keeps the largest part of its child, all parts that are large enough, or the parts at given points.",
         {{"keep", &KeepPartsOf::keep,
           "Parts to keep: the largest, those above a volume, or those at points. Voxels that share a side belong "
@@ -48,7 +47,6 @@ struct FillHoles : StagedSolid {
 
   static Spec<FillHoles> spec() {
     return {"fill_holes",
-            "voxel shapes",
             "Fills the hollows of its child that are closed on all sides.",
             {{"volume", &FillHoles::volume, "Greatest volume of a hollow that is filled", not_negative("mm3")},
              {"pitch", &FillHoles::pitch, about_pitch, unit::positive_mm}},
@@ -70,7 +68,6 @@ struct Redistance {
   static Spec<Redistance> spec() {
     return {
         "redistance",
-        "voxel shapes",
         "Gives a child without distances in mm (a scan, a formula) such distances, which offset, shell and blends "
         "need.",
         {{"margin", &Redistance::margin, "Distance from the child up to which distances are known", positive("mm")},
@@ -103,6 +100,6 @@ struct Redistance {
 
 }  // namespace
 
-void add_whole_solids(Registry& registry) { registry.add<KeepPartsOf, FillHoles, Redistance>(); }
+void add_whole_solids(Registry& registry) { registry.add<KeepPartsOf, FillHoles, Redistance>("voxel shapes"); }
 
 }  // namespace ombre::nodes

@@ -7,7 +7,7 @@
 #include "design/lowering.h"
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/values/value_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -42,7 +42,6 @@ struct Attribute {
   static Spec<Attribute> spec() {
     return {
         "attribute",
-        "attributes",
         "Gives its child a named value, constant or by a formula: a number such as a density, a vector, a colour "
         "or a mixture of materials.",
         {{"name", &Attribute::name, "Its name; standard names such as modulus have a unit and a range", required()},
@@ -91,16 +90,12 @@ struct Attribute {
 
  private:
   bool check_name(const Reader& reader) const {
-    const auto fail = [&](const std::string& message, const Phrase& hint = {}) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
-    if (name.empty()) return fail("an attribute needs a name");
+    if (name.empty()) return reader.refuse("an attribute needs a name");
     if (fold_name(name) == "material" || fold_name(name) == "volumefractions")
-      return fail("the attribute \"" + name + "\" is set by fgrade or material");
+      return reader.refuse("the attribute \"" + name + "\" is set by fgrade or material");
     if (name.find('.') != std::string::npos)
-      return fail("the name of the attribute \"" + name + "\" has a dot",
-                  "dots stand before the parts of vectors, colours and mixtures: write _ instead");
+      return reader.refuse("the name of the attribute \"" + name + "\" has a dot",
+                           "dots stand before the parts of vectors, colours and mixtures: write _ instead");
     return true;
   }
 
@@ -126,12 +121,11 @@ struct Attribute {
   }
 
   bool fail_type(const std::string& message, const Reader& reader) const {
-    reader.diagnostics.error(reader.where, message,
-                             "numbers are written as 3 or \"x/10\", vectors as [1, 0, 0], colours as [1, 0.5, 0, 1] or "
-                             "\"#ff8000\", mixtures as " +
-                                 spelled::either("mix(red, blue, t)", R"({"from": "n3", "output": "mixture"})",
-                                                 R"(ombre.mix("red", "blue", t))"));
-    return false;
+    return reader.refuse(message,
+                         "numbers are written as 3 or \"x/10\", vectors as [1, 0, 0], colours as [1, 0.5, 0, 1] or "
+                         "\"#ff8000\", mixtures as " +
+                             spelled::either("mix(red, blue, t)", R"({"from": "n3", "output": "mixture"})",
+                                             R"(ombre.mix("red", "blue", t))"));
   }
 
   // Takes the unit, range and default of a standard attribute. A different unit is kept with a warning, since older
@@ -176,6 +170,6 @@ struct Attribute {
 
 }  // namespace
 
-void add_attributes(Registry& registry) { registry.add<Attribute>(); }
+void add_attributes(Registry& registry) { registry.add<Attribute>("attributes"); }
 
 }  // namespace ombre::nodes

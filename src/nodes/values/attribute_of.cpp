@@ -4,8 +4,8 @@
 #include "base/text/text.h"
 #include "design/attributes.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
-#include "nodes/values/value_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -30,7 +30,6 @@ struct AttributeOf {
 
   static Spec<AttributeOf> spec() {
     return {"attribute_of",
-            "values",
             "An attribute of a solid at the point where the value is used; outside the solid, the attribute's default.",
             {{"solid", &AttributeOf::solid, "The solid that has the attribute", required()},
              {"name", &AttributeOf::name, "Name of the attribute, or of one of its numbers such as \"fibre.x\"",
@@ -108,7 +107,6 @@ struct CompositionOf {
 
   static Spec<CompositionOf> spec() {
     return {"composition_of",
-            "values",
             "The composition of a solid at the point where the value is used; outside the solid, void.",
             {{"solid", &CompositionOf::solid, "The solid", required()},
              {"of", &CompositionOf::of, "Material whose share is wanted; none: the mixture of all"}},
@@ -154,6 +152,6 @@ struct CompositionOf {
 
 }  // namespace
 
-void add_attribute_of(Registry& registry) { registry.add<AttributeOf, CompositionOf>(); }
+void add_attribute_of(Registry& registry) { registry.add<AttributeOf, CompositionOf>("values"); }
 
 }  // namespace ombre::nodes

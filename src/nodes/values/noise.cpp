@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/lattice_noise.h"
-#include "nodes/values/value_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -69,7 +69,6 @@ struct Noise {
 
   static Spec<Noise> spec() {
     return {"noise",
-            "values",
             "Smooth random values that vary over lengths of about its size. The same seed gives the same values.",
             {{"size", &Noise::size, "Distance from one random gradient to the next", unit::positive_mm},
              {"seed", &Noise::seed, "Whole number that selects the noise", from_to(0, 1e9)},
@@ -94,18 +93,15 @@ struct Noise {
   }
 
   bool complete(const Reader& reader) {
-    const auto fail = [&](const std::string& message, const Phrase& hint) {
-      reader.diagnostics.error(reader.where, message, hint);
-      return false;
-    };
     if (period > 0 && kind == "simplex")
-      return fail("simplex noise does not repeat along x, y and z", "leave out period, or choose another kind");
+      return reader.refuse("simplex noise does not repeat along x, y and z",
+                           "leave out period, or choose another kind");
     if (period > 0 && octaves > 1 && lacunarity != std::floor(lacunarity))
-      return fail("noise that repeats needs a whole lacunarity",
-                  "write for example " + spelled::parameter("lacunarity", "2"));
+      return reader.refuse("noise that repeats needs a whole lacunarity",
+                           "write for example " + spelled::parameter("lacunarity", "2"));
     if (kind == "gradient" && period * std::pow(lacunarity, octaves - 1) > noise_period)
-      return fail("noise repeats after at most 289 sizes of its finest octave",
-                  "choose a shorter period, fewer octaves or a smaller lacunarity");
+      return reader.refuse("noise repeats after at most 289 sizes of its finest octave",
+                           "choose a shorter period, fewer octaves or a smaller lacunarity");
     const OctaveSum sum{octaves, gain, lacunarity, turbulence};
     if (kind == "simplex") source = make_simplex_noise(static_cast<uint64_t>(seed), sum);
     if (kind == "cellular") source = make_cellular_noise(static_cast<uint64_t>(seed), sum, period);
@@ -216,6 +212,6 @@ struct Noise {
 
 }  // namespace
 
-void add_noise(Registry& registry) { registry.add<Noise>(); }
+void add_noise(Registry& registry) { registry.add<Noise>("values"); }
 
 }  // namespace ombre::nodes

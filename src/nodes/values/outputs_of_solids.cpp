@@ -1,7 +1,7 @@
 // Outputs of solids as values, and outputs that are solids as solids.
 #include "base/text/text.h"
 #include "design/spec.h"
-#include "nodes/values/value_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -15,7 +15,6 @@ struct OutputOf {
 
   static Spec<OutputOf> spec() {
     return {"output_of",
-            "values",
             "An output of a solid, or of what is inside it, such as \"along\" of struts and \"cell\" of a tile, at the "
             "point where the value is used.",
             {{"solid", &OutputOf::solid, "The solid that has the output", required()},
@@ -53,7 +52,6 @@ struct SolidOf {
 
   static Spec<SolidOf> spec() {
     return {"solid_of",
-            "parts",
             "An output that is a solid or a region, as a solid; or the solid that is given, as it is.",
             {{"solid", &SolidOf::solid, "The output, or a solid", required()}},
             no_inputs,
@@ -76,7 +74,7 @@ struct SolidOf {
 
 }  // namespace
 
-void add_output_of(Registry& registry) { registry.add<OutputOf>(); }
-void add_solid_of(Registry& registry) { registry.add<SolidOf>(); }
+void add_output_of(Registry& registry) { registry.add<OutputOf>("values"); }
+void add_solid_of(Registry& registry) { registry.add<SolidOf>("parts"); }
 
 }  // namespace ombre::nodes

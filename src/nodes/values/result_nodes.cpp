@@ -5,7 +5,7 @@
 #include "base/text/text.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
-#include "nodes/values/value_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -34,7 +34,6 @@ struct Results {
   static Spec<Results> spec() {
     return {
         "results",
-        "values",
         "Results of a simulation at the point where they are used: a field of a mesh's nodes or elements.",
         {{"path", &Results::path,
           "The file: .vtu, as ombre fea writes it, .frd, .inp, or .csv; relative to the script, then to the working "
@@ -70,7 +69,7 @@ struct Results {
   }
 
   bool complete(const Reader& reader) {
-    if (!reader.loader) return fail(reader, "results cannot be read here", "");
+    if (!reader.loader) return reader.refuse("results cannot be read here");
     ResultsRequest request;
     request.file = path;
     request.values.path = values;
@@ -107,25 +106,22 @@ struct Results {
   }
 
  private:
-  static bool fail(const Reader& reader, const std::string& message, const Phrase& hint) {
-    reader.diagnostics.error(reader.where, message, hint);
-    return false;
-  }
-
   bool choose(const Reader& reader) {
     const std::vector<std::string> names = component_names(loaded->channels.size());
     const std::string what = "the field \"" + loaded->name + '"';
     if (component.empty()) {
       if (names.size() <= 3) return true;
-      return fail(reader, what + " has " + std::to_string(names.size()) + " components, and which is meant is not said",
-                  "write " + spelled::parameter("component", '"' + names.front() + '"') + ", or another of " +
-                      join(names, ", "));
+      return reader.refuse(
+          what + " has " + std::to_string(names.size()) + " components, and which is meant is not said",
+          "write " + spelled::parameter("component", '"' + names.front() + '"') + ", or another of " +
+              join(names, ", "));
     }
     const auto found = std::ranges::find(names, component);
     chosen = static_cast<size_t>(found - names.begin());
     if (found != names.end() && names.size() > 1) return true;
-    return fail(reader, what + " has no component \"" + component + '"',
-                names.size() > 1 ? "it has " + join(names, ", ") : "it is a single number: leave component out");
+    return reader.refuse(
+        what + " has no component \"" + component + '"',
+        names.size() > 1 ? "it has " + join(names, ", ") : "it is a single number: leave component out");
   }
 
   Field number(const Ask& ask, size_t n) const {
@@ -135,6 +131,6 @@ struct Results {
 
 }  // namespace
 
-void add_results(Registry& registry) { registry.add<Results>(); }
+void add_results(Registry& registry) { registry.add<Results>("values"); }
 
 }  // namespace ombre::nodes

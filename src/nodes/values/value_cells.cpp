@@ -6,9 +6,9 @@
 
 #include "base/system/assert.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/lattice_noise.h"
-#include "nodes/values/value_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -44,7 +44,6 @@ struct HexCells {
 
   static Spec<HexCells> spec() {
     return {"hex_cells",
-            "values",
             "The position of a point in a honeycomb of upright hexagons, one of which is centred on the origin. Two of "
             "their sides are perpendicular to x.",
             {{"size", &HexCells::width, "Distance from side to side", unit::positive_mm}},
@@ -99,7 +98,6 @@ struct TriangleCells {
 
   static Spec<TriangleCells> spec() {
     return {"triangle_cells",
-            "values",
             "The position of a point in a pattern of upright equilateral triangles, six of which meet at the origin.",
             {{"size", &TriangleCells::side, "Length of a side", unit::positive_mm}},
             no_inputs,
@@ -143,7 +141,6 @@ struct TetrahedronCells {
 
   static Spec<TetrahedronCells> spec() {
     return {"tetrahedron_cells",
-            "values",
             "The position of a point in a pattern of tetrahedra: cubes, one of which has a corner at the origin, are "
             "cut in six along a diagonal (Kuhn, 1960).",
             {{"size", &TetrahedronCells::size, "Side of a cube", unit::positive_mm}},
@@ -189,7 +186,6 @@ struct VoronoiValues {
 
   static Spec<VoronoiValues> spec() {
     return {"voronoi_cells",
-            "values",
             "The position of a point among the Voronoi cells of scattered points, one of which lies in each cube of a "
             "lattice.",
             {{"size", &VoronoiValues::size, "Side of the cubes, which is about the size of a cell", unit::positive_mm},
@@ -251,7 +247,6 @@ struct RandomOf {
 
   static Spec<RandomOf> spec() {
     return {"random",
-            "values",
             "A random number for each cell or part. Equal indices give equal numbers.",
             {{"index", &RandomOf::index,
               "One or three numbers, which are rounded, such as the index of a cell or the label of a part",
@@ -278,7 +273,7 @@ struct RandomOf {
 }  // namespace
 
 void add_value_cells(Registry& registry) {
-  registry.add<HexCells, TriangleCells, TetrahedronCells, VoronoiValues, RandomOf>();
+  registry.add<HexCells, TriangleCells, TetrahedronCells, VoronoiValues, RandomOf>("values");
 }
 
 }  // namespace ombre::nodes

@@ -6,12 +6,12 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/solid_values.h"
 #include "nodes/values/colour_mixer.h"
 #include "nodes/values/texture_source.h"
-#include "nodes/values/value_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -19,11 +19,6 @@ namespace {
 using namespace design;
 using program::Op;
 using Colour = std::array<Field, 3>;
-
-bool turn_down(const Reader& reader, const std::string& message, const Phrase& hint) {
-  reader.diagnostics.error(reader.where, message, hint);
-  return false;
-}
 
 template <class Change>
 Colour each(const Colour& colour, const Change& change) {
@@ -111,7 +106,6 @@ struct ColourValue {
 
   static Spec<ColourValue> spec() {
     return {"colour",
-            "values",
             "A colour converted between spaces: sRGB, linear light, HSV or CIE L*a*b*.",
             {{"numbers", &ColourValue::numbers,
               "Red, green and blue from 0 to 1; for hsv hue in degrees, saturation and value; for lab L from 0 to 100, "
@@ -142,7 +136,6 @@ struct ColourDifference {
   static Spec<ColourDifference> spec() {
     return {
         "colour_difference",
-        "values",
         "The visible difference of two colours: the distance in CIE L*a*b* (Delta E of 1976). About 2 is just visible.",
         {{"a", &ColourDifference::a, "A colour", required()},
          {"b", &ColourDifference::b, "Another colour", required()},
@@ -175,7 +168,6 @@ struct Texture {
   static Spec<Texture> spec() {
     return {
         "texture",
-        "values",
         "An image over space, centred on the origin.",
         {{"path", &Texture::path, "A PNG file; relative to the script, then to the working directory", required()},
          {"width", &Texture::width, "Width of the image; around a cylinder, along its circumference",
@@ -199,10 +191,10 @@ struct Texture {
   }
 
   bool complete(const Reader& reader) {
-    if (!reader.loader) return turn_down(reader, "images cannot be read here", "");
+    if (!reader.loader) return reader.refuse("images cannot be read here");
     if (projection == "triplanar" && !on.node)
-      return turn_down(
-          reader, "a triplanar texture lies on a solid",
+      return reader.refuse(
+          "a triplanar texture lies on a solid",
           "name it, for example " + spelled::either("on=sphere(10)", R"("on": {"from": "n2"})", "on=ombre.sphere(10)"));
     PixelsRequest request{path};
     const auto pixels = reader.loader->source(request, reader);
@@ -272,7 +264,6 @@ struct MixMany {
 
   static Spec<MixMany> spec() {
     return {"mix_many",
-            "values",
             "A mixture of several materials or mixtures by their shares. Negative shares count as 0.",
             {{"materials", &MixMany::materials, "Materials or mixtures", required(mixable())},
              {"shares", &MixMany::shares, "A number for each material; they need not add up to 1", required()}},
@@ -283,13 +274,11 @@ struct MixMany {
   }
 
   bool complete(const Reader& reader) const {
-    if (materials.empty())
-      return turn_down(reader, "mix_many needs a material", "write for example [\"red\", \"blue\"]");
+    if (materials.empty()) return reader.refuse("mix_many needs a material", "write for example [\"red\", \"blue\"]");
     if (materials.size() == shares.size()) return true;
-    return turn_down(reader,
-                     "mix_many has " + std::to_string(shares.size()) + " shares for " +
-                         std::to_string(materials.size()) + " materials",
-                     "give one for each");
+    return reader.refuse("mix_many has " + std::to_string(shares.size()) + " shares for " +
+                             std::to_string(materials.size()) + " materials",
+                         "give one for each");
   }
 
   Composition mixture(const Ask& ask) const {
@@ -324,7 +313,6 @@ struct ColourMixture {
 
   static Spec<ColourMixture> spec() {
     return {"colour_mixture",
-            "values",
             "The mixture of materials that shows a colour by the mean of their light, with the least graininess.",
             {{"colour", &ColourMixture::wanted, "Red, green and blue from 0 to 1 (sRGB)", required()},
              {"materials", &ColourMixture::materials,
@@ -342,10 +330,10 @@ struct ColourMixture {
   bool complete(const Reader& reader) {
     constexpr size_t most = ColourMixer::most_materials;
     if (materials.empty())
-      return turn_down(reader, "colour_mixture needs a material", "write for example [\"red\", \"white\"]");
+      return reader.refuse("colour_mixture needs a material", "write for example [\"red\", \"white\"]");
     if (materials.size() > most)
-      return turn_down(reader, "colour_mixture has " + std::to_string(materials.size()) + " materials",
-                       "give " + std::to_string(most) + " at most");
+      return reader.refuse("colour_mixture has " + std::to_string(materials.size()) + " materials",
+                           "give " + std::to_string(most) + " at most");
     for (const MaterialName& name : materials) {
       const auto& [red, green, blue, alpha] = name.material->colour;
       colours.push_back({linear_of_srgb(red / 255.0), linear_of_srgb(green / 255.0), linear_of_srgb(blue / 255.0)});
@@ -384,7 +372,7 @@ struct ColourMixture {
 }  // namespace
 
 void add_value_colours(Registry& registry) {
-  registry.add<ColourValue, ColourDifference, Texture, MixMany, ColourMixture>();
+  registry.add<ColourValue, ColourDifference, Texture, MixMany, ColourMixture>("values");
 }
 
 }  // namespace ombre::nodes

@@ -4,19 +4,14 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/number_table.h"
-#include "nodes/values/value_families.h"
 
 namespace ombre::nodes {
 namespace {
 
 using namespace design;
-
-bool decline(const Reader& reader, const std::string& message, const Phrase& hint) {
-  reader.diagnostics.error(reader.where, message, hint);
-  return false;
-}
 
 struct Ramp {
   Number of;
@@ -25,7 +20,6 @@ struct Ramp {
 
   static Spec<Ramp> spec() {
     return {"ramp",
-            "values",
             "A ramp: 0 up to one number, 1 from another on, and a line or a smooth curve between them.",
             {{"of", &Ramp::of, "The number, such as \"z\" or a value", required()},
              {"lo", &Ramp::from, "Number where it begins to rise; if it is the greater one, the ramp falls"},
@@ -39,9 +33,10 @@ struct Ramp {
   }
 
   bool complete(const Reader& reader) const {
-    return from != to || decline(reader, "ramp begins where it ends",
-                                 "write for example " + spelled::either("ramp(\"z\", 0, 10)", "\"lo\": 0, \"hi\": 10",
-                                                                        "ombre.ramp(\"z\", 0, 10)"));
+    return from != to ||
+           reader.refuse("ramp begins where it ends",
+                         "write for example " + spelled::either("ramp(\"z\", 0, 10)", "\"lo\": 0, \"hi\": 10",
+                                                                "ombre.ramp(\"z\", 0, 10)"));
   }
 
   Field value(const Ask& ask) const {
@@ -60,7 +55,6 @@ struct Rescale {
 
   static Spec<Rescale> spec() {
     return {"rescale",
-            "values",
             "Maps one range of numbers linearly to another.",
             {{"of", &Rescale::of, "The number", required()},
              {"from_lo", &Rescale::from_lo, "Number that is mapped to to_lo"},
@@ -75,10 +69,10 @@ struct Rescale {
 
   bool complete(const Reader& reader) const {
     return from_lo != from_hi ||
-           decline(reader, "the range that rescale begins with is empty",
-                   "write for example " + spelled::either("rescale(\"z\", 0, 10, 1, 2)",
-                                                          "other numbers for the two ends of that range",
-                                                          "ombre.rescale(\"z\", 0, 10, 1, 2)"));
+           reader.refuse("the range that rescale begins with is empty",
+                         "write for example " + spelled::either("rescale(\"z\", 0, 10, 1, 2)",
+                                                                "other numbers for the two ends of that range",
+                                                                "ombre.rescale(\"z\", 0, 10, 1, 2)"));
   }
 
   Field value(const Ask& ask) const {
@@ -104,7 +98,6 @@ struct TableValue {
 
   static Spec<TableValue> spec() {
     return {"table",
-            "values",
             "A table of values for one, two or three numbers. Its rows are keys followed by values.",
             {{"rows", &TableValue::rows,
               "Rows such as [[0, 1], [10, 5]], or the path of a CSV file. With one input, keys ascend; with several, "
@@ -128,15 +121,15 @@ struct TableValue {
   }
 
   bool complete(const Reader& reader) {
-    if (more.size() > 2) return decline(reader, "a table has at most three inputs", "give more one or two numbers");
+    if (more.size() > 2) return reader.refuse("a table has at most three inputs", "give more one or two numbers");
     const size_t inputs = 1 + more.size();
     if (mode == "cubic" && inputs > 1)
-      return decline(reader, "cubic tables have one input",
-                     "write " + spelled::parameter("mode", "\"linear\"") + " for several");
+      return reader.refuse("cubic tables have one input",
+                           "write " + spelled::parameter("mode", "\"linear\"") + " for several");
     const auto read = rows_of(reader);
     if (!read) return false;
     auto made = table_of(*read, inputs);
-    if (const auto* problem = std::get_if<TableProblem>(&made)) return decline(reader, problem->message, problem->hint);
+    if (const auto* problem = std::get_if<TableProblem>(&made)) return reader.refuse(problem->message, problem->hint);
     auto& table = std::get<TableKeys>(made);
     keys.clear();
     for (const auto& axis : table.axes) keys.emplace_back(axis.front(), axis.back());
@@ -155,7 +148,7 @@ struct TableValue {
   std::optional<std::vector<std::vector<double>>> rows_of(const Reader& reader) {
     if (rows.file.path.empty()) return rows.rows;
     if (!reader.loader) {
-      decline(reader, "tables in files cannot be read here", "write its rows out");
+      reader.refuse("tables in files cannot be read here", "write its rows out");
       return std::nullopt;
     }
     TableRequest request{rows.file};
@@ -181,6 +174,6 @@ struct TableValue {
 
 }  // namespace
 
-void add_value_curves(Registry& registry) { registry.add<Ramp, Rescale, TableValue>(); }
+void add_value_curves(Registry& registry) { registry.add<Ramp, Rescale, TableValue>("values"); }
 
 }  // namespace ombre::nodes

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "design/spec.h"
-#include "nodes/values/value_families.h"
+#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -16,7 +16,6 @@ struct Formula {
 
   static Spec<Formula> spec() {
     return {"formula",
-            "values",
             "The value of an expression, which can then be used in others.",
             {{"expression", &Formula::expression, "A number, or an expression in quotes", required()}},
             no_inputs,
@@ -34,7 +33,6 @@ struct Mix {
   static Spec<Mix> spec() {
     return {
         "mix",
-        "values",
         "A mean of two numbers, or a mixture of two materials or mixtures, with the share t of the second and 1 - t of "
         "the first.",
         {{"a", &Mix::a, "Result where t is 0 or less", required()},
@@ -47,8 +45,7 @@ struct Mix {
 
   bool complete(const Reader& reader) const {
     if (a.material.is_given() == b.material.is_given()) return true;
-    reader.diagnostics.error(reader.where, "mix is given a number and a material", "give two of the same kind");
-    return false;
+    return reader.refuse("mix is given a number and a material", "give two of the same kind");
   }
 
   bool gives(size_t output) const { return output == (a.material.is_given() ? 1 : 0); }
@@ -84,7 +81,6 @@ struct Cells {
   static Spec<Cells> spec() {
     return {
         "cells",
-        "values",
         "The position of a point in a lattice of boxes, one of which is centred on the origin. They are the cells of "
         "tile with the same size.",
         {{"size", &Cells::size, "Size of a cell; 0: a single unbounded cell along that axis", unit::not_negative_mm}},
@@ -99,10 +95,9 @@ struct Cells {
 
   bool complete(const Reader& reader) const {
     if (size != Vec3{}) return true;
-    reader.diagnostics.error(reader.where, "cells has no borders along any axis",
-                             "write for example " + spelled::either("cells((10, 10, 10))", "\"size\": [10, 10, 10]",
-                                                                    "ombre.cells((10, 10, 10))"));
-    return false;
+    return reader.refuse("cells has no borders along any axis",
+                         "write for example " + spelled::either("cells((10, 10, 10))", "\"size\": [10, 10, 10]",
+                                                                "ombre.cells((10, 10, 10))"));
   }
 
   VectorField index(const Ask& ask) const {
@@ -136,6 +131,6 @@ struct Cells {
 
 }  // namespace
 
-void add_value_nodes(Registry& registry) { registry.add<Formula, Mix, Cells>(); }
+void add_value_nodes(Registry& registry) { registry.add<Formula, Mix, Cells>("values"); }
 
 }  // namespace ombre::nodes

@@ -5,9 +5,9 @@
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
+#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/solid_values.h"
-#include "nodes/values/value_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -15,18 +15,12 @@ namespace {
 using namespace design;
 using program::Op;
 
-bool refuse(const Reader& reader, const std::string& message, const Phrase& hint) {
-  reader.diagnostics.error(reader.where, message, hint);
-  return false;
-}
-
 struct Coordinates {
   Vec3 origin, axis{0, 0, 1}, toward{1, 0, 0};
   Affine frame_from_here;  // set when the node is made
 
   static Spec<Coordinates> spec() {
     return {"coordinates",
-            "values",
             "The position of a point in another frame: as a vector, in cylindrical and in spherical coordinates.",
             {{"origin", &Coordinates::origin, "Origin of the frame", unit::points},
              {"axis", &Coordinates::axis, "Direction of the frame's z"},
@@ -45,8 +39,8 @@ struct Coordinates {
   bool complete(const Reader& reader) {
     const double along = length(axis);
     if (!(along > 0))
-      return refuse(reader, "the axis of coordinates has no direction",
-                    "write for example " + spelled::parameter("axis", "(0, 0, 1)"));
+      return reader.refuse("the axis of coordinates has no direction",
+                           "write for example " + spelled::parameter("axis", "(0, 0, 1)"));
     const Vec3 z = (1 / along) * axis;
     Vec3 x = toward - dot(toward, z) * z;
     if (!(length(x) > 1e-9 * length(toward)))  // any perpendicular direction is acceptable
@@ -87,7 +81,6 @@ struct At {
 
   static Spec<At> spec() {
     return {"at",
-            "values",
             "A value at another point, which may vary. This warps, repeats or projects values.",
             {{"value", &At::what, "A number, an expression, a material or a mixture", required()},
              {"place", &At::place, "Point where it is evaluated", required(any("mm"))}},
@@ -117,7 +110,6 @@ struct DistanceTo {
 
   static Spec<DistanceTo> spec() {
     return {"distance_to",
-            "values",
             "The distance to the surface of a solid, and the nearest point of the surface.",
             {{"solid", &DistanceTo::solid,
               "A solid, such as sphere(5), translate([4, 0, 0], cube(2)) or mesh(\"a.stl\")", required()},
@@ -152,7 +144,6 @@ struct Mask {
   static Spec<Mask> spec() {
     return {
         "mask",
-        "values",
         "1 inside a solid and 0 outside, with a border that may be soft.",
         {{"solid", &Mask::solid, "The solid", required()},
          {"width", &Mask::width, "Width of the border, over which the value falls from 1 to 0", unit::not_negative_mm}},
@@ -179,7 +170,7 @@ Field channel_of(const program::SourceField& source, const char* channel, const 
 }
 
 bool load_path(PathRequest request, program::SourceField& source, const Reader& reader) {
-  if (!reader.loader) return refuse(reader, "distances to points cannot be made here", "");
+  if (!reader.loader) return reader.refuse("distances to points cannot be made here");
   source = reader.loader->source(request, reader);
   return source != nullptr;
 }
@@ -190,7 +181,6 @@ struct PointDistance {
 
   static Spec<PointDistance> spec() {
     return {"point_distance",
-            "values",
             "The distance to the nearest of some points, and the index of that point.",
             {{"points", &PointDistance::points, "One or more points", required(unit::points)}},
             no_inputs,
@@ -201,9 +191,10 @@ struct PointDistance {
 
   bool complete(const Reader& reader) {
     if (points.at.empty())
-      return refuse(reader, "point_distance needs a point",
-                    "write for example " + spelled::either("point_distance([[0, 0, 0]])", "\"points\": [[0, 0, 0]]",
-                                                           "ombre.point_distance([[0, 0, 0]])"));
+      return reader.refuse(
+          "point_distance needs a point",
+          "write for example " + spelled::either("point_distance([[0, 0, 0]])", "\"points\": [[0, 0, 0]]",
+                                                 "ombre.point_distance([[0, 0, 0]])"));
     return load_path({points.at, true}, source, reader);
   }
 
@@ -218,7 +209,6 @@ struct PathDistance {
 
   static Spec<PathDistance> spec() {
     return {"path_distance",
-            "values",
             "The distance to the straight lines from point to point, and the position of the nearest point along them.",
             {{"points", &PathDistance::points, "Two or more points", required(unit::points)},
              {"closed", &PathDistance::closed, "Joins the last point to the first"}},
@@ -235,10 +225,10 @@ struct PathDistance {
     double whole = 0;
     for (size_t n = 1; n < way.size(); ++n) whole += length(way[n] - way[n - 1]);
     if (!(whole > 0))
-      return refuse(reader, "path_distance needs two different points",
-                    "write for example " + spelled::either("path_distance([[0, 0, 0], [10, 0, 0]])",
-                                                           "\"points\": [[0, 0, 0], [10, 0, 0]]",
-                                                           "ombre.path_distance([[0, 0, 0], [10, 0, 0]])"));
+      return reader.refuse("path_distance needs two different points",
+                           "write for example " + spelled::either("path_distance([[0, 0, 0], [10, 0, 0]])",
+                                                                  "\"points\": [[0, 0, 0], [10, 0, 0]]",
+                                                                  "ombre.path_distance([[0, 0, 0], [10, 0, 0]])"));
     return load_path({std::move(way), false}, source, reader);
   }
 
@@ -249,7 +239,7 @@ struct PathDistance {
 }  // namespace
 
 void add_value_places(Registry& registry) {
-  registry.add<Coordinates, At, DistanceTo, Mask, PointDistance, PathDistance>();
+  registry.add<Coordinates, At, DistanceTo, Mask, PointDistance, PathDistance>("values");
 }
 
 }  // namespace ombre::nodes

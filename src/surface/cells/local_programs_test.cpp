@@ -6,8 +6,8 @@
 #include <random>
 
 #include "base/system/tasks.h"
-#include "program/evaluate.h"
 #include "program/field.h"
+#include "program/test_evaluation.h"
 
 namespace ombre::surface {
 namespace {
@@ -37,12 +37,6 @@ Program balls() {
   return builder.finish({{"distance", nearest}});
 }
 
-double value(const Program& program, Vec3 p) {
-  std::vector<double> values;
-  evaluate_point(program, p, values);
-  return values[program.outputs[0]];
-}
-
 }  // namespace
 
 TEST(LocalPrograms, AreTheWholeOneWhereTheyHold) {
@@ -59,7 +53,7 @@ TEST(LocalPrograms, AreTheWholeOneWhereTheyHold) {
     lengths[n] = local.code.size();
     for (int k = 0; k < 20; ++k) {
       const Vec3 place = random_place(random, box);
-      EXPECT_EQ(value(local, place), value(programs.whole(), place));
+      EXPECT_EQ(value_at(local, place), value_at(programs.whole(), place));
     }
   });
   EXPECT_LT(lengths[5], programs.whole().code.size() / 4);

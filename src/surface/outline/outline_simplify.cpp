@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/math/line_simplification.h"
 #include "surface/outline/outline_crossings.h"
 #include "surface/outline/outline_overlaps.h"
 
@@ -19,47 +20,16 @@ double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   return std::hypot(to.x - share * along.x, to.y - share * along.y);
 }
 
-// Simplifies a chain by the algorithm of Douglas and Peucker (1973).
-class Thinner {
- public:
-  Thinner(const OutlineGraph& graph, const std::vector<uint32_t>& nodes, double tolerance)
-      : nodes_(nodes), tolerance_(tolerance), stays_(nodes.size()) {
-    for (const uint32_t node : nodes) points_.push_back(point_of(graph, node));
-  }
-
-  std::vector<uint32_t> thin() {
-    stays_.front() = stays_.back() = true;
-    std::vector<std::pair<size_t, size_t>> open{{0, nodes_.size() - 1}};
-    while (!open.empty()) {
-      const auto [begin, end] = open.back();
-      open.pop_back();
-      const auto [farthest, distance] = farthest_between(begin, end);
-      if (distance <= tolerance_) continue;
-      stays_[farthest] = true;
-      open.emplace_back(begin, farthest);
-      open.emplace_back(farthest, end);
-    }
-    std::vector<uint32_t> kept;
-    for (size_t n = 0; n < nodes_.size(); ++n)
-      if (stays_[n]) kept.push_back(nodes_[n]);
-    return kept;
-  }
-
- private:
-  std::pair<size_t, double> farthest_between(size_t begin, size_t end) const {
-    std::pair<size_t, double> farthest{begin, 0};
-    for (size_t n = begin + 1; n < end; ++n) {
-      const double distance = distance_to_segment(points_[n], points_[begin], points_[end]);
-      if (distance > farthest.second) farthest = {n, distance};
-    }
-    return farthest;
-  }
-
-  const std::vector<uint32_t>& nodes_;
-  double tolerance_;
-  std::vector<Vec2> points_;
-  std::vector<bool> stays_;
-};
+std::vector<uint32_t> thinned(const OutlineGraph& graph, const std::vector<uint32_t>& nodes, double tolerance) {
+  const auto point = [&](size_t n) { return point_of(graph, nodes[n]); };
+  const std::vector<bool> kept = kept_points(nodes.size(), tolerance, [&](size_t n, size_t begin, size_t end) {
+    return distance_to_segment(point(n), point(begin), point(end));
+  });
+  std::vector<uint32_t> left;
+  for (size_t n = 0; n < nodes.size(); ++n)
+    if (kept[n]) left.push_back(nodes[n]);
+  return left;
+}
 
 // Rotates a ring so that it begins at its point farthest from its former beginning, a point that every simplification
 // keeps.
@@ -157,7 +127,7 @@ std::vector<OutlineChain> simplify(const OutlineGraph& graph, const std::vector<
   for (int round = 0; round < most_simplifying_rounds; ++round) {
     const double tolerance = std::ldexp(tolerance_mm, -round);
     for (size_t n = 0; n < full.size(); ++n)
-      if (is_wrong[n]) simple[n].nodes = Thinner(graph, full[n].nodes, tolerance).thin();
+      if (is_wrong[n]) simple[n].nodes = thinned(graph, full[n].nodes, tolerance);
     is_wrong.assign(chains.size(), false);
     for (const auto& [s, o] : find_overlaps(graph, simple)) is_wrong[s.chain] = is_wrong[o.chain] = true;
     for (size_t n = 0; n < simple.size(); ++n)
