@@ -334,8 +334,7 @@ TEST(Elastic, ThinPlatesAreFactorisedInDoublePrecision) {
     EXPECT_NEAR(found.energy_mj, slow.energy_mj, 1e-5 * slow.energy_mj);
   }
   // If there is no room for the factor, multigrid goes on.
-  EXPECT_NEAR(solve(model, conditions, {1e-9, 20000, 2, "auto", 1e5}).energy_mj, slow.energy_mj,
-              1e-5 * slow.energy_mj);
+  EXPECT_NEAR(solve(model, conditions, {1e-9, 20000, 2, "auto", 1e5}).energy_mj, slow.energy_mj, 1e-5 * slow.energy_mj);
 }
 
 TEST(Elastic, AFactorisationStops) {
