@@ -19,21 +19,22 @@ ombre::Field<Material> colour_field(size_t channel, const std::string& meaning) 
                                   const auto shade = reader.number(data, name, {0, 255, true});
                                   if (shade) material.colour[channel] = static_cast<uint8_t>(*shade);
                                 })
-      .means(meaning + ", 0 to 255");
+      .means(meaning);
 }
 
 const Record<Material>& material_record() {
   using M = Material;
   const char* const all_channels = "give r, g, b (and a) from 0 to 255";
   static const Record<M> record =
-      Record<M>("a material", {field::text("name", &M::name)
-                                   .required(R"(write for example "name": "red")")
-                                   .means("what designs call it, in letters of either case"),
-                               colour_field(0, "red of its colour in images").required(all_channels),
-                               colour_field(1, "green").required(all_channels),
-                               colour_field(2, "blue").required(all_channels), colour_field(3, "opacity (default 255)"),
-                               field::flag("support", &M::is_support)
-                                   .means("`true` for the one that [supports](../user/supports.md) are made of")})
+      Record<M>("a material",
+                {field::text("name", &M::name)
+                     .required(R"(write for example "name": "red")")
+                     .means("what designs call it, in letters of either case"),
+                 colour_field(0, "red of its colour in images, a whole number from 0 to 255").required(all_channels),
+                 colour_field(1, "green").required(all_channels), colour_field(2, "blue").required(all_channels),
+                 colour_field(3, "opacity (default 255)"),
+                 field::flag("support", &M::is_support)
+                     .means("`true` for the one that [supports](../user/supports.md) are made of")})
           .open();
   return record;
 }
