@@ -12,7 +12,7 @@ import zipfile
 
 import processes
 import program
-from slice_jobs import BALL, LONG, SMALL, Job, expect, expect_same, files, layers, ombre_layer
+from slice_jobs import BALL, LONG, SMALL, SUPPORTS, Job, expect, expect_same, files, layers, ombre_layer
 
 NOBODY = 65534
 
@@ -105,20 +105,8 @@ def damaged_layers_are_made_again(job):
 
 # ---- supports, which are found before the first layer
 
-# Very many overhangs, each of which asks for the surface's slope.
-HOLES = """module block() {
-  difference() {
-    rectprism((60, 60, 60), white);
-    for (i = [0:7]) for (j = [0:7]) translate(i*7 - 25, j*7 - 25, 0) sphere(3);
-  }
-}
-block();
-support(angle=45) block();
-"""
-
-
 def supports_take_the_threads_given_and_stop_at_once(job):
-    job.design = job.write("holes.vcad", HOLES)
+    job.design = job.write("holes.vcad", SUPPORTS)
     process = job.start("out", "--voxel", "0.03", "--threads", "1")
     threads = set()
     for work in range(1, 21):
@@ -130,7 +118,7 @@ def supports_take_the_threads_given_and_stop_at_once(job):
 
 
 def supports_are_the_same_in_pieces(job):
-    job.design = job.write("holes.vcad", HOLES)
+    job.design = job.write("holes.vcad", SUPPORTS)
     coarse = ["--voxel", "0.5"]
     job.slice("whole", *coarse, "--threads", "1")
     job.slice("pieces", *coarse, "--layers", "41:90")
@@ -141,7 +129,7 @@ def supports_are_the_same_in_pieces(job):
 
 
 def supports_are_reported(job):
-    design = job.write("holes.vcad", HOLES)
+    design = job.write("holes.vcad", SUPPORTS)
     result = job.slice("out", "--voxel", "0.02", "--memory", "5M", design=design, status=2)
     expect("supports: computing them takes about" in result.stderr and "--memory" in result.stderr, result.stderr)
     expect(not (job.path / "out").exists(), "a folder was made")

@@ -47,6 +47,18 @@ class Folder(program.Folder):
     def run(self, *arguments, command="optimise", **options):
         return super().run(command, *arguments, **options)
 
+    def interrupted(self, out, lines, *arguments):
+        """Runs a search and stops it by Ctrl-C once its history has that many lines; returns what it reported."""
+        process = subprocess.Popen(self.command("optimise", *arguments, "-o", out), cwd=self.path, env=program.environment(),
+                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        history = self.path / out / "history.csv"
+        processes.wait_until(lambda: process.poll() is not None or (history.exists() and history.read_text().count("\n") >= lines),
+                             f"{lines} lines are in the history")
+        process.send_signal(signal.SIGINT)
+        _, reported = process.communicate(timeout=processes.PATIENCE_S)
+        expect(process.returncode == 130, f"status {process.returncode}: {reported}")
+        return reported
+
     def best(self, *arguments):
         return next(event for event in self.events(*arguments) if event["event"] == "best")
 
@@ -271,15 +283,7 @@ def changed_files_are_noticed(folder):
 
 def interrupted_topologies_leave_their_steps(folder):
     folder.write("endless.json", {**MBB, "topology": {**MBB["topology"], "steps": 100000, "change": 1e-6}})
-    process = subprocess.Popen([folder.ombre, "optimise", STUDIES / "half_beam.vcad", "--study", "endless.json", "-o", "endless"],
-                               cwd=folder.path, env=program.environment(), text=True,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    history = folder.path / "endless/history.csv"
-    processes.wait_until(lambda: process.poll() is not None or (history.exists() and history.read_text().count("\n") > 3),
-                         "three steps are in the history")
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=processes.PATIENCE_S)
-    expect(process.returncode == 130, f"status {process.returncode}")
+    folder.interrupted("endless", 4, STUDIES / "half_beam.vcad", "--study", "endless.json")
     rows = folder.table("endless/history.csv")
     expect(len(rows) >= 3 and [row["step"] for row in rows] == [str(n + 1) for n in range(len(rows))], str(rows[:4]))
     expect(float(rows[2]["compliance [N mm]"]) < float(rows[0]["compliance [N mm]"]), "the compliance does not fall")
@@ -287,16 +291,9 @@ def interrupted_topologies_leave_their_steps(folder):
 
 def ctrl_c_keeps_the_history(folder):
     folder.write("fine.json", {**LIGHT, "cell": 0.4})
-    process = subprocess.Popen([folder.ombre, "optimise", "bars.vcad", "--study", "fine.json", "-o", "fine"],
-                               cwd=folder.path, env=program.environment(), text=True,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    history = folder.path / "fine/history.csv"
-    processes.wait_until(lambda: process.poll() is not None or (history.exists() and history.read_text().count("\n") > 2),
-                         "two designs are in the history")
-    process.send_signal(signal.SIGINT)
-    _, reported = process.communicate(timeout=processes.PATIENCE_S)
-    expect(process.returncode == 130 and "--resume goes on" in reported, f"{process.returncode}: {reported}")
-    expect(history.read_text().endswith("\n") and len(folder.table("fine/history.csv")) >= 2, "the history is gone")
+    reported = folder.interrupted("fine", 3, "bars.vcad", "--study", "fine.json")
+    expect("--resume goes on" in reported, reported)
+    expect(folder.read("fine/history.csv").endswith("\n") and len(folder.table("fine/history.csv")) >= 2, "the history is gone")
     expect(not list((folder.path / "fine").glob("*.part")), "a part of a file is left")
 
 

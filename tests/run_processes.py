@@ -10,18 +10,8 @@ import subprocess
 import processes
 import program
 from program import expect
-from slice_jobs import Job
+from slice_jobs import SUPPORTS, Job
 
-# Very many overhangs, each of which asks for the surface's slope: seconds for what comes before the first layer.
-SUPPORTS = """module block() {
-  difference() {
-    rectprism((60, 60, 60), white);
-    for (i = [0:7]) for (j = [0:7]) translate(i*7 - 25, j*7 - 25, 0) sphere(3);
-  }
-}
-block();
-support(angle=45) block();
-"""
 # A surface that fills its box, which all jobs must look at everywhere.
 FOAM = """fgrade(["0.5 + x/120", "0.5 - x/120"], ["red", "blue"]) {
   intersection(materials="first") {

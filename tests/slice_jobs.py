@@ -14,6 +14,16 @@ fgrade(["0.5 + z/10", "0.5 - z/10"], ["red", "blue"]) {
   }
 }
 """
+# Very many overhangs, each of which asks for the surface's slope: seconds for what comes before the first layer.
+SUPPORTS = """module block() {
+  difference() {
+    rectprism((60, 60, 60), white);
+    for (i = [0:7]) for (j = [0:7]) translate(i*7 - 25, j*7 - 25, 0) sphere(3);
+  }
+}
+block();
+support(angle=45) block();
+"""
 SMALL = ["--voxel", "0.1"]
 LONG = ["--voxel", "0.012"]
 

@@ -78,7 +78,7 @@ bool has_ending(const std::string& file, std::string_view ending) { return endin
 
 struct Studio::Kind {
   std::string_view name;
-  Answer (Studio::*answer)(const Request&, const StopFlag&);
+  Handler Studio::*answer;
 };
 
 const std::vector<Studio::Kind>& Studio::kinds() {

@@ -64,18 +64,12 @@ class Studio {
   void broadcast(const std::string& event, const DataMembers& members);
   OpenDesignPtr design_of(const Request& request) { return designs_.find(request.text("design")); }
 
-  Answer hello(const Request& request, const StopFlag& stop);
-  Answer list(const Request& request, const StopFlag& stop);
-  Answer open(const Request& request, const StopFlag& stop);
-  Answer save(const Request& request, const StopFlag& stop);
-  Answer files_ending_in(const Request& request, const StopFlag& stop);
-  Answer presets(const Request& request, const StopFlag& stop);
-  Answer save_preset(const Request& request, const StopFlag& stop);
-  Answer delete_preset(const Request& request, const StopFlag& stop);
+  using Handler = Answer(const Request& request, const StopFlag& stop);
+  Handler hello, list, open, save, files_ending_in, presets, save_preset, delete_preset, load;
+  Handler compare, estimate, start_export, start_kind, change_export, open_folder, jobs;
   Answer presets_answer(const std::string& file, DataList presets);
   compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
                           Diagnostics& diagnostics);
-  Answer load(const Request& request, const StopFlag& stop);
   Answer scan(const Request& request, const StopFlag& stop) { return scans_.describe(request, stop); }
   Answer plane(const Request& request, const StopFlag& stop) { return scans_.plane(request, stop); }
   Answer voxel(const Request& request, const StopFlag& stop) { return scans_.voxel(request, stop); }
@@ -86,13 +80,6 @@ class Studio {
   void give_memory_back();
   DataMembers listed() const;
   DataList scans_of(const design::Design& design) const;
-  Answer compare(const Request& request, const StopFlag& stop);
-  Answer estimate(const Request& request, const StopFlag& stop);
-  Answer start_export(const Request& request, const StopFlag& stop);
-  Answer start_kind(const Request& request, const StopFlag& stop);
-  Answer change_export(const Request& request, const StopFlag& stop);
-  Answer open_folder(const Request& request, const StopFlag& stop);
-  Answer jobs(const Request& request, const StopFlag& stop);
   template <Answer (*view)(OpenDesign&, const Request&, const StopFlag&)>
   Answer show(const Request& request, const StopFlag& stop) {
     return view(*design_of(request), request, stop);

@@ -41,7 +41,7 @@ struct StageRead {
   bool inside = false;     // 1 or 0
   bool distance = false;   // distance in mm, negative inside
   bool fractions = false;  // fractions of all its materials
-  std::vector<std::string> attributes;
+  std::vector<std::string> attributes = {};
 };
 
 // A number for each cell, which a stage reads or computes.

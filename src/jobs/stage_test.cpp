@@ -37,13 +37,6 @@ bool is_in_balls(Vec3 p) {
   return std::ranges::any_of(test_balls, [&](const Ball& ball) { return length(p - ball.centre) <= ball.radius; });
 }
 
-design::StageRead shape_of(const design::NodePtr& solid) {
-  design::StageRead read;
-  read.solid = solid;
-  read.inside = true;
-  return read;
-}
-
 // A stage that reads the shape of a solid and gives one channel.
 template <class Kind>
 class OneChannel : public Kind {
@@ -52,7 +45,7 @@ class OneChannel : public Kind {
   std::string name() const override { return "test"; }
   Hash content() const override { return {}; }
   Box bounds() const override { return solid_->bounds(design::design_space()); }
-  std::vector<design::StageRead> reads() const override { return {shape_of(solid_)}; }
+  std::vector<design::StageRead> reads() const override { return {{.solid = solid_, .inside = true}}; }
   std::vector<StageChannel> channels(const std::vector<StageChannel>&) const override {
     return {{"value", {}, 0, false, range_}};
   }

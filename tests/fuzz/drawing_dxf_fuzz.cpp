@@ -3,10 +3,5 @@
 #include "fuzz/reads_or_reports.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  return ombre::fuzz::reads_or_reports(
-      data, size,
-      [](std::string_view bytes, ombre::Diagnostics& diagnostics) {
-        return ombre::formats::read_dxf("fuzz.dxf", bytes, {}, diagnostics);
-      },
-      [](const auto&) {});
+  return ombre::fuzz::reads_drawing(data, size, "fuzz.dxf", ombre::formats::read_dxf);
 }

@@ -27,6 +27,14 @@ int reads_or_reports(const uint8_t* data, size_t size, const Read& read, const U
   return 0;
 }
 
+// Reads a drawing.
+template <class Read>
+int reads_drawing(const uint8_t* data, size_t size, const std::string& name, const Read& read) {
+  return reads_or_reports(
+      data, size, [&](std::string_view bytes, Diagnostics& diagnostics) { return read(name, bytes, {}, diagnostics); },
+      [](const auto&) {});
+}
+
 // Reads a mesh, and uses it as designs do.
 template <class Read>
 int reads_mesh(const uint8_t* data, size_t size, const std::string& name, const Read& read) {

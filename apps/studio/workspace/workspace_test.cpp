@@ -46,12 +46,20 @@ TEST(Workspace, RefusesNamesThatLeadOut) {
   EXPECT_EQ(folder.read("secret.vcad"), "secret");
 }
 
-TEST(Workspace, SavesWhatItHasSeenAlone) {
+class WorkspaceOfOneFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder.write("a.vcad", "one");
+    version = workspace.read("a.vcad").version;
+  }
+
   const TestFolder folder;
-  folder.write("a.vcad", "one");
-  Workspace workspace(folder.path);
-  const std::string first = workspace.read("a.vcad").version;
-  const auto second = workspace.save("a.vcad", "two", first);
+  Workspace workspace{folder.path};
+  std::string version;  // that of the file
+};
+
+TEST_F(WorkspaceOfOneFile, SavesWhatItHasSeenAlone) {
+  const auto second = workspace.save("a.vcad", "two", version);
   ASSERT_TRUE(std::holds_alternative<std::string>(second));
   EXPECT_EQ(folder.read("a.vcad"), "two");
 
@@ -69,12 +77,8 @@ TEST(Workspace, SavesWhatItHasSeenAlone) {
 }
 
 // The device /dev/full refuses all writes, like a full disk.
-TEST(Workspace, KeepsTheOldFileWhereTheDiskIsFull) {
+TEST_F(WorkspaceOfOneFile, KeepsTheOldFileWhereTheDiskIsFull) {
   if (!fs::exists("/dev/full")) GTEST_SKIP();
-  const TestFolder folder;
-  folder.write("a.vcad", "one");
-  Workspace workspace(folder.path);
-  const std::string version = workspace.read("a.vcad").version;
   fs::create_symlink("/dev/full", folder.path / "a.vcad.part");
   try {
     workspace.save("a.vcad", "two", version);
@@ -91,11 +95,7 @@ TEST(Workspace, KeepsTheOldFileWhereTheDiskIsFull) {
   EXPECT_EQ(folder.read("a.vcad"), "two");
 }
 
-TEST(Workspace, NoticesChangesByOthers) {
-  const TestFolder folder;
-  folder.write("a.vcad", "one");
-  Workspace workspace(folder.path);
-  const std::string version = workspace.read("a.vcad").version;
+TEST_F(WorkspaceOfOneFile, NoticesChangesByOthers) {
   EXPECT_TRUE(workspace.changes().empty());
   ASSERT_TRUE(std::holds_alternative<std::string>(workspace.save("a.vcad", "two", version)));
   EXPECT_TRUE(workspace.changes().empty());  // its own changes do not count

@@ -61,10 +61,7 @@ class BoxSumStage final : public design::HaloStage {
   design::LatticeChoice lattice() const override { return {use_.cell_mm, false}; }
 
   std::vector<design::StageRead> reads() const override {
-    design::StageRead read;
-    read.solid = solid_;
-    read.inside = read.fractions = true;
-    return {read};
+    return {{.solid = solid_, .inside = true, .fractions = true}};
   }
 
   std::vector<StageChannel> channels(const std::vector<StageChannel>& read) const override {

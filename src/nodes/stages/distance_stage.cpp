@@ -176,12 +176,7 @@ class DistanceStage final : public design::WholeStage {
   }
   design::LatticeChoice lattice() const override { return {cell_mm_, false}; }
   double bytes_of_cell() const override { return sizeof(Place); }
-  std::vector<design::StageRead> reads() const override {
-    design::StageRead read;
-    read.solid = solid_;
-    read.distance = true;
-    return {read};
-  }
+  std::vector<design::StageRead> reads() const override { return {{.solid = solid_, .distance = true}}; }
   std::vector<design::StageChannel> channels(const std::vector<design::StageChannel>&) const override {
     return {{"sdf", {}, 0, false}, {"known", {}, 0, true, {0, 1}}};
   }

@@ -9,12 +9,7 @@ namespace ombre::nodes {
 using design::StageChannel;
 
 std::vector<design::StageRead> FilterStage::reads() const {
-  design::StageRead read;
-  read.solid = solid_;
-  read.inside = true;
-  read.fractions = use_.materials;
-  read.attributes = use_.attributes;
-  return {read};
+  return {{.solid = solid_, .inside = true, .fractions = use_.materials, .attributes = use_.attributes}};
 }
 
 std::vector<StageChannel> FilterStage::channels(const std::vector<StageChannel>& read) const {

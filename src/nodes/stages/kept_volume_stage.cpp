@@ -115,12 +115,7 @@ class KeptVolumeStage final : public design::WholeStage {
   }
   design::LatticeChoice lattice() const override { return {use_.cell_mm, false}; }
   double bytes_of_cell() const override { return 0; }
-  std::vector<design::StageRead> reads() const override {
-    design::StageRead read;
-    read.solid = solid_;
-    read.inside = true;
-    return {read};
-  }
+  std::vector<design::StageRead> reads() const override { return {{.solid = solid_, .inside = true}}; }
   std::vector<design::StageChannel> channels(const std::vector<design::StageChannel>&) const override {
     return {{"share", {}, 0, false, {-1, 2}}};
   }

@@ -94,12 +94,7 @@ class MorphologyStage final : public design::HaloStage {
   }
   design::LatticeChoice lattice() const override { return {cell_mm_, false}; }
 
-  std::vector<design::StageRead> reads() const override {
-    design::StageRead read;
-    read.solid = solid_;
-    read.inside = true;
-    return {read};
-  }
+  std::vector<design::StageRead> reads() const override { return {{.solid = solid_, .inside = true}}; }
   std::vector<design::StageChannel> channels(const std::vector<design::StageChannel>&) const override {
     return {{"inside", {}, 0, true, {0, 1}}};
   }

@@ -120,12 +120,7 @@ class FlagStage : public design::WholeStage {
   Box bounds() const override { return solid_->bounds(design::design_space()); }
   design::LatticeChoice lattice() const override { return {cell_mm_, false}; }
   double bytes_of_cell() const override { return sizeof(AlikeRun); }  // there are at most half as many runs as cells
-  std::vector<design::StageRead> reads() const override {
-    design::StageRead read;
-    read.solid = solid_;
-    read.inside = true;
-    return {read};
-  }
+  std::vector<design::StageRead> reads() const override { return {{.solid = solid_, .inside = true}}; }
   std::vector<design::StageChannel> channels(const std::vector<design::StageChannel>&) const override {
     return {{"inside", {}, 0, true, {0, 1}}};
   }

@@ -1,4 +1,5 @@
 // Shows the design from outside, drawn by the server: small first, then as fine as the screen.
+import { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
 import { Refused } from "./connection";
@@ -179,7 +180,7 @@ function ColourLegend() {
   );
 }
 
-export function ViewButtons() {
+function ViewButtons() {
   const { design, perspective } = useStore();
   const look = (from: { azimuth: number; elevation: number }, fit: boolean) => {
     if (!design) return;
@@ -205,6 +206,28 @@ export function ViewButtons() {
   );
 }
 
+// Shows how the part is seen and by what it is coloured: `others` are options beside its materials.
+export function ViewBar({ others, children }: { others: ComponentChildren; children: ComponentChildren }) {
+  const { by } = useStore();
+  return (
+    <div class="viewbar">
+      <ViewButtons />
+      <CutControls />
+      <label>
+        Colour by
+        <select value={by} onChange={(e) => set({ by: e.currentTarget.value, range: undefined })}>
+          <option value="">materials</option>
+          {others}
+        </select>
+      </label>
+      {children}
+    </div>
+  );
+}
+
+// Returns a choice for each name of an attribute.
+export const attributeOptions = (attributes: { name: string }[] = []) => attributes.map((a) => <option value={a.name}>{a.name}</option>);
+
 export function SurfaceView() {
   const { design, camera, by, palette, hello } = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -225,17 +248,7 @@ export function SurfaceView() {
   useEffect(() => void drawer.current?.go(), [key]);
   return (
     <section class="view surface" aria-label="Surface">
-      <div class="viewbar">
-        <ViewButtons />
-        <CutControls />
-        <label>
-          Colour by
-          <select value={by} onChange={(e) => set({ by: e.currentTarget.value, range: undefined })}>
-            <option value="">materials</option>
-            {design?.materials.map((m) => <option value={m.name}>fraction of {m.name}</option>)}
-            {design?.attributes.map((a) => <option value={a.name}>{a.name}</option>)}
-          </select>
-        </label>
+      <ViewBar others={[...(design?.materials ?? []).map((m) => <option value={m.name}>fraction of {m.name}</option>), ...attributeOptions(design?.attributes)]}>
         {by && (
           <label>
             Palette
@@ -244,7 +257,7 @@ export function SurfaceView() {
             </select>
           </label>
         )}
-      </div>
+      </ViewBar>
       <div class="stage">
         <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The design from outside${design ? `, materials ${design.materials.map((m) => m.name).join(", ")}` : ""}. Arrows turn it, with Shift they move it, plus and minus zoom.`}
                 {...pointer} onKeyDown={moveByKeys} />

@@ -2,11 +2,10 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axes, eyeDistance } from "./camera";
 import { Refused } from "./connection";
-import { CutControls } from "./cuts";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
 import { about } from "./session";
-import { Design, set, state, useStore } from "./store";
-import { ViewButtons } from "./surface";
+import { Design, state, useStore } from "./store";
+import { ViewBar, attributeOptions } from "./surface";
 import { TransferCurve, curveOf, tableSize, transferTable } from "./transfer";
 
 const most = 8; // materials
@@ -247,23 +246,14 @@ export function VolumeView() {
   useEffect(() => painter.current?.paint(), [camera, cut, perspective, opacity, palette, curves]);
   return (
     <section class="view volume" aria-label="Volume">
-      <div class="viewbar">
-        <ViewButtons />
-        <CutControls />
-        <label>
-          Colour by
-          <select value={by} onChange={(e) => set({ by: e.currentTarget.value, range: undefined })}>
-            <option value="">materials</option>
-            {design?.attributes.filter((a) => isNumber(design, a.name)).map((a) => <option value={a.name}>{a.name}</option>)}
-          </select>
-        </label>
+      <ViewBar others={attributeOptions(design?.attributes.filter((a) => isNumber(design, a.name)))}>
         <label>
           Detail
           <select value={side} onChange={(e) => setSide(+e.currentTarget.value)}>
             {[32, 64, 96, 128, 192].map((n) => <option value={n}>{n}³</option>)}
           </select>
         </label>
-      </div>
+      </ViewBar>
       <div class="stage">
         <canvas ref={canvas} tabIndex={0} role="img" {...pointer} onKeyDown={moveByKeys}
                 aria-label="The inside of the design; opacities are in the panel of materials. Arrows turn it, with Shift they move it." />
