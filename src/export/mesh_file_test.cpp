@@ -3,44 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 
-#include "base/text/error.h"
-#include "base/text/test_errors.h"
+#include "export/test_folder.h"
 #include "formats/containers/file.h"
 #include "formats/packages/package_writers.h"
 
 namespace ombre::exporting {
 namespace {
 
-namespace fs = std::filesystem;
-
 formats::MeshDocument triangle() {
   return {"t", {{"red", {255, 0, 0, 255}}}, {{"t", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, 0}}};
 }
 
-class MeshFile : public testing::Test {
- protected:
-  MeshFile() : folder_(fs::path(testing::TempDir()) / ("mesh_file_" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~MeshFile() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  fs::path folder_;
-};
+using MeshFile = FolderTest;
 
 std::string failure(const std::string& path, const formats::MeshDocument& document, const MeshFormat& format) {
   return failure_of([&] { write_mesh_file(path, document, format); });
@@ -71,17 +48,16 @@ TEST_F(MeshFile, FailuresNameThePathAndLeaveWhatWasThere) {
     EXPECT_EQ(failure(missing, triangle(), *formats::find_mesh_format(name)),
               "cannot write " + (name == "a.obj" ? path("none/a.mtl") : missing) +
                   ": No such file or directory; the folder is missing");
-    std::ofstream(path(name)) << "mine";
+    put(name, "mine");
     EXPECT_NE(failure(path(name), {}, *formats::find_mesh_format(name)).find("there are no triangles"),
               std::string::npos);
     EXPECT_EQ(formats::read_file(path(name)), "mine");
   }
 }
 
-// /dev/full accepts no byte, like a full disk.
 TEST_F(MeshFile, FullDisksAreReported) {
   for (const char* name : {"a.stl", "a.amf", "a.obj"}) {
-    fs::create_symlink("/dev/full", path(name) + ".part");
+    fill_disk_of(name);
     EXPECT_NE(failure(path(name), triangle(), *formats::find_mesh_format(name))
                   .find("No space left on device; free some space"),
               std::string::npos)

@@ -115,11 +115,17 @@ class SvgFolder : public OutlineFiles {
   }
 
   void commit() override {
-    for (const fs::path& old : outline_layers(target_.path)) fs::remove(old);
+    for (const fs::path& old : outline_layers(target_.path)) remove(old);
     for (NewFile& file : files_) file.commit();
   }
 
  private:
+  static void remove(const fs::path& old) {
+    std::error_code error;
+    fs::remove(old, error);
+    if (error) throw write_error(old.string(), error.value());
+  }
+
   OutlineTarget target_;
   const OutlineDocument& document_;
   NewFolder folder_;

@@ -24,6 +24,9 @@ std::string advice(int error) {
       return "; part of the path is a file, choose another folder";
     case ENOENT:
       return "; the folder is missing";
+    case EISDIR:
+    case ENOTEMPTY:
+      return "; a folder has this name, choose another";
     case ENAMETOOLONG:
       return "; choose a shorter name";
     default:
