@@ -15,7 +15,7 @@
 #include "formats/containers/file.h"
 #include "formats/results/results.h"
 #include "sources/result_border.h"
-#include "sources/result_files.h"
+#include "sources/named_files.h"
 #include "studio/designs.h"
 #include "studio/scans.h"
 

@@ -270,7 +270,7 @@ TEST_F(Dicom, TornFilesAreErrors) {
   }
 }
 
-TEST_F(Dicom, ReadingStopsWhenItIsAsked) {
+TEST_F(Dicom, ReadingStopsOnRequest) {
   put(slice(0, {1, 2}));
   StopFlag stop;
   stop.request();

@@ -1,4 +1,4 @@
-// What tests of written files share: a folder that is empty at the beginning and gone afterwards.
+// A folder for tests of written files, which is empty at the beginning and gone afterwards.
 #pragma once
 
 #include <gtest/gtest.h>

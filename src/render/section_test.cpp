@@ -56,7 +56,7 @@ TEST(Section, PartsAreThoseOfTheWhole) {
   }
 }
 
-TEST(Section, StopsWhenItIsAsked) {
+TEST(Section, StopsOnRequest) {
   StopFlag stop;
   stop.request();
   EXPECT_THROW(Section(disc(), {width, height, 0.1}).cast(0, height, 1, stop), Cancelled);

@@ -12,7 +12,7 @@
 #include "sources/mesh_closing.h"
 #include "sources/mesh_materials.h"
 #include "sources/result_border.h"
-#include "sources/result_files.h"
+#include "sources/named_files.h"
 
 namespace ombre::design {
 namespace {

@@ -6,7 +6,7 @@
 #include "import/fields/result_source.h"
 #include "sources/loading.h"
 #include "sources/result_border.h"
-#include "sources/result_files.h"
+#include "sources/named_files.h"
 
 namespace ombre::design {
 namespace {

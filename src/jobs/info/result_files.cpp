@@ -12,7 +12,7 @@
 #include "formats/results/results.h"
 #include "jobs/common/session.h"
 #include "sources/result_border.h"
-#include "sources/result_files.h"
+#include "sources/named_files.h"
 
 namespace ombre::jobs {
 namespace {

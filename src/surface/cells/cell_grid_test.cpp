@@ -68,7 +68,7 @@ TEST(CellGrid, MixedCellsAreThoseWithDifferentCorners) {
   }
 }
 
-// Of 5 x 5 x 5 cells, those at the outside touch a void corner.
+// The outermost of 5 x 5 x 5 cells touch a void corner.
 TEST(CellGrid, SpaceEndsAtTheOutermostCorners) {
   const Partition full = solid_where_negative([](program::Builder& b) { return b.constant(-1); });
   EXPECT_EQ(find_mixed_cells(full.label, corners_from_origin({6, 6, 6}), 1).cells().size(), 125U - 27U);
@@ -76,7 +76,7 @@ TEST(CellGrid, SpaceEndsAtTheOutermostCorners) {
   EXPECT_TRUE(find_mixed_cells(empty.label, corners_from_origin({6, 6, 6}), 1).cells().empty());
 }
 
-TEST(CellGrid, SearchesStopWhenTheyAreAsked) {
+TEST(CellGrid, SearchesStopOnRequest) {
   StopFlag stop;
   stop.request();
   const Partition ball = ball_of(ball_middle, ball_radius);

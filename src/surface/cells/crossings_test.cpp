@@ -90,7 +90,7 @@ TEST(Crossings, AfterGrowthAreThoseOfTheGrownTree) {
   expect_on_ball(grown);
 }
 
-TEST(Crossings, StopWhenTheyAreAsked) {
+TEST(Crossings, StopOnRequest) {
   StopFlag stop;
   stop.request();
   EXPECT_THROW(find_crossings(some_ball(), tree_of_ball(), 1, nullptr, &stop), Cancelled);

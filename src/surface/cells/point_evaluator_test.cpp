@@ -81,7 +81,7 @@ TEST(PointEvaluator, TakesAnyNumberOfPoints) {
   }
 }
 
-TEST(PointLabels, StopWhenTheyAreAsked) {
+TEST(PointLabels, StopOnRequest) {
   StopFlag stop;
   stop.request();
   EXPECT_THROW(labels_at(bands_of_x(), {{1, 2, 3}}, 1, &stop), Cancelled);

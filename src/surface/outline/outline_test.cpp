@@ -65,7 +65,7 @@ TEST(Outline, EndsAtTheOutermostCorners) {
   EXPECT_LE(area, 100 + 1e-6);
 }
 
-TEST(Outline, StopsWhenItIsAsked) {
+TEST(Outline, StopsOnRequest) {
   const Partition partition = cup();
   StopFlag stop;
   stop.request();

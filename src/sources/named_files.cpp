@@ -1,4 +1,4 @@
-#include "sources/result_files.h"
+#include "sources/named_files.h"
 
 #include <algorithm>
 #include <filesystem>
