@@ -14,8 +14,8 @@
 #include "design/attributes.h"
 #include "formats/containers/file.h"
 #include "formats/results/results.h"
+#include "sources/files_of_results.h"
 #include "sources/result_border.h"
-#include "sources/named_files.h"
 #include "studio/designs.h"
 #include "studio/scans.h"
 

@@ -8,11 +8,11 @@
 #include "import/fields/beam_source.h"
 #include "import/fields/combined_source.h"
 #include "import/surfaces/mesh_source.h"
+#include "sources/files_of_results.h"
 #include "sources/loading.h"
 #include "sources/mesh_closing.h"
 #include "sources/mesh_materials.h"
 #include "sources/result_border.h"
-#include "sources/named_files.h"
 
 namespace ombre::design {
 namespace {

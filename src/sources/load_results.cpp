@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "import/fields/result_source.h"
+#include "sources/files_of_results.h"
 #include "sources/loading.h"
 #include "sources/result_border.h"
-#include "sources/named_files.h"
 
 namespace ombre::design {
 namespace {

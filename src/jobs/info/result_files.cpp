@@ -11,8 +11,8 @@
 #include "formats/containers/file.h"
 #include "formats/results/results.h"
 #include "jobs/common/session.h"
+#include "sources/files_of_results.h"
 #include "sources/result_border.h"
-#include "sources/named_files.h"
 
 namespace ombre::jobs {
 namespace {

@@ -1,4 +1,4 @@
-#include "sources/named_files.h"
+#include "sources/files_of_results.h"
 
 #include <algorithm>
 #include <filesystem>
