@@ -153,7 +153,7 @@ TEST_F(ContactSheets, ThatCannotBeDrawnNameTheFile) {
       layers[0].images.push_back({second, {}});
     else
       layers.push_back({{{second, {}}}, 1, 0});
-    return message_of([&] { draw_contact_sheet(layers, {0.1, 1, clear}); });
+    return failure_of([&] { draw_contact_sheet(layers, {0.1, 1, clear}); });
   };
   for (const bool is_same_layer : {false, true}) {
     EXPECT_EQ(message(wider, is_same_layer), wider + " has another size than the layers before it");

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "base/text/error.h"
-#include "program/evaluate.h"
+#include "program/test_evaluation.h"
 #include "surface/cells/shortened.h"
 #include "surface/test_partitions.h"
 
@@ -30,12 +30,6 @@ std::vector<Vec3> points_on_a_plate(size_t count) {
   return points;
 }
 
-double value_at(const program::Program& program, Vec3 p) {
-  std::vector<double> values;
-  program::evaluate_point(program, p, values);
-  return values[program.outputs[0]];
-}
-
 }  // namespace
 
 TEST(ScatteredPoints, AreEachHandledOnceByAProgramThatHoldsAroundThem) {
@@ -50,7 +44,7 @@ TEST(ScatteredPoints, AreEachHandledOnceByAProgramThatHoldsAroundThem) {
               for (const uint32_t n : numbers) ++times[n];
               const Vec3 first = points[numbers[0]];
               for (const Vec3 beside : {Vec3{0, 0, 0}, Vec3{margin, 0, 0}, Vec3{0, -margin, margin}})
-                EXPECT_EQ(value_at(program, first + beside), value_at(whole, first + beside));
+                EXPECT_EQ(program::value_at(program, first + beside), program::value_at(whole, first + beside));
               if (program.code.size() < shortest) shortest = program.code.size();
             });
     for (const auto& count : times) ASSERT_EQ(count, 1);
@@ -82,7 +76,8 @@ TEST(Shortened, ProgramsHoldInTheirBox) {
   const Box box{{7, 7, -2}, {9, 9, 2}};
   const program::Program near = shortened_for(whole, box);
   EXPECT_LT(near.code.size(), whole.code.size() / 4);
-  for (const Vec3 p : {box.lo, box.hi, box.center(), Vec3{7, 9, 0}}) EXPECT_EQ(value_at(near, p), value_at(whole, p));
+  for (const Vec3 p : {box.lo, box.hi, box.center(), Vec3{7, 9, 0}})
+    EXPECT_EQ(value_at(near, p), program::value_at(whole, p));
 }
 
 }  // namespace ombre::surface
