@@ -347,7 +347,7 @@ TEST_F(Tiff, PagesThatFollowThemselvesEnd) {
   EXPECT_EQ(read(writer.bytes()).size(), 1U);
 }
 
-TEST_F(Tiff, ReadingStopsWhenItIsAsked) {
+TEST_F(Tiff, ReadingStopsOnRequest) {
   StopFlag stop;
   EXPECT_EQ(read_pages("scan.tif", file_of(grey(2, 1, 8, "ab")), Wanted::numbers, &stop).size(), 1U);
   stop.request();

@@ -88,7 +88,7 @@ TEST(Contour, NeedsMemoryForItsCells) {
   }
 }
 
-TEST(Contour, StopsWhenItIsAsked) {
+TEST(Contour, StopsOnRequest) {
   StopFlag stop;
   stop.request();
   const ContourOptions options{corners_from_origin({23, 23, 23}), 0.05, true, {1, &stop}, 0};

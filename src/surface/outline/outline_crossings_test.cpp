@@ -108,7 +108,7 @@ TEST(OutlineCrossings, VerticesStayNearTheirCells) {
   EXPECT_LE(at.y, 6);
 }
 
-TEST(OutlineCrossings, StopWhenTheyAreAsked) {
+TEST(OutlineCrossings, StopOnRequest) {
   OutlineGraph graph = placed_graph(cone(), 1);
   StopFlag stop;
   stop.request();
