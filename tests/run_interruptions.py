@@ -241,6 +241,8 @@ def archives_hold_what_the_folder_holds(job):
     expect(not (job.path / "part.zip.pieces").exists(), "the folder of the layers stayed")
     refused = job.slice("part.zip", *SMALL, status=2).stderr
     expect("part.zip exists already; replace it with --force" in refused, refused)
+    refused = job.run("sheet", job.path / "part.zip", status=2).stderr
+    expect("part.zip is an archive; unpack it, and give the folder" in refused, refused)
     job.slice("part.zip", "--voxel", "0.2", "--force")
     expect(len(unpacked(job.path / "part.zip")) == 2 + 50, "the archive was not replaced")
 

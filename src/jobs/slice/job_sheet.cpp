@@ -14,6 +14,7 @@
 #include "formats/containers/file.h"
 #include "jobs/slice/stored_slices.h"
 #include "stores/journal_folder.h"
+#include "stores/open_store.h"
 #include "voxel/image_kinds.h"
 
 namespace ombre::compile {
@@ -119,6 +120,9 @@ exporting::SheetLayer sheet_layer(const LayerEntry& entry, const JobSummary& sum
 }  // namespace
 
 std::string contact_sheet(const std::string& folder, int layer_count) {
+  if (stores::is_archive(folder))
+    throw Error(Code::file_kind, folder + " is an archive; unpack it, and give the folder with the layers",
+                {{"file", folder}});
   const std::filesystem::path base(folder);
   const JobSummary summary = read_summary((base / job_file).string());
   const std::string journal = formats::read_file((base / stores::journal_file).string());
