@@ -515,6 +515,7 @@ const checks = {
     };
     const start = async (kind, options) => {
       await page.selectOption("select.kind", kind);
+      await page.waitForSelector(`.panel button[type=submit]:has-text("Start ${kind}")`);  // the form is the kind's
       for (const [name, value] of Object.entries(options)) await option(name, value);
       await page.click(".panel button[type=submit]");
     };
