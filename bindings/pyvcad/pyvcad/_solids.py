@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import Any
 
 import numpy
@@ -130,7 +131,7 @@ class GraphLattice(_Leaf):
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
-        struts = {"radius": length, "material": _one}
+        struts: dict[str, Callable[[Any], Any]] = {"radius": length, "material": _one}
         forms = ({"edges": _edges, **struts}, {"type": instance_of(LatticeType), "size": size, **struts})
         values = read("GraphLattice", forms, arguments, named)
         shape = ({"edges": values["edges"]} if "edges" in values
