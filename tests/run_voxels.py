@@ -244,7 +244,7 @@ def boxes_are_cut_out(grid):
 
 
 def slips_get_remedies(grid):
-    for arguments, message in [(["b.stl"], "let it end in .npy, .nrrd, .vti, .raw, .vdb or .nvdb"),
+    for arguments, message in [(["b.stl"], "let it end in .npy, .nrrd, .raw, .vti, .vdb or .nvdb"),
                                (["b"], "does not say a format"),
                                (["b.raw", "--gzip"], "--gzip is for .nrrd files"),
                                (["b.raw", "--what", "colour"], "the design has no attribute"),

@@ -94,7 +94,6 @@ TEST(Record, ReportsMistakesWithPlaceAndRemedy) {
     [1]
       => 1:1: error: expected a tray in braces, not a list of 1; its members are label, depth_mm, count, open, finish, colour, screws, spare
     {} => 1:1: error: a tray needs "label"; write "label": "bolts"
-    {"lable": "a", "label": "b"} => 1:12: error: a tray has no "lable"; did you mean "label"?
     {"label": " "} => 1:12: error: expected a text for "label", not the text " "
     {"label": "a", "count": 300} => 1:25: error: expected a whole number from 1 to 255 for "count", not 300
     {"label": "a", "count": 1.5} => 1:25: error: expected a whole number from 1 to 255 for "count", not 1.5

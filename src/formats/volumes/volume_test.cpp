@@ -163,7 +163,7 @@ TEST(Volume, WrongDescriptionsSayWhatIsWrongAndWhere) {
             R"(87: expected 3 numbers for "origin_mm", not 3; write [x, y, z] in mm)");
   EXPECT_EQ(description_problem(R"("spacing": [1, 1, 1])"),
             R"(60: a description of numbers has no "spacing"; did you mean "spacing_mm"?)");
-  EXPECT_EQ(description_problem(R"("made by": "us", "values": "density", "file": "v.raw")"), "none");
+  EXPECT_EQ(description_problem(R"("made by": "us", "values": "density", "file": "v.raw")"), "no error");
   EXPECT_TRUE(is_about(description_problem("1"), "this is not valid JSON"));
 }
 
