@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from typing import Any
 
 import numpy
@@ -131,7 +130,7 @@ class GraphLattice(_Leaf):
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
-        struts: dict[str, Callable[[Any], Any]] = {"radius": length, "material": _one}
+        struts: dict[str, Any] = {"radius": length, "material": _one}
         forms = ({"edges": _edges, **struts}, {"type": instance_of(LatticeType), "size": size, **struts})
         values = read("GraphLattice", forms, arguments, named)
         shape = ({"edges": values["edges"]} if "edges" in values
