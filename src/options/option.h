@@ -104,7 +104,7 @@ Spec<Job> recorded(const Spec<Job>& spec, std::vector<std::string> Job::*member)
       set(job, texts);
       std::vector<std::string>& settings = static_cast<Job*>(job)->*member;
       if (texts.empty()) settings.push_back(name);
-      for (const std::string& text : texts) settings.push_back(name + '=' + text);
+      for (const std::string& text : texts) settings.push_back(std::string(name).append("=").append(text));
     };
   return {row};
 }

@@ -37,7 +37,7 @@ class Ends : public testing::Test {
       for (int64_t column = 0; column < side; ++column) hits.at(column, row) = RayHit::nothing();
   }
 
-  const std::vector<std::unique_ptr<program::RowSampler>> no_samplers;
+  const std::vector<std::unique_ptr<program::RowSampler>> no_samplers = {};
   const voxel::StripSources no_sources{no_samplers, {}};
   RayBand hits{0, side, side};
 };
