@@ -9,7 +9,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int64_t most_generated = 100'000'000;
+constexpr int64_t most_generated = 5'000'000;  // nodes and elements of a part
 
 // Returns a whole number of a field, or `otherwise` if the field is missing or empty.
 int64_t whole_field(const DeckLine& line, const std::vector<std::string_view>& fields, size_t n, int64_t otherwise) {
@@ -106,6 +106,14 @@ void DeckPart::add_to_element_set(const Keyword& elset, const DeckLine& line) {
   add_to_set(elset, line, element_sets_, "elset");
 }
 
+void DeckPart::count_generated(const DeckLine& line, int64_t count) {
+  generated_ += count;
+  if (generated_ > most_generated)
+    line.fail("the deck generates more than " + format_count(static_cast<uint64_t>(most_generated)) +
+                  " nodes and elements of a part",
+              "save the mesh with all of its nodes and elements");
+}
+
 // Nodes on the straight line from one node to another. Source: Abaqus keywords reference guide, *NGEN.
 void DeckPart::generate_nodes(const Keyword& ngen, const DeckLine& line) {
   refuse_parameters(ngen, {"line", "system"});
@@ -116,6 +124,7 @@ void DeckPart::generate_nodes(const Keyword& ngen, const DeckLine& line) {
   if (step == 0 || (to - from) % step != 0 || (to - from) / step < 1 || (to - from) / step > most_generated)
     line.fail("steps of " + std::to_string(step) + " do not lead from node " + std::to_string(first) + " to node " +
               std::to_string(last));
+  count_generated(line, (to - from) / step);
   const Vec3 a = node_at(line, first), b = node_at(line, last);
   const std::string set = ngen.name_of("nset");
   if (!set.empty()) node_sets_[set].insert(node_sets_[set].end(), {first, last});
@@ -137,6 +146,7 @@ void DeckPart::fill_nodes(const Keyword& nfill, const DeckLine& line) {
               " nodes; they must have as many");
   if (intervals < 1 || intervals * static_cast<int64_t>(first.size()) > most_generated)
     line.fail("expected the number of intervals, found " + std::to_string(intervals));
+  count_generated(line, intervals * static_cast<int64_t>(first.size()));
   const std::string set = nfill.name_of("nset");
   for (size_t n = 0; n < first.size(); ++n) {
     const Vec3 a = node_at(line, first[n]), b = node_at(line, second[n]);
@@ -163,8 +173,9 @@ void DeckPart::generate_elements(const Keyword& elgen, const DeckLine& line) {
     along[n].by = whole_field(line, fields, 3 * n + 3, 1);
     if (along[n].count < 1 || along[n].count > most_generated) line.fail("expected the number of elements in a row");
     total *= along[n].count;
-    if (total > most_generated) line.fail("the rows have too many elements");
+    if (total > most_generated) break;
   }
+  count_generated(line, total);
   const std::string set = elgen.name_of("elset");
   if (!set.empty()) element_sets_[set].push_back(master.number);
   for (int64_t layer = 0; layer < along[2].count; ++layer)
@@ -179,7 +190,9 @@ void DeckPart::generate_elements(const Keyword& elgen, const DeckLine& line) {
 void DeckPart::copy_nodes(const Keyword& ncopy, const Affine& move) {
   const int64_t by = whole_parameter(ncopy, "change number", 0);
   const std::string set = ncopy.name_of("new set");
-  for (const uint64_t number : node_set(ncopy.line, ncopy.value("old set")))
+  const Set nodes = node_set(ncopy.line, ncopy.value("old set"));
+  count_generated(ncopy.line, static_cast<int64_t>(nodes.size()));
+  for (const uint64_t number : nodes)
     add_node(ncopy.line, deck_number(ncopy.line, static_cast<double>(static_cast<int64_t>(number) + by)),
              move(node_at(ncopy.line, number)), set);
 }
@@ -189,6 +202,7 @@ void DeckPart::copy_elements(const Keyword& elcopy) {
   const std::string old_set = elcopy.name_of("old set"), set = elcopy.name_of("new set");
   const auto found = element_sets_.find(old_set);
   if (found == element_sets_.end()) elcopy.line.fail("there is no set of elements " + formats::quoted(old_set));
+  count_generated(elcopy.line, static_cast<int64_t>(found->second.size()));
   for (const uint64_t number : sorted(found->second))
     copy_element(elcopy.line, element_at(elcopy.line, number), whole_parameter(elcopy, "element shift", 0),
                  whole_parameter(elcopy, "shift nodes", 0), set);

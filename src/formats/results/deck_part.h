@@ -57,6 +57,8 @@ class DeckPart {
 
   // Returns the set, or the one node whose number the name is. Sets are sorted unless they say that they are not.
   Set node_set(const DeckLine& line, std::string_view name) const;
+  // Reports an error at the line if the part generates too many nodes and elements.
+  void count_generated(const DeckLine& line, int64_t count);
   Vec3 node_at(const DeckLine& line, uint64_t number) const;
   Element element_at(const DeckLine& line, uint64_t number) const;
   void copy_element(const DeckLine& line, const Element& master, int64_t by, int64_t nodes_by, const std::string& set);
@@ -66,6 +68,7 @@ class DeckPart {
   std::vector<uint64_t> element_nodes_;
   std::unordered_map<uint64_t, uint32_t> node_places_, element_places_;
   Sets node_sets_, element_sets_;
+  int64_t generated_ = 0;
   std::set<std::string> unsorted_sets_;
 };
 

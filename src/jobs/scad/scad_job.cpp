@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/text/error.h"
+#include "base/text/text.h"
 #include "export/mesh_file.h"
 #include "export/output_file.h"
 #include "formats/drawings/plane_writers.h"

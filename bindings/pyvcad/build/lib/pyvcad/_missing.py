@@ -1,0 +1,98 @@
+"""Names of pyvcad that Ombre does not have yet: each reports that when it is made."""
+from __future__ import annotations
+
+import difflib
+import functools
+from typing import Any
+
+from ._errors import missing
+from ._tree import Node
+
+_grids = "ombre voxels writes grids, and node.toSignedDistanceArray and toRGBAArray give arrays"
+_lattices = "tile a GraphLattice, or write the lattice as a Function"
+_surfaces = "ombre.conformal_map, surface_map and relief lay things along surfaces"
+_images = "ombre.relief reads images as heights"
+
+# Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
+MISSING: dict[str, dict[str, str]] = {
+    "pyvcad": {
+        "TexturedMesh": "Mesh(path) reads the shape",
+        "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
+        "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
+        "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
+        "Mix": "Union(True, [...]) mixes compositions",
+        "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CellMap": _surfaces, "CellMapCollection": _surfaces,
+        "MappedImplicitLattice": _lattices, "MappedGraphLattice": _lattices, "ImplicitUnitCell": _lattices,
+        "GraphUnitCell": _lattices, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
+        "TriangleMeshSurface": _surfaces, "MeshSelection": "", "probe_point": "node.snap(point)",
+        "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
+        "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
+    "pyvcad_compilers": dict.fromkeys(
+        ("ColorPipeline", "GCVFCompiler"),
+        "ColorInkjetCompiler and MaterialInkjetCompiler write the images of a material printer") | dict.fromkeys(
+        ("MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
+         "MyersonCompiler"), "VatCompiler writes gray images") | dict.fromkeys(
+        ("FullSpectrumSlicerProjectCompiler",),
+        "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
+    "pyvcad_rendering": {
+        "Render_Image": "Render(root, materials, path=\"part.png\")", "Render_Sweep_Animation": "", "VisualizeSDF": "",
+        "Render_Turntable_Animation": "", "Render_Tree_Diagram": "", "Render_Tree_Legend": "",
+        "export_iso_surface_vtk": "Export(root, materials, path=\"part.ply\")",
+        "export_volume_vtk": "Export(root, materials, path=\"part.vdb\")", "select_mesh_patch": "",
+        "resolve_selection_mesh": "", "save_mesh_selection": "", "load_mesh_selection": "", "replay_mesh_selection": ""},
+}
+
+# Methods of nodes that are missing, with what to use instead.
+_methods = {
+    "to_diagram": "", "set_attribute_conflict_resolver": "it is a method of Union, Intersection and BBoxUnion",
+    "attribute_conflict_resolvers": "it is a method of Union, Intersection and BBoxUnion", "get_gradient_epsilon": "",
+    "set_gradient_epsilon": "", "component_parameter": "", "segment_info": ""}
+
+
+class _Absent(type):
+    """The class of what is missing: each use of it raises an error that says so."""
+
+    _instead: str
+
+    def __call__(cls, *arguments: Any, **named: Any) -> Any:
+        raise missing(cls.__name__, cls._instead)
+
+    def __getattr__(cls, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise missing(f"{cls.__name__}.{name}", cls._instead)
+
+
+@functools.lru_cache(maxsize=None)
+def _absent(package: str, name: str) -> type:
+    return _Absent(name, (), {"_instead": MISSING[package][name], "__module__": package})
+
+
+def attribute_of(package: str, known: list[str], name: str) -> Any:
+    """Returns the stand-in for a missing name, for `__getattr__` of a package. Raises AttributeError for other names."""
+    if name in MISSING.get(package, {}):
+        return _absent(package, name)
+    close = difflib.get_close_matches(name, [*known, *MISSING.get(package, {})], 1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    raise AttributeError(f"module {package!r} has no attribute {name!r}{hint}")
+
+
+def _method_of(node: Node, name: str) -> Any:
+    if name in _methods:
+        raise missing(f"{node.type()}.{name}", _methods[name])
+    close = [] if name.startswith("_") else difflib.get_close_matches(name, [n for n in dir(node) if n[0] != "_"], 1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    raise AttributeError(f"{type(node).__name__!r} has no attribute {name!r}{hint}")
+
+
+# It is set here instead of in the class, so that type checkers still find misspelt names.
+Node.__getattr__ = _method_of  # type: ignore[attr-defined]
+
+
+class _Missing(Node):
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        raise missing(type(self).__name__)
+
+
+class Map(_Missing):
+    """Coordinates along a surface."""

@@ -1,0 +1,78 @@
+"""Solids from outlines: texts and polygons with a height."""
+from __future__ import annotations
+
+from typing import Any
+
+import ombre
+
+from ._arguments import Optional, Point, boolean, length, read, text, vector
+from ._enums import FontAspect, HorizontalAlignment, VerticalAlignment
+from ._solids import _Leaf, _one
+
+_free_font = "DejaVu Sans Mono"  # replaces Consolas, the default of pyvcad
+_styles = {FontAspect.Regular: "regular", FontAspect.Bold: "bold", FontAspect.Italic: "italic",
+           FontAspect.BoldItalic: "bold_italic"}
+_sides = {HorizontalAlignment.Left: "left", HorizontalAlignment.Center: "center", HorizontalAlignment.Right: "right"}
+_levels = {VerticalAlignment.Bottom: "bottom", VerticalAlignment.Center: "center", VerticalAlignment.Top: "top",
+           VerticalAlignment.TopFirstLine: "top_first_line"}
+
+
+def _choice(words: dict[Any, str]) -> Any:
+    kind = type(next(iter(words)))
+
+    def read_choice(value: Any) -> str:
+        if not isinstance(value, kind):
+            raise TypeError(f"expected a {kind.__name__}, found {type(value).__name__}")
+        return words[value]
+    return read_choice
+
+
+class Text(_Leaf):
+    """Letters with a depth, half of it to each side of z = 0: Text(text, height, depth, material=1, aspect, font, h_align, v_align).
+
+    The height is the font's size; capitals are about 0.7 times as tall. Lines end with a line feed.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        form = {"text": text, "height": length, "depth": length, "material": _one,
+                "aspect": Optional(_choice(_styles), "regular"), "font": Optional(text, None),
+                "h_align": Optional(_choice(_sides), "center"), "v_align": Optional(_choice(_levels), "center")}
+        values = read("Text", (form,), arguments, named)
+        self._material = values.pop("material")
+        self._values = values
+        if not values["text"].strip():
+            raise ValueError("Text: expected a text with letters")
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        v = self._values
+        font = v["font"] or _free_font
+        return ombre.text(v["text"], v["height"], v["depth"], self._material, style=v["aspect"], font=font,
+                          h_align=v["h_align"], v_align=v["v_align"], measure="em")
+
+
+def _vertices(value: Any) -> list[Point]:
+    if isinstance(value, str) or not hasattr(value, "__iter__"):
+        raise TypeError(f"expected a list of Vec3, found {type(value).__name__}")
+    points = [vector(point) for point in value]
+    if len(points) < 3:
+        raise ValueError(f"expected at least 3 points, found {len(points)}")
+    return points
+
+
+class PolygonExtrude(_Leaf):
+    """Polygon with a height: PolygonExtrude(vertices, height, symmetric=False, material=1).
+
+    At least 3 points in a plane; it rises along the normal around which they go counterclockwise, or by half of its
+    height to each side.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        form = {"vertices": _vertices, "height": length, "symmetric": Optional(boolean, False), "material": _one}
+        values = read("PolygonExtrude", (form,), arguments, named)
+        self._vertices, self._height = values["vertices"], values["height"]
+        self._symmetric, self._material = values["symmetric"], values["material"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.polygon_extrude(self._vertices, self._height, self._symmetric, self._material)

@@ -1,0 +1,259 @@
+"""Solids that need no others."""
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+
+import ombre
+
+from ._arguments import (Optional, Point, boolean, instance_of, length, material, not_negative, number, read, size, text,
+                         vector)
+from ._enums import LatticeType
+from ._functions import expression
+from ._tree import Node, _call_place
+from ._volumes import FloatVolume
+
+class _Unset(int):
+    """The material of a node that was given none."""
+
+
+_unset = _Unset(1)
+_one = Optional(material, _unset)
+
+
+def is_unset(node: Node) -> bool:
+    """True if the node is a solid that was given no material."""
+    return isinstance(node, _Leaf) and isinstance(node._material, _Unset)
+
+
+class _Leaf(Node):
+    _material: int
+
+    def _own_materials(self) -> set[int]:
+        return {self._material}
+
+
+def _at(center: Point, solid: ombre.Solid) -> ombre.Solid:
+    return solid if center == (0, 0, 0) else ombre.translate(solid, center)
+
+
+class RectPrism(_Leaf):
+    """Block with edges along the axes: RectPrism(center, size, material=1)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        values = read("RectPrism", ({}, {"center": vector, "size": size, "material": _one}), arguments, named)
+        self._center: Point = values.get("center", (0, 0, 0))
+        self._size: Point = values.get("size", (10, 10, 10))
+        self._material = values.get("material", _unset)
+
+    @staticmethod
+    def FromMinAndMax(min: Any, max: Any, material: int = 1) -> RectPrism:
+        """The block between two opposite corners."""
+        low, high = vector(min), vector(max)
+        center = tuple((a + b) / 2 for a, b in zip(low, high))
+        return RectPrism(center, tuple(b - a for a, b in zip(low, high)), material)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return _at(self._center, ombre.rectprism(self._size, self._material))
+
+
+class Sphere(_Leaf):
+    """Ball: Sphere(center, radius, material=1), or the centre as three numbers."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        values = read("Sphere", ({}, {"center": vector, "radius": length, "material": _one},
+                                 {"cx": number, "cy": number, "cz": number, "radius": length, "material": _one}),
+                      arguments, named)
+        self._center: Point = values.get("center") or (
+            values.get("cx", 0.0), values.get("cy", 0.0), values.get("cz", 0.0))
+        self._radius = values.get("radius", 5.0)
+        self._material = values.get("material", _unset)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return _at(self._center, ombre.sphere(self._radius, self._material))
+
+
+class Torus(_Leaf):
+    """Ring in the plane z = 0: Torus(ring, tube, material=1), of the radii of its middle line and of its tube."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        values = read("Torus", ({}, {"r1": length, "r2": length, "material": _one}), arguments, named)
+        self._ring, self._tube = values.get("r1", 2.0), values.get("r2", 1.0)
+        self._material = values.get("material", _unset)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.torus(self._ring, self._tube, self._material)
+
+
+class Cylinder(_Leaf):
+    """Cylinder along z: Cylinder(center, radius, height, material=1)."""
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        form = {"center": vector, "radius": length, "height": length, "material": _one}
+        values = read("Cylinder", ({}, form), arguments, named)
+        self._center: Point = values.get("center", (0, 0, 0))
+        self._radius, self._height = values.get("radius", 5.0), values.get("height", 10.0)
+        self._material = values.get("material", _unset)
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return _at(self._center, ombre.cylinder(self._radius, self._height, self._material))
+
+
+def _edges(value: Any) -> list[tuple[Point, Point]]:
+    if isinstance(value, (str, LatticeType)) or not hasattr(value, "__iter__"):
+        raise TypeError(f"expected a list of pairs of Vec3, found {type(value).__name__}")
+    edges = []
+    for i, edge in enumerate(value):
+        if not hasattr(edge, "__len__") or len(edge) != 2:
+            raise TypeError(f"edge {i}: expected a pair of Vec3")
+        edges.append((vector(edge[0]), vector(edge[1])))
+    if not edges:
+        raise ValueError("expected at least one edge")
+    return edges
+
+
+_cells = {LatticeType.BodyCenteredCubic: "bcc", LatticeType.FaceCenteredCubic: "fcc", LatticeType.Cubic: "cubic",
+          LatticeType.KelvinCell: "kelvin"}
+
+
+class GraphLattice(_Leaf):
+    """Struts with round ends along edges: GraphLattice(edges, radius, material=1); an edge is a pair of Vec3.
+
+    Or those of a unit cell, centred on the origin: GraphLattice(type, size, radius, material=1).
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        struts: dict[str, Callable[[Any], Any]] = {"radius": length, "material": _one}
+        forms = ({"edges": _edges, **struts}, {"type": instance_of(LatticeType), "size": size, **struts})
+        values = read("GraphLattice", forms, arguments, named)
+        shape = ({"edges": values["edges"]} if "edges" in values
+                 else {"cell": _cells[values["type"]], "size": values["size"]})
+        self._shape: dict[str, Any] = shape
+        self._radius, self._material = values["radius"], values["material"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.lattice(**self._shape, radius=self._radius, material=self._material)
+
+
+class Function(_Leaf):
+    """Points of a box where an expression is 0 or less: Function(expr, material=1, min=Vec3(-10, ...), max=Vec3(10, ...)).
+
+    The expression is a text, or a function of (x, y, z, rho, phic, r, theta, phis), which is slow.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        corner = (10.0, 10.0, 10.0)
+        form = {"expr": expression, "material": _one, "min": Optional(vector, tuple(-c for c in corner)),
+                "max": Optional(vector, corner)}
+        values = read("Function", (form,), arguments, named)
+        self._expression, self._material = values["expr"], values["material"]
+        self._min, self._max = values["min"], values["max"]
+        if not all(a < b for a, b in zip(self._min, self._max)):
+            raise ValueError(f"Function: expected min below max along x, y and z, found {self._min} and {self._max}")
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.function(self._expression, self._material, min=self._min, max=self._max)
+
+
+def _sample_size(value: Any) -> Point | float:
+    return length(value) if isinstance(value, float) else size(value)
+
+
+class Mesh(_Leaf):
+    """Solid of a file's triangles: Mesh(path, material=1, disable_validation=False), or of a SurfaceMesh.
+
+    A second argument that is a float or a Vec3 is a sample size: it is accepted, and nothing is sampled, since rows of
+    voxels are found exactly. Without validation open meshes are closed by their winding number.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        options = {"material": _one, "disable_validation": Optional(boolean, False)}
+        if arguments and hasattr(arguments[0], "_stl_path"):  # a SurfaceMesh, whose file stays as long as it is held
+            self._surface = arguments[0]
+            arguments = (self._surface._stl_path(), *arguments[1:])
+        values = read("Mesh", ({"path": text, **options}, {"path": text, "sample_size": _sample_size, **options}),
+                      arguments, named)
+        self._path = _find("Mesh", values["path"])
+        self._material, self._any_winding = values["material"], values["disable_validation"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        if self._any_winding:
+            return ombre.mesh(self._path, self._material, inside="generalized")
+        return ombre.mesh(self._path, self._material)
+
+
+class CAD(_Leaf):
+    """Solid of a STEP or IGES file: CAD(path, use_fast_mode=True, material=1).
+
+    The fast mode works by triangles, which are as fine as a job's voxels ask for; the other asks the surfaces themselves.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        form = {"path": text, "use_fast_mode": Optional(boolean, True), "material": _one}
+        values = read("CAD", (form,), arguments, named)
+        self._path = _find("CAD", values["path"])
+        self._is_fast, self._material = values["use_fast_mode"], values["material"]
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        return ombre.cad(self._path, self._material, mode="fast" if self._is_fast else "exact")
+
+
+class SignedDistanceField(_Leaf):
+    """Solid of a grid in a .vdb file, or of a FloatVolume: distances in mm, negative inside, or with the name "occupancy"
+    flags of voxels that are inside.
+
+    SignedDistanceField(vdb_path, grid_name="occupancy", half_width_voxels=3, closing_steps=0, dilation_voxels=0,
+    smoothing_steps=3); steps and voxels are for flags. `smoothing_steps` is the width of a Gaussian in voxels.
+    """
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__()
+        none, three = Optional(not_negative, 0), Optional(not_negative, 3)
+        form = {"vdb_path": text, "grid_name": Optional(text, "occupancy"), "half_width_voxels": three,
+                "closing_steps": none, "dilation_voxels": none, "smoothing_steps": three, "material": _one}
+        own = {"volume": instance_of(FloatVolume), "material": _one}
+        values = read("SignedDistanceField", (form, own), arguments, named)
+        self._material = values["material"]
+        self._closing, self._dilation = values.get("closing_steps", 0), values.get("dilation_voxels", 0)
+        self._smoothing, self._is_binary = values.get("smoothing_steps", 0), False
+        if "volume" in values:
+            self._grid: FloatVolume = values["volume"]
+            return
+        path = _find("SignedDistanceField", values["vdb_path"])
+        self._grid = FloatVolume(path, None, False, values["grid_name"], margin=1.0)
+        self._is_binary = self._grid._range[0] >= 0
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        grid = self._grid
+        options = {**grid._options, **({"series": grid._series} if grid._series else {})}
+        solid: ombre.Solid = ombre.volume_solid(grid._path, self._material, level=0.5 if self._is_binary else 0.0,
+                                                above=self._is_binary, **options)
+        if not self._is_binary:
+            return solid
+        pitch = tuple(float(numpy.linalg.norm(step)) for step in grid._steps)
+        if self._closing:
+            solid = ombre.closing(solid, self._closing * min(pitch), pitch=pitch)
+        if self._dilation:
+            solid = ombre.dilate(solid, self._dilation * min(pitch), pitch=pitch)
+        return ombre.smooth(solid, self._smoothing * min(pitch), pitch=pitch) if self._smoothing else solid
+
+
+def _find(node: str, path: str) -> str:
+    """A file, relative to the script, then to the working directory. Raises FileNotFoundError."""
+    script = _call_place()[0]
+    for folder in (os.path.dirname(os.path.abspath(script)), os.getcwd()):
+        if os.path.isfile(os.path.join(folder, path)):
+            return os.path.normpath(os.path.join(folder, path))
+    raise FileNotFoundError(f"{node}: there is no file {path}, neither beside {os.path.basename(script)} nor in "
+                            f"{os.getcwd()}")

@@ -1,0 +1,24 @@
+"""Compilers of pyvcad's scripts: objects with compile() and setProgressCallback(f).
+
+A callback gets the share that is done, 0 to 1.
+"""
+from pyvcad._missing import attribute_of
+
+from ._attribute_compilers import VatCompiler, VdbCompiler
+from ._compilers import CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, MeshCompiler
+from ._simulation import (InpWriter, SimulationBackend, SimulationCellType, SimulationCompiler,
+                          SimulationCompilerSettings, SimulationHexMeshSettings, SimulationMeshKind, SimulationModel,
+                          SimulationTetFixedMeshSettings)
+from ._inkjet import (ColorInkjetCompiler, ColorInkjetExportMode, ColorPipelineOptions, MaterialInkjetCompiler,
+                      MaterialInkjetExportMode)
+from ._slicer_projects import PrusaSlicerProjectCompiler
+
+__all__ = ["ColorInkjetCompiler", "ColorInkjetExportMode", "ColorPipelineOptions", "PrusaSlicerProjectCompiler",
+           "MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler",
+           "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler",
+           "SimulationBackend", "SimulationCellType", "SimulationCompiler", "SimulationCompilerSettings",
+           "SimulationHexMeshSettings", "SimulationMeshKind", "SimulationModel", "SimulationTetFixedMeshSettings"]
+
+
+def __getattr__(name: str) -> object:
+    return attribute_of(__name__, __all__, name)

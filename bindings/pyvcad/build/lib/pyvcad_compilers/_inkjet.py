@@ -1,0 +1,195 @@
+"""The compilers of material inkjet printers: of fractions of materials, and of colours."""
+from __future__ import annotations
+
+import enum
+import json
+import os
+import struct
+import tempfile
+import time
+from typing import Any, Literal
+
+import ombre
+from pyvcad._arguments import number
+from pyvcad._attributes import Vec4Attribute
+from pyvcad._errors import missing
+from pyvcad._keep_out import KeepOut
+from pyvcad._materials import MaterialDefs, default_materials, expect_table, j750_materials
+from pyvcad._solids import is_unset
+from pyvcad._tree import Node, Unary, as_node, in_order
+
+from ._attribute_compilers import _AttributeCompiler
+from ._compilers import Path, _voxel
+
+
+class MaterialInkjetExportMode(enum.Enum):
+    STOCHASTIC = 0
+    DITHERED_3D = 1
+
+
+class ColorInkjetExportMode(enum.Enum):
+    STOCHASTIC = 0
+    DITHERED_3D = 1
+
+
+class _InkjetCompiler(_AttributeCompiler):
+    """Writes an image for each layer, in the colours of the materials.
+
+    Layers that are empty at both ends are left out. Images are not flipped, and draws have the seed 0, so that two runs give
+    the same bytes.
+    """
+
+    _materials: MaterialDefs | None
+
+    def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, mode: enum.Enum) -> None:
+        self._root, self._voxel = as_node(root), _voxel(type(self).__name__, voxel_size)
+        self._folder, self._prefix, self._mode = os.fspath(output_directory), file_prefix, mode
+        self._counts: dict[int, int] = {}
+        self._resolution = (0, 0, 0)
+        self._stats: list[tuple[str, Any]] = []
+
+    def _tree(self) -> Node:
+        """Returns the tree with materials that is printed."""
+        raise NotImplementedError
+
+    def _check_strictly(self) -> None:
+        raise NotImplementedError
+
+    def compile(self) -> None:
+        self._check_attributes()
+        self._is_stopped = False
+        begin = time.monotonic()
+        if self._is_strict:
+            self._check_strictly()
+        design = self._tree()._ombre_design_(self._materials)
+        prepared = time.monotonic()
+        os.makedirs(self._folder, exist_ok=True)
+        dither: Literal["stochastic", "diffusion"] = "stochastic" if self._mode.name == "STOCHASTIC" else "diffusion"
+        with tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as folder:
+            job = os.path.join(folder, "job")
+            self._share(0.0)
+            design.slice(job, voxel=self._voxel, dither=dither, progress=self._share)
+            self._stop_if_cancelled()
+            self._take(job)
+        self._stats = [("box", design.bounds), ("voxel size, mm", self._voxel), ("pixels and layers", self._resolution),
+                       ("voxels", sum(self._counts.values())), ("preparing, s", round(prepared - begin, 3)),
+                       ("slicing and writing, s", round(time.monotonic() - prepared, 3))]
+        self._report(1.0)
+
+    def resolution(self) -> tuple[int, int, int]:
+        return self._resolution
+
+    def material_voxel_counts(self) -> dict[int, int]:
+        return dict(self._counts)
+
+    def report_stats(self) -> None:
+        """Prints figures of the last compile()."""
+        for name, value in self._stats:
+            print(f"{name}: {value}")
+
+    def _take(self, job: str) -> None:
+        """Moves the images out of the job, and counts."""
+        with open(os.path.join(job, "job.json"), encoding="utf-8") as file:
+            ids = [material["id"] for material in json.load(file)["materials"]][1:]
+        with open(os.path.join(job, "journal.jsonl"), encoding="utf-8") as file:
+            entries = [json.loads(line) for line in file]
+        layers = sorted((entry for entry in entries if "layer" in entry), key=lambda entry: int(entry["layer"]))
+        filled = [n for n, entry in enumerate(layers) if sum(entry["voxels"])]
+        kept = layers[filled[0]:filled[-1] + 1] if filled else []
+        width = height = 0
+        for n, entry in enumerate(kept):
+            path = os.path.join(self._folder, f"{self._prefix}{n}.png")
+            os.replace(os.path.join(job, entry["files"][0]["file"]), path)
+            if n == 0:
+                with open(path, "rb") as image:
+                    width, height = struct.unpack(">II", image.read(24)[16:])
+        self._counts = {id: count for i, id in enumerate(ids) if (count := sum(entry["voxels"][i] for entry in kept))}
+        self._resolution = (width, height, len(kept))
+
+
+class MaterialInkjetCompiler(_InkjetCompiler):
+    """Writes images of "volume_fractions": PREFIX0.png, ...
+
+    Args:
+        liquid_keep_out_distance: mm from the surface, within which mixtures hold no liquid; 0: it may be anywhere.
+    """
+
+    _required = ("volume_fractions",)
+
+    def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, material_defs: Any,
+                 liquid_keep_out_distance: float = 0.0,
+                 export_mode: MaterialInkjetExportMode = MaterialInkjetExportMode.STOCHASTIC) -> None:
+        super().__init__(root, voxel_size, output_directory, file_prefix, export_mode)
+        self._materials = expect_table("MaterialInkjetCompiler", material_defs)
+        self._keep_out = number(liquid_keep_out_distance)
+        self._fallback = 0
+
+    def set_fallback_material_id(self, id: int) -> None:
+        """Sets the material of places without any; 0, the void, at first."""
+        (self._materials or default_materials).name(id)  # raises an error if there is none
+        self._fallback = id
+
+    def _check_strictly(self) -> None:
+        self._check_everywhere("volume_fractions", is_unset, lambda node: node._fractions() is not None)
+
+    def _tree(self) -> Node:
+        """Returns a copy, in which solids without a material have the fallback."""
+        tree = self._root.clone()
+        for node in in_order(tree):
+            if is_unset(node):
+                node._material = self._fallback  # type: ignore[attr-defined]
+        return KeepOut(tree, self._keep_out, self._materials) if self._keep_out > 0 else tree
+
+
+_inks = ("VeroCyan", "VeroMagenta", "VeroYellow", "VeroBlack", "VeroPureWht")
+_clear = "VeroClear"
+
+
+class _Coloured(Unary):
+    """The child, of the materials that show its attribute color_rgba."""
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        colour = ombre.attribute_of(solids[0], "color_rgba")
+        opaque = ombre.colour_mixture(colour.vector, list(_inks)).mixture
+        return ombre.material(solids[0], [ombre.mix(_clear, opaque, colour.alpha)])
+
+
+class ColorPipelineOptions:
+    """Steps from colours to droplets. Ombre's own way has none of them, so that they change nothing."""
+
+    def __init__(self) -> None:
+        self.first_gamma_enabled = self.icc_profile_enabled = True
+        self.second_gamma_enabled = self.affinity_blend_enabled = True
+
+
+class ColorInkjetCompiler(_InkjetCompiler):
+    """Writes images of "color_rgba": PREFIX0.png, ...
+
+    Each colour becomes the mixture of cyan, magenta, yellow, black and white whose light is nearest to it in the mean
+    (`ombre.colour_mixture`), and of clear as its alpha says. There are no ICC profiles but "default", which is this.
+    """
+
+    _required = ("color_rgba",)
+
+    def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, icc_profile: str = "default",
+                 export_mode: ColorInkjetExportMode = ColorInkjetExportMode.STOCHASTIC,
+                 color_pipeline_options: ColorPipelineOptions | None = None) -> None:
+        if icc_profile != "default":
+            raise missing(f"ColorInkjetCompiler with the ICC profile {icc_profile!r}", '"default"')
+        super().__init__(root, voxel_size, output_directory, file_prefix, export_mode)
+        self._materials = j750_materials
+        self._fallback: Any = (0, 0, 0, 0)
+
+    def set_fallback_color(self, color: Any) -> None:
+        """Sets the colour, from 0 to 1, of places without any; clear at first."""
+        self._fallback = tuple(color)
+
+    def _check_strictly(self) -> None:
+        self._check_everywhere("color_rgba", lambda node: not node._inputs(), lambda node: "color_rgba" in node._attributes)
+
+    def _tree(self) -> Node:
+        tree = self._root.clone()
+        for node in in_order(tree):
+            if not node._inputs() and "color_rgba" not in node._attributes:
+                node._attributes["color_rgba"] = Vec4Attribute(*self._fallback)
+        return _Coloured(tree)
