@@ -22,13 +22,20 @@ print(pyvcad.Sphere(pyvcad.Vec3(0, 0, 0), 10).evaluate(15, 0, 0))
 """
 
 
+def changes():
+    """What git sees in the sources beside the last commit; files elsewhere have no git."""
+    return subprocess.run(["git", "-C", sources, "status", "--porcelain"], capture_output=True, text=True).stdout
+
+
 def main():
+    before = changes()
     with tempfile.TemporaryDirectory() as scratch:
         venv = pathlib.Path(scratch) / "venv"
         subprocess.run([sys.executable, "-m", "venv", venv], check=True)
         environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "OMBRE_DATA")}
         environment["CXX"] = "c++"  # the name that the compiler cache knows
         subprocess.run([venv / "bin" / "pip", "install", "--quiet", sources, sources / "bindings" / "pyvcad"], check=True, env=environment)
+        assert changes() == before, f"building the packages left files in the sources: {changes()}"
         subprocess.run([venv / "bin" / "python", "-W", "error", "-c", USE], check=True, cwd=scratch, env=environment)
         subprocess.run([venv / "bin" / "ombre", "nodes"], check=True, cwd=scratch, env=environment,
                        stdout=subprocess.DEVNULL)
