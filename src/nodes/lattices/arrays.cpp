@@ -1,6 +1,5 @@
 // Copies of a solid in rows, grids and circles, and mirrored.
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/parameter_checks.h"
 #include "nodes/common/shapes.h"

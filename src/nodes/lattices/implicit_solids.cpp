@@ -1,6 +1,5 @@
 // Solids given by a formula.
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/parameter_checks.h"
 #include "nodes/common/shapes.h"
 

@@ -1,6 +1,5 @@
 // Lattices of struts: named unit cells, or graphs of edges.
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/segments.h"
 #include "nodes/common/strut_families.h"
 #include "nodes/lattices/unit_cells.h"

@@ -3,7 +3,6 @@
 
 #include "base/text/text.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/struts.h"
 

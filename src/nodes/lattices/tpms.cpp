@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "program/gradient.h"
 
 namespace ombre::nodes {

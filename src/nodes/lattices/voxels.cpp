@@ -5,7 +5,6 @@
 #include "base/text/text.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
 
 namespace ombre::nodes {

@@ -4,7 +4,6 @@
 
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/common/families.h"
 #include "nodes/common/parameter_checks.h"
 #include "nodes/common/shapes.h"
 

@@ -3,7 +3,6 @@
 
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {

@@ -1,6 +1,5 @@
 // Solids that are joined, cut and complemented, optionally with a blend along their seams.
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/solids/blends.h"
 

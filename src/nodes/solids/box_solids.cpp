@@ -1,6 +1,5 @@
 // Solids with flat faces.
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
 
 namespace ombre::nodes {

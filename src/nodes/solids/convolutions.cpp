@@ -3,7 +3,6 @@
 
 #include "base/text/text.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/filter_stages.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/stage_fields.h"

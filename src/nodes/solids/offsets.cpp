@@ -1,7 +1,6 @@
 // Solids bounded by level sets of a child's distance: grown, shrunk, hollowed.
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {

@@ -6,7 +6,6 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/repeated_points.h"
 #include "nodes/common/shapes.h"
 #include "nodes/solids/plane_polygons.h"

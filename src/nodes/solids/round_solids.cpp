@@ -1,6 +1,5 @@
 // Solids made from circles.
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/segments.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/strut_families.h"

@@ -1,6 +1,5 @@
 // Solids whose distances are added: organic joints and level sets.
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/solids/blends.h"
 

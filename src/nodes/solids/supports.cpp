@@ -1,7 +1,6 @@
 // Supports, which hold a part up while it is printed.
 #include "design/source_loader.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {

@@ -2,7 +2,6 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
 
 namespace ombre::nodes {

@@ -2,7 +2,6 @@
 #include <map>
 
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/parameter_checks.h"
 
 namespace ombre::nodes {

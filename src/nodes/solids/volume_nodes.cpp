@@ -3,7 +3,6 @@
 #include <map>
 
 #include "base/text/text.h"
-#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/volume_place.h"
 

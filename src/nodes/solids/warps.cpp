@@ -5,7 +5,6 @@
 
 #include "base/math/math.h"
 #include "base/text/text.h"
-#include "nodes/common/families.h"
 #include "nodes/common/parameter_checks.h"
 #include "nodes/solids/warp.h"
 

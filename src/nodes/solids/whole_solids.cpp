@@ -1,7 +1,6 @@
 // Solids computed from all voxels of another: its parts, filled hollows, distances.
 #include "base/text/text.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/shapes.h"
 #include "nodes/common/stage_fields.h"
 #include "nodes/common/whole_stages.h"

@@ -7,7 +7,6 @@
 #include "design/lowering.h"
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {

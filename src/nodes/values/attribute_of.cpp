@@ -4,7 +4,6 @@
 #include "base/text/text.h"
 #include "design/attributes.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
 
 namespace ombre::nodes {

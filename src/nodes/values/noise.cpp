@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/lattice_noise.h"
 
 namespace ombre::nodes {

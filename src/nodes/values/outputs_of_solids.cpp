@@ -1,7 +1,6 @@
 // Outputs of solids as values, and outputs that are solids as solids.
 #include "base/text/text.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {

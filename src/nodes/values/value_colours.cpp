@@ -6,7 +6,6 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
-#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/solid_values.h"

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "design/spec.h"
-#include "nodes/common/families.h"
 
 namespace ombre::nodes {
 namespace {

@@ -5,7 +5,6 @@
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
-#include "nodes/common/families.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/solid_values.h"
 
