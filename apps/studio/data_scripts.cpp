@@ -12,10 +12,8 @@
 #include "base/text/json.h"
 #include "base/text/text.h"
 #include "design/attributes.h"
-#include "formats/containers/file.h"
 #include "formats/results/results.h"
 #include "sources/files_of_results.h"
-#include "sources/result_border.h"
 #include "studio/designs.h"
 #include "studio/scans.h"
 
@@ -31,13 +29,7 @@ std::string quoted(const std::string& text) { return print_json_line(Data(text))
 
 formats::Results read_results(const std::string& path) {
   Diagnostics diagnostics;
-  const std::string bytes = formats::read_file(path);
-  const std::string beside = sources::numbers_beside(path);
-  const std::string numbers = beside.empty() ? "" : formats::read_file(beside);
-  const sources::ResultFiles named = sources::result_files(path, bytes);
-  formats::ResultsBeside files{{}, named.files()};
-  if (!beside.empty()) files.values = formats::ResultsFile{beside, numbers};
-  auto results = formats::read_results(path, bytes, files, diagnostics);
+  auto results = sources::read_results(path, diagnostics);
   if (!results) throw design_error(diagnostics);
   return std::move(*results);
 }

@@ -5,6 +5,7 @@
 
 #include "formats/containers/file.h"
 #include "formats/results/result_formats.h"
+#include "sources/result_border.h"
 
 namespace ombre::sources {
 namespace {
@@ -33,12 +34,18 @@ void ResultFiles::add(const std::string& path, std::string_view bytes, const Rea
   }
 }
 
-ResultFiles result_files(const std::string& path, std::string_view bytes) {
-  return {path, bytes, [](const std::string& named) -> std::shared_ptr<const std::string> {
-            std::error_code ignored;
-            if (!fs::is_regular_file(named, ignored)) return nullptr;
-            return std::make_shared<const std::string>(formats::read_file(named));
-          }};
+std::optional<formats::Results> read_results(const std::string& path, Diagnostics& diagnostics) {
+  const auto bytes_of = [](const std::string& file) -> std::shared_ptr<const std::string> {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return nullptr;
+    return std::make_shared<const std::string>(formats::read_file(file));
+  };
+  const std::string bytes = formats::read_file(path), numbers = numbers_beside(path);
+  const ResultFiles named(path, bytes, bytes_of);
+  const auto values = numbers.empty() ? nullptr : bytes_of(numbers);
+  formats::ResultsBeside beside{{}, named.files()};
+  if (values) beside.values = formats::ResultsFile{numbers, *values};
+  return formats::read_results(path, bytes, beside, diagnostics);
 }
 
 ResultFiles result_files(design::FilePath& file, Loading& loading) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,9 @@ class ResultFiles {
   std::vector<formats::ResultsFile> files_;
 };
 
-// Reads the files from the disk.
-ResultFiles result_files(const std::string& path, std::string_view bytes);
+// Reads results, and the files that belong to them, from the disk. Returns null, with diagnostics, if a file is
+// invalid. Throws Error if it cannot be read.
+std::optional<formats::Results> read_results(const std::string& path, Diagnostics& diagnostics);
 // Reads the files for a design. The content of `file`, which must be known, becomes that of all of them.
 ResultFiles result_files(design::FilePath& file, Loading& loading);
 

@@ -176,15 +176,14 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   const bool has_numbers = !numbers.path.empty();
   if (!loading.read_content(file) || (has_numbers && !loading.read_content(numbers))) return nullptr;
   const sources::ResultFiles named = sources::result_files(file, loading);
-  const Hash content =
-      has_numbers ? sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash() : file.content;
+  if (has_numbers) file.content = sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash();
   sources::Key key("mesh");
-  key.add(content).add(deform).add(ending_of(file.path)).add(use.inside.text());
+  key.add(file.content).add(deform).add(ending_of(file.path)).add(use.inside.text());
   sources::add_use(key, use, loading.reader());
   return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
     const auto bytes = loading.bytes(file);
     const auto beside = has_numbers ? loading.bytes(numbers) : nullptr;
-    MeshFiles files{*bytes, {{}, named.files()}, content};
+    MeshFiles files{*bytes, {{}, named.files()}, file.content};
     if (beside) files.beside.values = formats::ResultsFile{numbers.path, *beside};
     return read_parts(*this, files, reader);
   });

@@ -8,7 +8,6 @@
 #include "base/math/point_text.h"
 #include "base/text/json.h"
 #include "base/text/text.h"
-#include "formats/containers/file.h"
 #include "formats/results/results.h"
 #include "jobs/common/session.h"
 #include "sources/files_of_results.h"
@@ -95,13 +94,7 @@ bool is_results(const std::string& path) { return sources::has_elements(path); }
 
 int show_results(const std::string& path, Session& session) {
   Diagnostics diagnostics;
-  const std::string bytes = formats::read_file(path);
-  const sources::ResultFiles named = sources::result_files(path, bytes);
-  formats::ResultsBeside files{{}, named.files()};
-  const std::string beside = sources::numbers_beside(path);
-  const std::string beside_bytes = beside.empty() ? "" : formats::read_file(beside);
-  if (!beside.empty()) files.values = formats::ResultsFile{beside, beside_bytes};
-  const auto results = formats::read_results(path, bytes, files, diagnostics);
+  const auto results = sources::read_results(path, diagnostics);
   session.events.diagnose(diagnostics);
   if (!results) return wrong_input;
   if (session.events.wants_data())
