@@ -13,8 +13,8 @@
 
 namespace ombre::formats {
 
-// The kinds of elements; nodes are in the order of Abaqus' C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5, which is also VTK's,
-// except that either triangle of a wedge may come first.
+// The kinds of elements; nodes are in the order of Abaqus' C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5, which is also
+// VTK's, except that either triangle of a wedge may come first.
 enum class ElementKind : uint8_t { tetrahedron4, tetrahedron10, brick8, brick20, wedge6, pyramid5 };
 inline constexpr size_t element_kinds = 6;
 
