@@ -32,6 +32,10 @@ void list_formats(const Session& session) {
         members.emplace_back("library", format.module->library);
         members.emplace_back("is_available", has_module(*format.module));
       }
+      if (format.is_read) {
+        members.emplace_back("refused", std::string(format.refused));
+        members.emplace_back("left_out", std::string(format.left_out));
+      }
       session.events.event("format", members);
       continue;
     }
@@ -44,6 +48,20 @@ void list_formats(const Session& session) {
     if (format.module && !has_module(*format.module)) line.append("; ").append(without(*format.module));
     session.events.print(line + "\n");
   }
+}
+
+// A table of what the readers refuse and leave out.
+std::string limits_of_readers() {
+  std::string text =
+      "\n## What is not read\n\nWhat could change shape, place, number or material and is not understood is an error. "
+      "What is left out is warned\nof once, with its count, where it could matter.\n\n| format | an error | left out "
+      "|\n| --- | --- | --- |\n";
+  for (const FileFormat& format : sources::file_formats()) {
+    if (format.refused.empty() && format.left_out.empty()) continue;
+    text += "| " + std::string(format.name) + " | " + std::string(format.refused) + " | " +
+            std::string(format.left_out) + " |\n";
+  }
+  return text;
 }
 
 // A page of the reference, with a row for each format.
@@ -60,7 +78,7 @@ std::string formats_reference() {
       text += std::string(module->library) + " (" + module->packages + ", `" + module->option + "`) ";
     text += "|\n";
   }
-  return text;
+  return text + limits_of_readers();
 }
 
 }  // namespace
