@@ -17,6 +17,7 @@
 #include "load/turned.h"
 #include "questions/build.h"
 #include "questions/colour_map.h"
+#include "sources/file_formats.h"
 #include "studio/bundles.h"
 #include "studio/data_scripts.h"
 #include "studio/design_answer.h"
@@ -69,6 +70,15 @@ DataList describe_functions() {
   DataList list;
   for (const lang::Builtin& builtin : lang::builtins())
     list.emplace_back(DataMembers{{"name", builtin.name}, {"signature", builtin.signature()}});
+  return list;
+}
+
+// Returns the endings of all files that designs read.
+DataList read_endings() {
+  DataList list;
+  for (const FileFormat& format : sources::file_formats())
+    if (format.is_read)
+      for (const std::string_view ending : format.endings) list.emplace_back(std::string(ending));
   return list;
 }
 
@@ -241,7 +251,8 @@ Answer Studio::hello(const Request&, const StopFlag&) {
                  {"kinds", describe_kinds()},
                  {"palettes", describe_palettes()},
                  {"nodes", describe_nodes()},
-                 {"functions", describe_functions()}},
+                 {"functions", describe_functions()},
+                 {"endings", read_endings()}},
                 {}};
   const DataMembers files = listed();
   answer.members.insert(answer.members.end(), files.begin(), files.end());

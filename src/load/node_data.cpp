@@ -10,6 +10,7 @@ DataMembers describe_node(const design::NodeType& type) {
                                         {"doc", parameter.doc},
                                         {"kind", parameter.text.kind},
                                         {"python", parameter.text.python},
+                                        {"widget", std::string(parameter.text.widget)},
                                         {"unit", std::string(parameter.domain.unit)},
                                         {"required", parameter.domain.required},
                                         {"default", parameter.default_value},

@@ -218,6 +218,24 @@ const checks = {
     await page.waitForSelector(".cm-tooltip-hover", { state: "detached" });
   },
 
+  async "writes a call of a node from its form"() {
+    await page.click("#tab-reference");
+    await page.click(".node-cylinder > summary");
+    const field = (name) => page.locator(".node-cylinder .nodeform label", { has: page.locator(`span:text-matches("^${name}( |$)")`) });
+    await field("radius").locator("input").fill("2");
+    await field("height").locator("input").fill("7 + x");
+    await field("material").locator("input").fill("red");
+    await page.click(".node-cylinder .nodeform button");
+    await untilOnDisk(`${script}\ncylinder(radius = 2, height = 7 + x, material = "red");\n`);
+    assert.equal(await editor.evaluate((element) => element.ownerDocument.querySelectorAll(".node-sphere .nodeform").length), 0);
+    await page.click("#tab-variables");
+    await editor.click();
+    await page.keyboard.press("Control+a");
+    await page.keyboard.insertText(script);
+    await untilOnDiskIs(script);
+    await status("[data-old=false][data-saved=saved]");
+  },
+
   async "puts lines in their places"() {
     const crooked = "translate(30, 0, 0) union() {\nsphere(1, red);\n      }";
     await type(crooked);

@@ -27,14 +27,14 @@ struct NamedWord {
 
 template <>
 struct Port<bool> {
-  static PortText text(const Domain&) { return {"true or false", "truth values", "bool"}; }
+  static PortText text(const Domain&) { return {"true or false", "truth values", "bool", "boolean"}; }
   static bool read(const Data& data, const Domain& domain, bool& value, const Reader& reader);
   static Data write(const bool& value, bool for_hash);
 };
 
 template <>
 struct Port<std::string> {
-  static PortText text(const Domain&) { return {"text", "texts", "str"}; }
+  static PortText text(const Domain&) { return {"text", "texts", "str", "text"}; }
   static bool read(const Data& data, const Domain& domain, std::string& value, const Reader& reader);
   static Data write(const std::string& value, bool for_hash);
   static bool is_one(const Data& data) { return data.string() != nullptr; }
@@ -42,7 +42,7 @@ struct Port<std::string> {
 
 template <>
 struct Port<Choice> {
-  static PortText text(const Domain&) { return {"text", "texts", "str"}; }
+  static PortText text(const Domain&) { return {"text", "texts", "str", "choice"}; }
   static bool read(const Data& data, const Domain& domain, Choice& value, const Reader& reader);
   static Data write(const Choice& value, bool for_hash);
 };

@@ -37,7 +37,7 @@ struct ScriptVariables {
 
 template <>
 struct Port<FilePath> {
-  static PortText text(const Domain&) { return {"file", "files", "Path"}; }
+  static PortText text(const Domain&) { return {"file", "files", "Path", "file"}; }
   static bool read(const Data& data, const Domain& domain, FilePath& value, const Reader& reader);
   static Data write(const FilePath& value, bool for_hash);
 };

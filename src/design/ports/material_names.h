@@ -44,7 +44,7 @@ struct MaterialStop {
 template <>
 struct Port<MaterialName> {
   static PortText text(const Domain& domain) {
-    return {domain.may_mix ? "material or mixture" : "material", "materials", "Material"};
+    return {domain.may_mix ? "material or mixture" : "material", "materials", "Material", "material"};
   }
   static bool read(const Data& data, const Domain& domain, MaterialName& value, const Reader& reader);
   static Data write(const MaterialName& value, bool for_hash);

@@ -43,14 +43,14 @@ using Counts3 = std::array<int, 3>;
 
 template <>
 struct Port<double> {
-  static PortText text(const Domain&) { return {"number", "numbers", "float"}; }
+  static PortText text(const Domain&) { return {"number", "numbers", "float", "number"}; }
   static bool read(const Data& data, const Domain& domain, double& value, const Reader& reader);
   static Data write(const double& value, bool for_hash);
 };
 
 template <>
 struct Port<int> {
-  static PortText text(const Domain&) { return {"whole number", "whole numbers", "int"}; }
+  static PortText text(const Domain&) { return {"whole number", "whole numbers", "int", "number"}; }
   static bool read(const Data& data, const Domain& domain, int& value, const Reader& reader);
   static Data write(const int& value, bool for_hash);
 };

@@ -15,6 +15,9 @@ struct PortText {
   std::string kind;    // in help and in the reference: "number or field"
   std::string plural;  // in the kind of a list of them: "numbers or fields"
   std::string python;  // the annotation in Python's stubs: "Number"
+  // How a form asks for a value: "number", "boolean", "choice", "text", "file" or "material". "script" is a value as a
+  // script writes it, such as a formula or a list.
+  std::string_view widget = "script";
 };
 
 // A specialisation has these functions:

@@ -4,6 +4,7 @@ import { FileMenu, mayNameFile } from "./filechoice";
 import { listExamples, openExample } from "./files";
 import { page } from "./language";
 import { compare, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
+import { NodeForm } from "./nodeform";
 import { Presets } from "./presets";
 import { JobList } from "./joblist";
 import { OptionForm, optionWords } from "./joboptions";
@@ -258,11 +259,20 @@ function Export() {
 }
 
 function NodePage({ node }: { node: NodeType }) {
+  const [isOpen, setIsOpen] = useState(false);
   return (
-    <div>
-      <div ref={(element) => element?.replaceChildren(page(node))} />
-      {node.example && <button onClick={() => insert(node.example)}>Add the example to the script</button>}
-    </div>
+    <details class={`reference node-${node.name}`} onToggle={(e) => setIsOpen(e.currentTarget.open)}>
+      <summary>
+        <strong>{node.name}</strong> {node.sentence}
+      </summary>
+      {isOpen && (
+        <div>
+          <div ref={(element) => element?.replaceChildren(page(node))} />
+          {node.example && <button onClick={() => insert(node.example)}>Add the example to the script</button>}
+          <NodeForm node={node} />
+        </div>
+      )}
+    </details>
   );
 }
 
@@ -296,12 +306,7 @@ function Reference() {
         return (
           <>
             {heading && <h2>{heading}</h2>}
-            <details class="reference" key={node.name}>
-              <summary>
-                <strong>{node.name}</strong> {node.sentence}
-              </summary>
-              <NodePage node={node} />
-            </details>
+            <NodePage key={node.name} node={node} />
           </>
         );
       })}

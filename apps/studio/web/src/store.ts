@@ -90,7 +90,8 @@ export interface NodeType {
   name: string;
   category: string;
   sentence: string;
-  parameters: { name: string; doc: string; kind: string; unit: string; required: boolean; default: unknown; choices: string[] }[];
+  parameters: { name: string; doc: string; kind: string; widget: string; unit: string; required: boolean; default: unknown; choices: string[] }[];
+  inputs: { least: number; most: number | null };
   gives: string;
   outputs: { name: string; doc: string; type: string }[];
   example: string;
@@ -108,6 +109,7 @@ export interface Hello {
   palettes: { name: string; colours: number[][] }[]; // colours from the least value to the greatest, mixed in linear light
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
+  endings: string[]; // of files that designs read
 }
 
 export interface Plan {
