@@ -37,10 +37,6 @@ std::vector<Region> regions_of(const Pieces& pieces) {
   return regions;
 }
 
-bool has_empty(const Pieces& pieces) {
-  return std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) { return piece.dimension() == 0; });
-}
-
 int dimension_of(const Pieces& pieces) {
   for (const Piece& piece : pieces)
     if (piece.dimension() != 0) return piece.dimension();
@@ -60,39 +56,43 @@ class Applier {
   }
 
   Pieces operator()(const Group&) { return soft_union(of_any_dimension()); }
-  Pieces operator()(const Union&) {
+  Pieces operator()(const Union& by) {
+    if (by.render) return soft_union(of_any_dimension());
     return for_groups([&](const PieceGroup& group) { return united(group); });
   }
   Pieces operator()(const Intersection&) {
-    warn_of_colours("intersection");
-    return for_groups([&](const PieceGroup& group) { return intersected(group); });
+    return combined([&](const Piece& a, const Piece& b) { return intersected(a, b); });
   }
   Pieces operator()(const Hull&) {
+    warn_of_colours("hull");
     return for_groups([&](const PieceGroup& group) { return hulled(group); });
   }
   Pieces operator()(const Minkowski&) {
-    warn_of_colours("minkowski");
-    return for_groups([&](const PieceGroup& group) { return summed(group); });
+    return combined([&](const Piece& a, const Piece& b) { return summed(a, b); });
   }
   Pieces operator()(const Difference&);
 
   Pieces operator()(const Fill&) {
-    return for_regions([&](const Region& region) { return fill(region); });
+    warn_of_colours("fill");
+    return for_regions(matching(), [&](const Region& region) { return fill(region); });
   }
   Pieces operator()(const Offset& by) {
-    return for_regions([&](const Region& region) { return offset(region, by); });
+    warn_of_colours("offset");
+    return for_regions(matching(), [&](const Region& region) { return offset(region, by); });
   }
   Pieces operator()(const LinearExtrude& by) {
     // With a twist or other scales, slices may cross or their ends may meet in a line.
     const bool is_sound = by.twist == 0 && ((by.scale.x > 0 && by.scale.y > 0) || by.scale == Vec2{0, 0});
-    return for_regions([&](const Region& region) { return checked(extruded(region, by), is_sound); });
+    return for_regions(apart(), [&](const Region& region) { return checked(extruded(region, by), is_sound); });
   }
   Pieces operator()(const RotateExtrude& by) {
-    return for_regions(
-        [&](const Region& region) { return checked(revolved(region, by, tree_.where, *context_.messages), true); });
+    return for_regions(apart(), [&](const Region& region) {
+      return checked(revolved(region, by, tree_.where, *context_.messages), true);
+    });
   }
   Pieces operator()(const Projection& by) {
-    return for_solids([&](const Solid& solid) { return by.cut ? section(solid.mesh()) : shadow(solid.mesh()); });
+    return for_solids(apart(),
+                      [&](const Solid& solid) { return by.cut ? section(solid.mesh()) : shadow(solid.mesh()); });
   }
   Pieces operator()(const Resize& to);
   Pieces operator()(const Transform& by);
@@ -126,6 +126,8 @@ class Applier {
     }
     return Matching::material;
   }
+  // The attributes that keep pieces apart in operations that give the same for each piece as for all of them together.
+  Matching apart() const { return tree_.semantics == Semantics::permissive ? Matching::none : Matching::all; }
 
   void warn(const std::string& text) const { context_.messages->warning(tree_.where, text); }
 
@@ -173,14 +175,12 @@ class Applier {
     return piece_of(group.attributes, unite(solids_of(group.members), context_.work));
   }
 
-  Piece intersected(const PieceGroup& group) const {
-    if (group.members.size() == 1) return group.members[0];
-    if (has_empty(group.members)) return {group.attributes, {}};
-    if (dimension_of(group.members) == 3)
-      return piece_of(group.attributes, intersect(solids_of(group.members), context_.work));
-    Region region = *group.members[0].region();
-    for (size_t n = 1; n < group.members.size(); ++n) region = intersect(region, *group.members[n].region());
-    return piece_of(group.attributes, std::move(region));
+  // The pieces have the same dimension, or one is empty.
+  Piece intersected(const Piece& a, const Piece& b) const {
+    Attributes attributes = completed(a.attributes, b.attributes);
+    if (a.dimension() == 0 || b.dimension() == 0) return {std::move(attributes), {}};
+    if (a.solid()) return piece_of(std::move(attributes), intersect({*a.solid(), *b.solid()}, context_.work));
+    return piece_of(std::move(attributes), intersect(*a.region(), *b.region()));
   }
 
   Piece hulled(const PieceGroup& group) const {
@@ -191,18 +191,45 @@ class Applier {
     return piece_of(group.attributes, hull(solids_of(group.members)));
   }
 
-  Piece summed(const PieceGroup& group) const {
-    if (dimension_of(group.members) == 2) {
-      const std::vector<Region> regions = regions_of(group.members);
-      Region sum = regions.at(0);
-      for (size_t n = 1; n < regions.size(); ++n) sum = minkowski(sum, regions[n]);
-      return piece_of(group.attributes, std::move(sum));
+  Piece summed(const Piece& a, const Piece& b) const {
+    Attributes attributes = completed(a.attributes, b.attributes);
+    if (a.dimension() == 0 || b.dimension() == 0) return {std::move(attributes), {}};
+    if (a.solid()) return piece_of(std::move(attributes), minkowski(*a.solid(), *b.solid(), context_.work));
+    return piece_of(std::move(attributes), minkowski(*a.region(), *b.region()));
+  }
+
+  // True if `combine` takes the pieces together. An empty piece empties those of the same part and material alone.
+  bool do_act(const Piece& a, const Piece& b) const {
+    const bool is_empty = a.dimension() == 0 || b.dimension() == 0;
+    return is_empty ? do_match(a.attributes, b.attributes, matching())
+                    : do_agree(a.attributes, b.attributes, matching());
+  }
+
+  // Combines each piece of the first child with each piece of the second that agrees with it, the results with the
+  // third child, and so on. Pieces that agree with none stay as they are.
+  template <class Combine>
+  Pieces combined(const Combine& combine) {
+    of_any_dimension();
+    join_children();
+    Pieces result = children_[0];
+    for (size_t n = 1; n < children_.size(); ++n) {
+      const Pieces& next = children_[n];
+      std::vector<bool> has_acted(next.size());
+      Pieces made;
+      for (const Piece& piece : result) {
+        const size_t before = made.size();
+        for (size_t m = 0; m < next.size(); ++m) {
+          if (!do_act(piece, next[m])) continue;
+          made.push_back(combine(piece, next[m]));
+          has_acted[m] = true;
+        }
+        if (made.size() == before) made.push_back(piece);
+      }
+      for (size_t m = 0; m < next.size(); ++m)
+        if (!has_acted[m]) made.push_back(next[m]);
+      result = soft_union(made);
     }
-    const std::vector<Solid> solids = solids_of(group.members);
-    if (solids.empty()) return {group.attributes, {}};
-    Solid sum = solids[0];
-    for (size_t n = 1; n < solids.size(); ++n) sum = minkowski(sum, solids[n], context_.work);
-    return piece_of(group.attributes, std::move(sum));
+    return result;
   }
 
   // Returns one united piece for each set of attributes; empty pieces are removed if others exist.
@@ -232,9 +259,9 @@ class Applier {
 
   // Replaces the shapes of one kind, which `part` gives; pieces without one stay.
   template <auto part, class Operate>
-  Pieces for_united(const Operate& operate) {
+  Pieces for_united(Matching matching, const Operate& operate) {
     Pieces result;
-    for (const PieceGroup& group : grouped(all(), matching())) {
+    for (const PieceGroup& group : grouped(all(), matching)) {
       const Piece piece = united(group);
       const auto* const shape = (piece.*part)();
       result.push_back(shape ? piece_of(group.attributes, operate(*shape)) : piece);
@@ -243,15 +270,15 @@ class Applier {
   }
 
   template <class Operate>
-  Pieces for_regions(const Operate& operate) {
+  Pieces for_regions(Matching matching, const Operate& operate) {
     keep_dimension(2, true);
-    return for_united<&Piece::region>(operate);
+    return for_united<&Piece::region>(matching, operate);
   }
 
   template <class Operate>
-  Pieces for_solids(const Operate& operate) {
+  Pieces for_solids(Matching matching, const Operate& operate) {
     keep_dimension(3, false);
-    return for_united<&Piece::solid>(operate);
+    return for_united<&Piece::solid>(matching, operate);
   }
 
   template <class Set>
@@ -275,15 +302,16 @@ class Applier {
     }
   }
 
+  // Says so if pieces of several colours become one piece, which has the colour of the first.
   void warn_of_colours(const std::string& name) const {
-    if (tree_.semantics != Semantics::standard) return;
-    for (const Pieces& child : children_)
-      for (size_t n = 1; n < child.size(); ++n)
-        for (size_t other = 0; other < n; ++other)
-          if (do_match(child[n].attributes, child[other].attributes, Matching::material))
-            return warn(name +
-                        " takes differently coloured solids of one child each by itself; unite them first, or "
-                        "write semantics=\"permissive\"");
+    for (const PieceGroup& group : grouped(all(), matching())) {
+      const auto is_other = [&](const Piece& piece) {
+        return piece.dimension() != 0 && piece.attributes.colour && piece.attributes.colour != group.attributes.colour;
+      };
+      if (std::ranges::any_of(group.members, is_other))
+        return warn(name + "() joins shapes of several colours, and the result has the colour of the first; write " +
+                    name + "() for each colour, or semantics = \"strict\"");
+    }
   }
 
   const Tree& tree_;
@@ -301,7 +329,7 @@ Pieces Applier::operator()(const Difference&) {
     Pieces matching = others;
     if (tree_.semantics == Semantics::strict)
       std::erase_if(matching,
-                    [&](const Piece& other) { return !do_match(other.attributes, piece.attributes, Matching::all); });
+                    [&](const Piece& other) { return !do_agree(other.attributes, piece.attributes, Matching::all); });
     if (piece.solid())
       result.push_back(piece_of(piece.attributes, subtract(*piece.solid(), solids_of(matching), context_.work)));
     else if (piece.region()) {
@@ -354,18 +382,21 @@ Vec3 factors_of(const Resize& to, const Vec3& size, int axes) {
   return factors;
 }
 
+// The box of all pieces gets the new size.
 Pieces Applier::operator()(const Resize& to) {
-  of_any_dimension();
+  const Pieces pieces = soft_union(of_any_dimension());
+  Box box;
+  for (const Piece& piece : pieces) {
+    if (piece.solid()) box = ombre::hull(box, piece.solid()->bounds());
+    if (piece.region()) box = ombre::hull(box, bounds_of(*piece.region()));
+  }
+  const Affine map = Affine::scaling(factors_of(to, box.size(), dimension_of(pieces)));
   Pieces result;
-  for (const PieceGroup& group : grouped(all(), matching())) {
-    const Piece piece = united(group);
+  for (const Piece& piece : pieces) {
     if (piece.solid())
-      result.push_back(piece_of(
-          piece.attributes, moved(*piece.solid(), Affine::scaling(factors_of(to, piece.solid()->bounds().size(), 3)))));
+      result.push_back(piece_of(piece.attributes, moved(*piece.solid(), map)));
     else if (piece.region())
-      result.push_back(
-          piece_of(piece.attributes,
-                   moved(*piece.region(), Affine::scaling(factors_of(to, bounds_of(*piece.region()).size(), 2)))));
+      result.push_back(piece_of(piece.attributes, moved(*piece.region(), map)));
     else
       result.push_back(piece);
   }

@@ -16,6 +16,22 @@ bool do_match(const Attributes& a, const Attributes& b, Matching matching) {
   return true;
 }
 
+bool do_agree(const Attributes& a, const Attributes& b, Matching matching) {
+  if (matching == Matching::none) return true;
+  const auto differ = [](const std::string& first, const std::string& second) {
+    return !first.empty() && !second.empty() && first != second;
+  };
+  if (differ(a.material, b.material) || differ(a.part, b.part)) return false;
+  return matching == Matching::material || !a.colour || !b.colour || *a.colour == *b.colour;
+}
+
+Attributes completed(Attributes first, const Attributes& second) {
+  if (first.material.empty()) first.material = second.material;
+  if (first.part.empty()) first.part = second.part;
+  if (!first.colour) first.colour = second.colour;
+  return first;
+}
+
 std::vector<PieceGroup> grouped(const Pieces& pieces, Matching matching) {
   std::vector<PieceGroup> groups;
   for (const Piece& piece : pieces) {

@@ -26,4 +26,11 @@ std::vector<PieceGroup> grouped(const Pieces& pieces, Matching matching);
 
 bool do_match(const Attributes& a, const Attributes& b, Matching matching);
 
+// True if one piece may limit the other in an intersection, a difference or a sum: no attribute that counts is set to
+// one value for the one and to another value for the other. So a piece without attributes limits every piece.
+bool do_agree(const Attributes& a, const Attributes& b, Matching matching);
+
+// Returns the attributes of the first, and where it has none, those of the second.
+Attributes completed(Attributes first, const Attributes& second);
+
 }  // namespace ombre::solids

@@ -48,15 +48,15 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
   return heights;
 }
 
-// Reads heights from 0 for black to 100 for white.
+// Reads heights from 0 for black to 100 for white. If inverted, they are those of OpenSCAD 2021.01: 100/255 - height.
 Heights heights_of_picture(const std::string& path, const std::string& bytes, bool is_inverted) {
   const formats::PngImage image = formats::decode_png(bytes, path, most_heights);
   Heights heights{image.width, image.height, {}};
   for (uint32_t row = image.height; row-- > 0;)
     for (uint32_t column = 0; column < image.width; ++column) {
       const formats::Rgba c = image.colour(column, row);
-      const double bright = (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]) / 255;
-      heights.values.push_back(100 * (is_inverted ? 1 - bright : bright));
+      const double level = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+      heights.values.push_back(100 * (is_inverted ? 1 - level : level) / 255);
     }
   return heights;
 }
@@ -68,7 +68,8 @@ class HeightMesh {
   HeightMesh(const Heights& heights, bool is_centred) : heights_(heights) {
     if (is_centred)
       shift_ = {-0.5 * static_cast<double>(heights.columns - 1), -0.5 * static_cast<double>(heights.rows - 1)};
-    foot_ = *std::min_element(heights.values.begin(), heights.values.end()) - 1;
+    // Like OpenSCAD, begins 1 mm below the least height, and at z = 0 if all heights are greater than 1 mm.
+    foot_ = std::min(*std::min_element(heights.values.begin(), heights.values.end()), 1.0) - 1;
   }
 
   TriangleMesh make() {

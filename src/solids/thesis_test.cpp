@@ -24,8 +24,10 @@ TEST_F(Thesis, Listing3_3ColoursOfAModuleStayApart) {
 
 TreePtr two_colours() { return group({colour(red, {cube(10, 10, 20)}), colour(blue, {cube(20, 10, 10)})}); }
 
-TEST_F(Thesis, Listing3_4ColoursOfAModuleAreIntersectedToo) {
-  EXPECT_EQ(described(intersection({two_colours(), cube(15, 10, 15)})), "1000 red");
+// The thesis intersects the two colours of a module with each other (1000 red). Here each colour is intersected with
+// the other child, so the shape is that of plain OpenSCAD.
+TEST_F(Thesis, Listing3_4ColoursOfAModuleAreIntersectedEach) {
+  EXPECT_EQ(described(intersection({two_colours(), cube(15, 10, 15)})), "1500 red; 1500 blue");
 }
 
 TEST_F(Thesis, Listing3_4InPlainOpenScad) {
@@ -131,6 +133,51 @@ TEST_F(Thesis, StrictDifferencesSubtractWhatMatches) {
   const TreePtr tree = difference({part("a", {cube(2)}), part("a", {cube(1)}), part("b", {moved(1, 1, 1, {cube(1)})})});
   EXPECT_EQ(described(tree), "6 part a");
   EXPECT_EQ(described(with(tree, Semantics::strict)), "7 part a");
+}
+
+TEST_F(Thesis, SolidsWithoutAttributesActOnAll) {
+  const TreePtr two = group({part("a", {cube(2)}), part("b", {moved(2, 0, 0, {cube(2)})})});
+  const TreePtr block = moved(1, 0, 0, {cube(2)});
+  for (const Semantics semantics : {Semantics::standard, Semantics::strict}) {
+    EXPECT_EQ(described(with(intersection({two, block}), semantics)), "4 part a; 4 part b");
+    EXPECT_EQ(described(with(intersection({block, two}), semantics)), "4 part a; 4 part b");
+    EXPECT_EQ(described(with(difference({two, block}), semantics)), "4 part a; 4 part b");
+    EXPECT_EQ(described(with(minkowski({two, cube(1)}), semantics)), "27 part a; 27 part b");
+  }
+  EXPECT_EQ(described(with(intersection({two, block}), Semantics::permissive)), "8 part a");
+}
+
+TEST_F(Thesis, ColoursStayApartWhereTheShapeAllows) {
+  const TreePtr two = group({colour(red, {cube(2)}), colour(blue, {moved(2, 0, 0, {cube(2)})})});
+  EXPECT_EQ(described(intersection({two, moved(1, 0, 0, {cube(2)})})), "4 red; 4 blue");
+  EXPECT_EQ(described(minkowski({two, cube(1)})), "27 red; 27 blue");
+  EXPECT_EQ(described(difference({two, moved(1, 0, 0, {cube(2, 2, 1)})})), "6 red; 6 blue");
+  EXPECT_EQ(described(node(Union{1}, {two})), "8 red; 8 blue");
+  EXPECT_EQ(described(node(Resize{{8, 0, 0}}, {two})), "16 red; 16 blue");
+  EXPECT_EQ(described(node(Projection{}, {two})), "4 red; 4 blue");
+  const TreePtr flat = group({colour(red, {square(2, 2)}), colour(blue, {moved(2, 0, 0, {square(2, 2)})})});
+  EXPECT_EQ(described(node(LinearExtrude{3}, {flat})), "12 red; 12 blue");
+  EXPECT_EQ(described(intersection({flat, moved(1, 0, 0, {square(2, 2)})})), "2 red; 2 blue");
+  EXPECT_EQ(described(with(node(LinearExtrude{3}, {flat}), Semantics::permissive)), "24 red");
+}
+
+TEST_F(Thesis, OperationsThatJoinColoursSaySo) {
+  const TreePtr two = group({colour(red, {cube(2)}), colour(blue, {moved(3, 0, 0, {cube(2)})})});
+  const auto said = [](const TreePtr& tree) {
+    Diagnostics messages;
+    const std::string made = described(evaluate(tree, {}, messages));
+    return made + (messages.list().empty() ? "" : " " + messages.list()[0].message.substr(0, 42));
+  };
+  EXPECT_EQ(said(hull({two})), "20 red hull() joins shapes of several colours, and");
+  EXPECT_EQ(said(with(hull({two}), Semantics::strict)), "8 red; 8 blue");
+  EXPECT_EQ(said(hull({colour(red, {cube(2), moved(3, 0, 0, {cube(2)})})})), "20 red");
+}
+
+TEST_F(Thesis, ASumWithNothingIsNothing) {
+  const TreePtr none = intersection({square(1, 1), moved(5, 5, 0, {square(1, 1)})});
+  EXPECT_EQ(described(minkowski({none, circle(2, 8)})), "");
+  EXPECT_EQ(described(minkowski({circle(2, 8), none})), "");
+  EXPECT_EQ(described(minkowski({cube(1), difference({cube(1), cube(1)})})), "");
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ struct LinearExtrude {
   Vec3 direction{0, 0, 1};
   Vec2 scale{1, 1};
   bool centred = false;
-  std::optional<int> slices, segments;
+  std::optional<int> slices = {}, segments = {};
   int convexity = 1;
   Fragments fragments = {};
 };

@@ -40,18 +40,21 @@ std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& l
   auto pieces = compile::meshed_parts(loaded, messages, &session.stop);
   const solids::EvaluateOptions options{0, false, &session.stop, nullptr};
   if (pieces && no_overlap) pieces = compile::without_overlaps(*pieces, options);
-  quits.reset();
-  std::vector<std::string> files;
+  std::vector<compile::SolidsFile> files;
   for (const std::string& path : paths) {
     if (!pieces || messages.has_errors()) break;
-    compile::SolidsExport output;
-    output.path = path;
-    const std::vector<std::string> written = compile::write_pieces(*pieces, output, messages);
-    files.insert(files.end(), written.begin(), written.end());
+    for (compile::SolidsFile& file : compile::solids_files(*pieces, {path}, options, messages))
+      files.push_back(std::move(file));
   }
+  quits.reset();
   session.events.diagnose(messages);
   if (!pieces || messages.has_errors()) return std::nullopt;
-  return files;
+  std::vector<std::string> written;
+  for (const compile::SolidsFile& file : files) {
+    compile::write_solids_file(file);
+    written.push_back(file.to.path);
+  }
+  return written;
 }
 
 namespace {
@@ -80,11 +83,7 @@ std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree
                                                      Session& session) {
   compile::ScadRequest request;
   request.tree = tree;
-  for (const std::string& path : paths) {
-    compile::SolidsExport output;
-    output.path = path;
-    request.outputs.push_back(output);
-  }
+  for (const std::string& path : paths) request.outputs.push_back({path});
   request.no_overlap = no_overlap;
   request.stop = &session.stop;
   Diagnostics messages;

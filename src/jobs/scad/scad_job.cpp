@@ -72,20 +72,15 @@ std::string file_word(const std::string& part) {
   return word;
 }
 
-struct OutputFile {
-  std::string path;
-  Pieces pieces;
-};
-
-std::vector<OutputFile> files_of(const Pieces& pieces, const std::string& path) {
-  const size_t place = path.find(part_place);
-  if (place == std::string::npos) return {{path, pieces}};
-  std::vector<OutputFile> files;
+std::vector<SolidsFile> files_of(const Pieces& pieces, const SolidsExport& to) {
+  const size_t place = to.path.find(part_place);
+  if (place == std::string::npos) return {{to, pieces}};
+  std::vector<SolidsFile> files;
   for (const Piece& piece : pieces) {
-    std::string name = path;
-    name.replace(place, part_place.size(), file_word(piece.attributes.part));
-    auto file = std::find_if(files.begin(), files.end(), [&](const OutputFile& f) { return f.path == name; });
-    if (file == files.end()) file = files.insert(file, {name, {}});
+    std::string path = to.path;
+    path.replace(place, part_place.size(), file_word(piece.attributes.part));
+    auto file = std::ranges::find_if(files, [&](const SolidsFile& f) { return f.to.path == path; });
+    if (file == files.end()) file = files.insert(file, SolidsFile{SolidsExport{path, to.title, to.flavour}, {}});
     file->pieces.push_back(piece);
   }
   return files;
@@ -100,6 +95,20 @@ std::optional<std::string> drawing_of(const Pieces& pieces, const std::string& t
                        piece.region()->rings});
   }
   return ending == ".svg" ? formats::drawing_svg(title, regions) : formats::drawing_dxf(regions);
+}
+
+// True if the format tells solids apart, by bodies or colours.
+bool holds_several(const std::string& path) {
+  const formats::MeshFormat* const format = formats::find_mesh_format(path);
+  return !format || format->holds_bodies || format->holds_colours;
+}
+
+Pieces united(const Pieces& pieces, const solids::EvaluateOptions& options) {
+  if (pieces.size() < 2) return pieces;
+  std::vector<Solid> solids;
+  for (const Piece& piece : pieces)
+    if (piece.solid()) solids.push_back(*piece.solid());
+  return {{{}, solids::unite(std::move(solids), {options.threads, options.stop})}};
 }
 
 bool check_format(const Pieces& pieces, const std::string& path, Diagnostics& messages) {
@@ -179,20 +188,25 @@ MeshDocument document_of(const Pieces& pieces, const std::string& title) {
   return document;
 }
 
-std::vector<std::string> write_pieces(const Pieces& pieces, const SolidsExport& to, Diagnostics& messages) {
-  std::vector<std::string> paths;
-  if (!check_format(pieces, to.path, messages)) return paths;
+std::vector<SolidsFile> solids_files(const Pieces& pieces, const SolidsExport& to,
+                                     const solids::EvaluateOptions& options, Diagnostics& messages) {
+  if (!check_format(pieces, to.path, messages)) return {};
   for (const Piece& piece : pieces)
-    if (piece.solid() && !check_closed(piece, to.path, messages)) return paths;
-  for (const auto& [path, own] : files_of(pieces, to.path)) {
-    const std::string title = to.title.empty() ? fs::path(path).stem().string() : to.title;
-    if (const auto drawing = drawing_of(own, title, fs::path(path).extension().string()))
-      exporting::write_file(path, *drawing);
-    else
-      exporting::write_mesh_file(path, document_of(own, title), *formats::find_mesh_format(path), to.flavour);
-    paths.push_back(path);
-  }
-  return paths;
+    if (piece.solid() && !check_closed(piece, to.path, messages)) return {};
+  std::vector<SolidsFile> files = files_of(pieces, to);
+  for (SolidsFile& file : files)
+    if (!holds_several(file.to.path)) file.pieces = united(file.pieces, options);
+  return files;
+}
+
+void write_solids_file(const SolidsFile& file) {
+  const std::string& path = file.to.path;
+  const std::string title = file.to.title.empty() ? fs::path(path).stem().string() : file.to.title;
+  if (const auto drawing = drawing_of(file.pieces, title, fs::path(path).extension().string()))
+    exporting::write_file(path, *drawing);
+  else
+    exporting::write_mesh_file(path, document_of(file.pieces, title), *formats::find_mesh_format(path),
+                               file.to.flavour);
 }
 
 ScadResult run_scad(const ScadRequest& request, Diagnostics& messages) {
@@ -201,12 +215,15 @@ ScadResult run_scad(const ScadRequest& request, Diagnostics& messages) {
   if (messages.has_errors()) return result;
   if (request.no_overlap)
     result.pieces = without_overlaps(result.pieces, options);
-  else if (!request.outputs.empty())
+  else if (std::ranges::any_of(request.outputs, holds_several, &SolidsExport::path))
     warn_of_overlaps(result.pieces, request.tree ? request.tree->where : SourceRange{}, options, messages);
+  std::vector<SolidsFile> files;
+  for (const SolidsExport& output : request.outputs)
+    for (SolidsFile& file : solids_files(result.pieces, output, options, messages)) files.push_back(std::move(file));
   if (request.before_writing && !request.outputs.empty()) request.before_writing();
-  for (const SolidsExport& output : request.outputs) {
-    const std::vector<std::string> paths = write_pieces(result.pieces, output, messages);
-    result.files.insert(result.files.end(), paths.begin(), paths.end());
+  for (const SolidsFile& file : files) {
+    write_solids_file(file);
+    result.files.push_back(file.to.path);
   }
   return result;
 }

@@ -24,9 +24,18 @@ solids::Pieces without_overlaps(const solids::Pieces& pieces, const solids::Eval
 void warn_of_overlaps(const solids::Pieces& pieces, const SourceRange& where, const solids::EvaluateOptions& options,
                       Diagnostics& messages);
 
-// Writes the pieces, and returns the paths of the files, in order. If the pieces do not fit the format, or a surface is
-// not closed, it writes nothing and reports errors. Throws Error if a file cannot be written.
-std::vector<std::string> write_pieces(const solids::Pieces& pieces, const SolidsExport& to, Diagnostics& messages);
+// A file that is ready to be written. Solids of a format that does not tell them apart are united.
+struct SolidsFile {
+  SolidsExport to;  // the path has a part's name in the place of "{part}"
+  solids::Pieces pieces;
+};
+
+// Returns the files, in order. If the pieces do not fit the format, or a surface is not closed, it returns none and
+// reports errors.
+std::vector<SolidsFile> solids_files(const solids::Pieces& pieces, const SolidsExport& to,
+                                     const solids::EvaluateOptions& options, Diagnostics& messages);
+// Throws Error if the file cannot be written.
+void write_solids_file(const SolidsFile& file);
 
 // Returns bodies named by their parts, with a material for each name and colour.
 formats::MeshDocument document_of(const solids::Pieces& pieces, const std::string& title);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "formats/containers/file.h"
@@ -91,10 +92,19 @@ TEST_F(ScadJob, AFileForEachPart) {
 TEST_F(ScadJob, OverlapsAreReportedOrCut) {
   // Listing 4.1 of the thesis.
   const TreePtr tree = group({colour(red, {cube(10, 10, 20)}), colour(green, {cube(10, 20, 10)})});
-  EXPECT_EQ(described(run(tree, "a.stl").pieces), "2000 red; 2000 green");
+  EXPECT_EQ(described(run(tree, "a.obj").pieces), "2000 red; 2000 green");
   EXPECT_EQ(first_message(), "a solid without a name and a solid without a name overlap");
-  EXPECT_EQ(described(run(tree, "a.stl", true).pieces), "2000 red; 1000 green");
+  EXPECT_EQ(described(run(tree, "a.obj", true).pieces), "2000 red; 1000 green");
   EXPECT_TRUE(messages_.list().empty());
+}
+
+TEST_F(ScadJob, SolidsThatAFormatDoesNotTellApartAreUnited) {
+  const TreePtr tree = group({colour(red, {cube(10, 10, 20)}), colour(green, {cube(10, 20, 10)})});
+  for (const std::string name : {"a.stl", "a.off"}) {
+    run(tree, name);
+    EXPECT_TRUE(messages_.list().empty()) << name;
+    EXPECT_EQ(described(imported(name)), "3000") << name;
+  }
 }
 
 TEST_F(ScadJob, WrongFormats) {
@@ -161,12 +171,19 @@ TEST_F(ScadJob, CrossingShellsBecomeOne) {
 }
 
 TEST_F(ScadJob, Surfaces) {
-  std::ofstream(path("h.dat")) << "# heights\n1 2 3\n4 5 6\n";
   Surface surface;
   surface.path = path("h.dat");
-  EXPECT_NEAR(size_of(node(surface)), 7, 1e-9);
-  std::ofstream(path("h.dat")) << "5 6\n7 8\n";
-  EXPECT_NEAR(size_of(node(surface)), 2.5, 1e-9);
+  // The numbers are those of OpenSCAD 2021.01.
+  const std::map<std::string, double> volumes{{"# heights\n1 2 3\n4 5 6\n", 7},
+                                              {"5 6\n7 8\n", 6.5},
+                                              {"6 6 6\n6 6 6\n6 6 6\n", 24},
+                                              {"0.5 1\n2 3\n", 2.125},
+                                              {"0 0\n0 0\n", 1},
+                                              {"-5 -6\n-7 -8\n", 2.5}};
+  for (const auto& [heights, volume] : volumes) {
+    std::ofstream(path("h.dat")) << heights;
+    EXPECT_NEAR(size_of(node(surface)), volume, 1e-9) << heights;
+  }
 }
 
 TEST_F(ScadJob, PiecesBecomeMadeSolids) {

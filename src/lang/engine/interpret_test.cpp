@@ -138,17 +138,30 @@ TEST(Interpret, CyclesOfIncludesAreReported) {
   Options options;
   options.read_file = [](const std::string& path) -> std::optional<std::string> {
     if (path == "a") return "include <b>";
-    if (path == "b") return "use <a>";
+    if (path == "b") return "include <a>";
     if (path.front() == 'n') return "include <n" + path + ">";
     if (path == "twice") return "include <half> include <half>";
     if (path == "half") return "v = 1;";
     return std::nullopt;
   };
   EXPECT_EQ(first_message("include <a>", options),
-            "b:1:6: error: \"a\" includes itself, through b; move what both need into a third file");
+            "b:1:9: error: \"a\" includes itself, through b; move what both need into a third file");
   EXPECT_NE(first_message("include <n>", options).find("files include each other deeper than 32 levels"),
             std::string::npos);
   EXPECT_EQ(run_script("include <twice> show(v);", options).nodes, "show(1)");
+}
+
+TEST(Interpret, FilesMayUseEachOther) {
+  Options options;
+  options.read_file = [](const std::string& path) -> std::optional<std::string> {
+    if (path == "a") return "use <b> use <a> k = 3; module plate() { show(k, twice(k)); } module both() { stack(); }";
+    if (path == "b") return "use <a> include <c> function twice(v) = 2 * v; module stack() { plate(); }";
+    if (path == "c") return "use <b> module other() { stack(); }";
+    return std::nullopt;
+  };
+  EXPECT_EQ(run_script("use <a> both();", options).nodes, "show(3,6)");
+  EXPECT_EQ(run_script("use <b> other();", options).nodes, "show(3,6)");
+  EXPECT_EQ(run_script("include <b> other();", options).nodes, "show(3,6)");
 }
 
 TEST(Interpret, DefinitionsTakeThePlaceOfVariables) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/system/named_files.h"
+#include "base/system/temporary.h"
 #include "base/text/text.h"
 #include "lang/engine/parser.h"
 
@@ -43,8 +44,10 @@ class Loader {
 
  private:
   Unit& unit(const SourcePtr& source) {
+    const Temporary begin(unit_begin_, open_.size());
     Unit& result = program_.units.emplace_back();
     result.path = source->name();
+    units_[normal(source->name())] = &result;  // before its files are read, since these may use it in turn
     splice(source, result);
     if (dialect_ == Dialect::vcad) warn_of_replaced(result.plan, diagnostics_);
     return result;
@@ -73,22 +76,20 @@ class Loader {
     if (!source) return;
     const std::string path = normal(source->name());
     if (include.is_use) {
-      if (const auto known = used_.find(path); known != used_.end()) {
+      if (const auto known = units_.find(path); known != units_.end()) {
         into.uses.push_back(known->second);
         return;
       }
     }
     if (!may_open(include, path)) return;
     if (!include.is_use) return splice(source, into);
-    const Unit& used = unit(source);
-    used_[path] = &used;
-    into.uses.push_back(&used);
+    into.uses.push_back(&unit(source));
   }
 
   bool may_open(const ast::Include& include, const std::string& path) {
     std::string message, hint;
     Code code = Code::limit;
-    if (std::find(open_.begin(), open_.end(), path) != open_.end()) {
+    if (!include.is_use && find_open(path) != open_.end()) {
       message = '"' + path + "\" includes itself" + way_round(path);
       hint = "move what both need into a third file";
       code = Code::script;
@@ -105,10 +106,15 @@ class Loader {
     return false;
   }
 
+  // Returns the place of the file among those of the unit that are being read.
+  std::vector<std::string>::const_iterator find_open(const std::string& path) const {
+    return std::find(open_.begin() + static_cast<std::ptrdiff_t>(unit_begin_), open_.end(), path);
+  }
+
   // Returns the files between, for a message: ", through a.vcad and b.vcad".
   std::string way_round(const std::string& path) const {
     std::string names;
-    for (auto at = std::find(open_.begin(), open_.end(), path) + 1; at != open_.end(); ++at)
+    for (auto at = find_open(path) + 1; at != open_.end(); ++at)
       names += (names.empty() ? ", through " : " and ") + *at;
     return names;
   }
@@ -143,8 +149,9 @@ class Loader {
   const std::vector<std::string>& libraries_;
   Diagnostics& diagnostics_;
   Program program_;
-  std::vector<std::string> open_;  // files that are being read, outermost first
-  std::map<std::string, const Unit*> used_;
+  std::vector<std::string> open_;             // files that are being read, outermost first
+  size_t unit_begin_ = 0;                     // number of the first of them that belongs to the unit
+  std::map<std::string, const Unit*> units_;  // by the path of their first file
   bool was_reported_ = false;
 };
 

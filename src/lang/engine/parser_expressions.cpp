@@ -244,13 +244,13 @@ ExprPtr Parser::bracketed() {
   const uint32_t begin = token().begin;
   take();
   auto list = std::make_unique<List>(since(begin));
+  skip_empty_places();
   while (!at(TokenKind::right_bracket)) {
     list->elements.push_back(element());
     list->has_generators = list->has_generators || may_generate(*list->elements.back());
     if (at(TokenKind::colon) && list->elements.size() == 1 && !list->has_generators) break;
     if (!accept(TokenKind::comma)) break;
-    while (dialect_ == Dialect::openscad && accept(TokenKind::comma)) {  // [1,,2] is [1, 2]
-    }
+    skip_empty_places();
   }
   if (!accept(TokenKind::colon)) {
     if (!at(TokenKind::right_bracket))
@@ -399,7 +399,14 @@ void Parser::arguments(std::vector<Argument>& into) {
   fail({source_, last_end(), last_end() + 1}, "expected \",\" or \")\" after this argument, found " + found());
 }
 
+// OpenSCAD passes over empty places: [1,,2] is [1, 2].
+void Parser::skip_empty_places() {
+  while (dialect_ == Dialect::openscad && accept(TokenKind::comma)) {
+  }
+}
+
 void Parser::arguments_until(TokenKind close, std::vector<Argument>& into) {
+  skip_empty_places();
   while (!at(close) && !at(TokenKind::right_paren)) {
     Argument argument;
     if (is_name() && kind(1) == TokenKind::assign) {
@@ -409,6 +416,7 @@ void Parser::arguments_until(TokenKind close, std::vector<Argument>& into) {
     argument.value = expression();
     into.push_back(std::move(argument));
     if (!accept(TokenKind::comma)) return;
+    skip_empty_places();
   }
 }
 
@@ -423,6 +431,7 @@ void Parser::named_arguments(std::vector<Argument>& into, const char* owner, Tok
 
 void Parser::parameters(std::vector<Parameter>& into) {
   expect(TokenKind::left_paren, "(");
+  skip_empty_places();
   while (!at(TokenKind::right_paren)) {
     Parameter parameter{name("the name of a parameter"), nullptr};
     if (accept(TokenKind::assign)) parameter.value = expression();
@@ -433,6 +442,7 @@ void Parser::parameters(std::vector<Parameter>& into) {
                            {{"name", other.name.text()}});
     into.push_back(std::move(parameter));
     if (!accept(TokenKind::comma)) break;
+    skip_empty_places();
   }
   expect(TokenKind::right_paren, ")");
 }

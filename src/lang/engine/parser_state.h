@@ -104,6 +104,7 @@ class Parser {
   bool at_parenthesised_generator();
   bool at_expression_end();
   void arguments(std::vector<ast::Argument>& into);  // including both parentheses
+  void skip_empty_places();
   void arguments_until(TokenKind close, std::vector<ast::Argument>& into);
   void named_arguments(std::vector<ast::Argument>& into, const char* owner, TokenKind close);
   void parameters(std::vector<ast::Parameter>& into);
