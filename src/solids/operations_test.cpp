@@ -102,6 +102,20 @@ TEST_F(Operations, BooleansOfTouchingCubes) {
   EXPECT_DOUBLE_EQ(size_of(difference({cube(3, 3, 1), moved(1, 1, 0, {cube(1)})})), 8);  // with a hole
 }
 
+// A checkerboard of cutters that are flush with the outside: what is left touches itself along edges.
+TEST_F(Operations, CuttersThatMeetInEdgesEnd) {
+  EXPECT_DOUBLE_EQ(size_of(difference({cube(10), cube(5, 5, 10), moved(5, 5, 0, {cube(5, 5, 10)})})), 500);
+  Children board{cube(3, 3, 1)};
+  for (int n = 0; n < 9; n += 2) board.push_back(moved(n % 3, n / 3, 0, {cube(1)}));
+  EXPECT_DOUBLE_EQ(size_of(difference(board)), 4);
+  board[0] = nothing();
+  EXPECT_DOUBLE_EQ(size_of(unite(board)), 5);
+  EXPECT_DOUBLE_EQ(size_of(difference({unite(board), cube(1.5, 3, 1)})), 2 + 0.5);
+  EXPECT_DOUBLE_EQ(size_of(difference({cube(2), cube(1), moved(1, 1, 0, {cube(1)}), moved(0, 1, 1, {cube(1)}),
+                                       moved(1, 0, 1, {cube(1)})})),
+                   4);
+}
+
 TEST_F(Operations, WhatTouchesItselfGoesOn) {
   const TreePtr touching = unite({cube(1), moved(1, 1, 0, {cube(1)})});
   EXPECT_DOUBLE_EQ(size_of(difference({touching, moved(0.5, 0.5, 0, {cube(1)})})), 1.5);

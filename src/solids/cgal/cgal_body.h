@@ -49,6 +49,11 @@ inline const CgalBody& cgal(const Body& body) { return static_cast<const CgalBod
 Box box_of(const ExactMesh& mesh);
 // Returns true if vertices coincide.
 bool touches_itself(const ExactMesh& mesh);
+// Returns the angle about the line a-b from c to d in half turns: 0 for none, 1 for less than half a turn, 2 for half a
+// turn, 3 for more.
+int part_of_turn(const Exact::Point_3& a, const Exact::Point_3& b, const Exact::Point_3& c, const Exact::Point_3& d);
+// Returns true if the result of the boolean would touch itself along an edge that the surfaces have in common.
+bool touches_itself_after(Boolean operation, const ExactMesh& first, const ExactMesh& second);
 // Combines parts by Nef polyhedra. This is slow, but surfaces may touch themselves.
 Parts combine_nef(Boolean operation, const Part& a, const Part& b);
 std::vector<TriangleMesh> convex_parts_nef(const Part& part);

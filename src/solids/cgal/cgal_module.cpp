@@ -76,7 +76,8 @@ using Meshes = std::vector<ExactMesh>;
 // shells.
 std::optional<Parts> corefined_parts(Boolean operation, const Part& a, const Part& b) {
   ExactMesh result;
-  if (a.nef || b.nef || !corefined(operation, a.surface, b.surface, result)) return std::nullopt;
+  if (a.nef || b.nef || touches_itself_after(operation, a.surface, b.surface)) return std::nullopt;
+  if (!corefined(operation, a.surface, b.surface, result)) return std::nullopt;
   if (result.number_of_faces() == 0) return Parts();
   Parts parts;
   if (!touches_itself(result)) {

@@ -25,14 +25,6 @@ struct EdgeUses {
   std::vector<Use> forward, backward;
 };
 
-// Returns the angle about the line a-b from c to d in half turns: 0 for none, 1 for less than half a turn, 2 for half a
-// turn, 3 for more.
-int part_of_turn(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const CGAL::Orientation side = CGAL::orientation(a, b, c, d);
-  if (side != CGAL::COPLANAR) return side == CGAL::POSITIVE ? 1 : 3;
-  return CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE ? 0 : 2;
-}
-
 // Joins corners of triangles that share an edge of the same sector into one vertex.
 class Splitter {
  public:
