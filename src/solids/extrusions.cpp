@@ -118,6 +118,7 @@ class Extruder {
   TriangleMesh make() {
     for (int n = 0; n <= slices_; ++n) add_slice(n);
     for (int n = 0; n < slices_; ++n) add_wall(n);
+    if ((by_.scale.x == 0) != (by_.scale.y == 0)) cut_at_ridge(by_.scale.x == 0 ? 1 : 0);
     add_caps();
     return tidied(mesh_);
   }
@@ -151,6 +152,31 @@ class Extruder {
         mesh_.triangles.push_back({b, c, d});
       }
     }
+  }
+
+  // Where the last slice is a line along an axis, its edges lie on each other in part. Cuts the triangles below them at
+  // all points of the line, so that each edge has its counterparts.
+  void cut_at_ridge(int axis) {
+    std::map<double, uint32_t> ridge;
+    for (uint32_t n = 0; n < count(); ++n) ridge.emplace(at(slices_, n)[axis], number(slices_, n));
+    std::vector<Triangle> cut;
+    for (Triangle t : mesh_.triangles) {
+      const auto is_on_ridge = [&](uint32_t point) { return point >= number(slices_, 0); };
+      for (int n = 0; n < 3 && !(is_on_ridge(t[0]) && is_on_ridge(t[1])); ++n)
+        std::rotate(t.begin(), t.begin() + 1, t.end());
+      if (!is_on_ridge(t[0]) || !is_on_ridge(t[1])) {
+        cut.push_back(t);
+        continue;
+      }
+      const double from = mesh_.points[t[0]][axis], to = mesh_.points[t[1]][axis];
+      std::vector<uint32_t> way{t[0]};
+      for (auto between = ridge.upper_bound(std::min(from, to)); between->first < std::max(from, to); ++between)
+        way.push_back(between->second);
+      if (from > to) std::reverse(way.begin() + 1, way.end());
+      way.push_back(t[1]);
+      for (size_t n = 0; n + 1 < way.size(); ++n) cut.push_back({way[n], way[n + 1], t[2]});
+    }
+    mesh_.triangles = std::move(cut);
   }
 
   void add_caps() {

@@ -83,6 +83,30 @@ TEST_F(Operations, WrongPolyhedra) {
   EXPECT_EQ(message({points, {{0, 1, 2, 9}}}), "Point index 9 is out of bounds (from faces[0][3])");
 }
 
+TEST_F(Operations, CornersThatDifferByRoundingAreJoined) {
+  // Each face of a cube has corners of its own, which differ by up to `noise`.
+  for (const double noise : {0.0, 1e-12, 1e-9, 1e-7}) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> off(-noise, noise);
+    Polyhedron own;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {0.0, 10.0}) {
+        std::vector<size_t>& face = own.faces.emplace_back();
+        for (const Vec2 corner : {Vec2{0, 0}, Vec2{0, 10}, Vec2{10, 10}, Vec2{10, 0}}) {
+          Vec3 p;
+          p[axis] = side + off(random);
+          p[(axis + 1) % 3] = corner.x + off(random);
+          p[(axis + 2) % 3] = corner.y + off(random);
+          face.push_back(own.points.size());
+          own.points.push_back(p);
+        }
+        if (side == 0) std::reverse(face.begin(), face.end());
+      }
+    EXPECT_NEAR(size_of(node(own)), 1000, 1e-4) << noise;
+    EXPECT_NEAR(size_of(difference({node(own), moved(5, 0, 0, {cube(10)})})), 500, 1e-4) << noise;
+  }
+}
+
 TEST_F(Operations, PolygonsAreEvenOdd) {
   const std::vector<Vec2> points{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {5, 5}, {15, 5}, {15, 15}, {5, 15}};
   EXPECT_NEAR(size_of(node(Polygon{points, {{0, 1, 2, 3}, {4, 5, 6, 7}}})), 150, 1e-8);
@@ -114,6 +138,23 @@ TEST_F(Operations, CuttersThatMeetInEdgesEnd) {
   EXPECT_DOUBLE_EQ(size_of(difference({cube(2), cube(1), moved(1, 1, 0, {cube(1)}), moved(0, 1, 1, {cube(1)}),
                                        moved(1, 0, 1, {cube(1)})})),
                    4);
+}
+
+// At a height of share s, a square of 2 mm is 2 (1 - s) mm wide; the slot takes half of that along half of the ridge.
+TEST_F(Operations, RoofsEndInARidge) {
+  const auto roof = [](Vec2 scale, const TreePtr& region) {
+    LinearExtrude by;
+    by.height = 3;
+    by.scale = scale;
+    return node(by, {region});
+  };
+  const TreePtr square2 = moved(-1, -1, 0, {square(2, 2)});
+  const TreePtr slotted = difference({square2, moved(-1, -0.5, 0, {square(1, 1)})});
+  for (const Vec2 scale : {Vec2{0, 1}, Vec2{1, 0}}) {
+    EXPECT_NEAR(size_of(roof(scale, square2)), 6, 1e-9);
+    EXPECT_NEAR(size_of(roof(scale, slotted)), 4.5, 1e-9);
+  }
+  EXPECT_NEAR(size_of(roof({0, 2}, square2)), 2 * 3 * (1 + 1.0 / 3), 1e-9);
 }
 
 TEST_F(Operations, WhatTouchesItselfGoesOn) {
