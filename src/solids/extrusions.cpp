@@ -130,7 +130,7 @@ class Extruder {
 
   void add_slice(int n) {
     const double share = static_cast<double>(n) / slices_, turn = -by_.twist * share;
-    const double c = cosine(turn), s = sine(turn);
+    const double c = degrees::cosine(turn), s = degrees::sine(turn);
     const Vec2 scale{1 + share * (by_.scale.x - 1), 1 + share * (by_.scale.y - 1)};
     for (const Vec2& p : outline_.points) {
       const Vec2 turned{c * p.x - s * p.y, s * p.x + c * p.y};
@@ -221,7 +221,8 @@ class Revolver {
 
   void add_section(int n) {
     const double angle = start_ + angle_ * n / steps_;
-    for (const Vec2& p : outline_.points) mesh_.points.push_back({p.x * cosine(angle), p.x * sine(angle), p.y});
+    const double c = degrees::cosine(angle), s = degrees::sine(angle);
+    for (const Vec2& p : outline_.points) mesh_.points.push_back({p.x * c, p.x * s, p.y});
   }
 
   void add(uint32_t a, uint32_t b, uint32_t c) {

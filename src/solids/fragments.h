@@ -1,6 +1,7 @@
-// Number of edges of circles, and functions of angles in degrees.
+// Number of edges of circles, and their points.
 #pragma once
 
+#include "base/math/degrees.h"
 #include "base/math/vec.h"
 #include "solids/tree.h"
 
@@ -10,13 +11,9 @@ namespace ombre::solids {
 // if it is given; otherwise the least number that `angle` or `size` allow, at least 5.
 int edges_of_circle(double radius_mm, const Fragments& fragments);
 
-// sine() and cosine() are exact at multiples of 30 degrees if the value is rational.
-double sine(double degrees);
-double cosine(double degrees);
-
 // Returns the point of a circle at this angle from the x axis.
-inline Vec2 on_circle(double radius_mm, double degrees) {
-  return {radius_mm * cosine(degrees), radius_mm * sine(degrees)};
+inline Vec2 on_circle(double radius_mm, double angle) {
+  return {radius_mm * degrees::cosine(angle), radius_mm * degrees::sine(angle)};
 }
 
 // Limit on the number of edges, more than any machine prints; greater requests are reduced to it.

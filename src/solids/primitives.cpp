@@ -112,7 +112,7 @@ TriangleMesh mesh_of(const Sphere& sphere) {
   const int edges = edges_of_circle(sphere.radius, sphere.fragments), rings = (edges + 1) / 2;
   for (int n = rings - 1; n >= 0; --n) {
     const double from_pole = 180.0 * (n + 0.5) / rings;
-    add_ring(sphere.radius * sine(from_pole), sphere.radius * cosine(from_pole), edges, mesh);
+    add_ring(sphere.radius * degrees::sine(from_pole), sphere.radius * degrees::cosine(from_pole), edges, mesh);
   }
   close_rings(static_cast<uint32_t>(rings), static_cast<uint32_t>(edges), mesh);
   return mesh;

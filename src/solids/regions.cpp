@@ -184,7 +184,7 @@ Region offset(const Region& region, const Offset& by) {
   const Grid grid(reach);
   const double distance = by.distance * grid.steps();
   const double sagitta =
-      std::abs(distance) * (1 - cosine(180.0 / edges_of_circle(std::abs(by.distance), by.fragments)));
+      std::abs(distance) * (1 - degrees::cosine(180.0 / edges_of_circle(std::abs(by.distance), by.fragments)));
   clip::ClipperOffset offsetter(longest_corner, sagitta);
   offsetter.AddPaths(grid.paths(region.rings), join_of(by), clip::etClosedPolygon);
   Paths result;

@@ -10,9 +10,11 @@ namespace {
 
 constexpr double per_radian = 180 / std::numbers::pi;
 
-// Returns the sine of an angle in [0, 90], exact where it is 0, 1/2 or 1.
+// Returns the sine of an angle in [0, 90]; at multiples of 30 and 45 it is the nearest number.
 double quadrant_sine(double angle) {
   if (angle == 30) return 0.5;
+  if (angle == 45) return std::numbers::sqrt2 / 2;
+  if (angle == 60) return std::numbers::sqrt3 / 2;
   if (angle == 90) return 1;
   if (angle > 45) return math::cos((90 - angle) / per_radian);
   return math::sin(angle / per_radian);
@@ -52,6 +54,8 @@ double tangent(double angle) {
   const double a = std::fmod(angle, 180);
   if (a == 45 || a == -135) return 1;
   if (a == -45 || a == 135) return -1;
+  if (a == 60 || a == -120) return std::numbers::sqrt3;
+  if (a == -60 || a == 120) return -std::numbers::sqrt3;
   return sine(angle) / cosine(angle);
 }
 

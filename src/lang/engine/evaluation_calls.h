@@ -48,6 +48,9 @@ Value Evaluation<Language, Product>::eval_tail(const ast::Expr& start, const Sco
   } catch (const Stopped&) {
     self().trace(entered);
     throw;
+  } catch (const LimitReached&) {
+    self().stop_if_recursive(entered);
+    throw;
   }
 }
 

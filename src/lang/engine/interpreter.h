@@ -38,6 +38,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
     void add(const ast::Call&, const ast::Expr&) {}
   };
   void trace(const EnteredCalls&) {}
+  void stop_if_recursive(const EnteredCalls&) {}
   void trace(const ast::Statement&) {}
 
   // Defined in interpreter_diagnostics.cpp.

@@ -13,7 +13,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$'; }
 bool is_name_part(char c) { return (is_name_start(c) && c != '$') || is_digit(c); }
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF", no_break_space = "\xC2\xA0";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF", no_break_space = "\xC2\xA0", in_latin1 = "\xA0";
 
 std::optional<TokenKind> single_sign(char c) {
   switch (c) {
@@ -90,17 +90,22 @@ class Unescaper {
  private:
   void character() {
     const size_t size = text_[at_] == '\0' ? 0 : code_point_size(text_, at_);
-    if (size == 0) {
-      if (!was_reported_)
-        diagnostics_.error(Code::syntax, part(at_, at_ + 1), "this is not text in UTF-8",
-                           "save the file as plain UTF-8 text");
-      was_reported_ = true;
-      ++at_;
-      return;
-    }
+    if (size == 0) return invalid_byte();
     const bool is_left_out = dialect_ == Dialect::openscad && is_line_end(text_[at_]);
     if (!is_left_out) result_.text += text_.substr(at_, size);
     at_ += size;
+  }
+
+  // OpenSCAD keeps bytes of other encodings.
+  void invalid_byte() {
+    const char byte = text_[at_++];
+    if (dialect_ == Dialect::openscad && byte != '\0') {
+      result_.text += byte;
+    } else if (!was_reported_) {
+      diagnostics_.error(Code::syntax, part(at_ - 1, at_), "this is not text in UTF-8",
+                         "save the file as plain UTF-8 text");
+      was_reported_ = true;
+    }
   }
 
   void escape() {
@@ -205,10 +210,8 @@ void Lexer::skip_blank() {
   while (at_ < text_.size()) {
     if (is_space(text_[at_])) {
       ++at_;
-    } else if (dialect_ == Dialect::openscad && text_.substr(at_).starts_with(no_break_space)) {
-      at_ += no_break_space.size();
-    } else if (dialect_ == Dialect::openscad && text_.substr(at_).starts_with(byte_order_mark)) {
-      at_ += byte_order_mark.size();
+    } else if (const size_t size = blank_of_openscad(); size > 0) {
+      at_ += size;
     } else if (peek() == '/' && peek(1) == '/') {
       at_ = std::min(text_.find_first_of(line_ends, at_), text_.size());
     } else if (peek() == '/' && peek(1) == '*') {
@@ -217,6 +220,14 @@ void Lexer::skip_blank() {
       return;
     }
   }
+}
+
+// Returns the size of a blank that OpenSCAD alone takes as one, also in files that are not UTF-8.
+size_t Lexer::blank_of_openscad() const {
+  if (dialect_ != Dialect::openscad) return 0;
+  for (const std::string_view blank : {no_break_space, byte_order_mark, in_latin1})
+    if (text_.substr(at_).starts_with(blank)) return blank.size();
+  return 0;
 }
 
 void Lexer::skip_comment() {

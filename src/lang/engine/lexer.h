@@ -74,6 +74,7 @@ class Lexer {
   void put(TokenKind kind, size_t begin);
   void error(size_t begin, size_t end, std::string message, Phrase hint = {});
   void skip_blank();
+  size_t blank_of_openscad() const;
   void skip_comment();
   void read();
   void name();

@@ -116,7 +116,7 @@ struct Range {
 
   // Returns the number of elements. The end counts as an element if it is within rounding of one.
   double count() const;
-  double at(double index) const { return begin + index * step; }
+  double at(double index) const { return index == 0 ? begin : begin + index * step; }  // steps may be infinite
 };
 
 // Collects the elements of a list within the limits.

@@ -106,15 +106,20 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
         first_ = &call;
       else if (&body != body_)
         others_.push_back(&call);
+      else
+        ++repeats_;
       body_ = &body;
     }
     const ast::Call* first() const { return first_; }
     const std::vector<const ast::Call*>& others() const { return others_; }
+    const ast::Call* last() const { return others_.empty() ? first_ : others_.back(); }
+    int repeats() const { return repeats_; }  // of calls of a function with which it ends itself
 
    private:
     const ast::Call* first_ = nullptr;
     std::vector<const ast::Call*> others_;
     const ast::Expr* body_ = nullptr;  // of the last call
+    int repeats_ = 0;
   };
 
   // Functions that report messages.
@@ -124,6 +129,9 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   [[noreturn]] void stop(std::string text, const ast::Span& where, Code code = Code::script);
   void trace(const std::string& name, const ast::Span& where);
   void trace(const EnteredCalls& entered);
+  // At a limit of what values may hold: throws Stopped if a recursion that does not end has led to it.
+  void stop_if_recursive(const EnteredCalls& entered);
+  void say_recursion(const ast::Call& call);
   void trace(const ast::Statement& statement);
   std::pair<std::string, int> file_and_line(const ast::Span& where);
 
@@ -147,7 +155,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
     out.push_back(std::move(result));
   }
   void check_depth(const ast::CallStatement& statement);
-  void set_counts(const ast::CallStatement& statement, const Scope& inner, size_t specials_from);
+  void set_counts(const ast::CallStatement& statement, Scope& inner, size_t specials_from);
   void call_other(const ast::CallStatement& statement, const ScopePtr& scope, Trees& out);
   solids::TreePtr run_builtin(const Module& module, const ast::CallStatement& statement, const ScopePtr& scope);
   solids::TreePtr run_children(const ast::CallStatement& statement, const ScopePtr& scope);

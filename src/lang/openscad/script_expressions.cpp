@@ -10,6 +10,16 @@ template class ombre::lang::Evaluation<ombre::lang::openscad::Evaluator, ombre::
 
 namespace ombre::lang::openscad {
 
+namespace {
+
+// True for numbers as they are written, also with signs.
+bool is_literal(const ast::Expr& expr) {
+  if (expr.kind == ast::Expr::Kind::unary) return is_literal(*static_cast<const ast::Unary&>(expr).operand);
+  return expr.kind == ast::Expr::Kind::number;
+}
+
+}  // namespace
+
 void Evaluator::stop_at_depth(const ast::Span& where) { stop("Expressions are nested too deeply", where); }
 
 // Returns 0 and adds a warning if the loop would be too long.
@@ -42,10 +52,11 @@ Value Evaluator::eval_range(const ast::Range& range, const ScopePtr& scope) {
       say(Message::Kind::deprecated,
           "Using ranges of the form [begin:end] with begin value greater than the end value is deprecated", range.span);
     }
-  } else if (result.step > 0 && result.end < result.begin) {
-    warn("begin is greater than the end, but step is positive", range.span);
-  } else if (result.step < 0 && result.end > result.begin) {
-    warn("begin is smaller than the end, but step is negative", range.span);
+  } else if (is_literal(*range.begin) && is_literal(*range.step) && is_literal(*range.end)) {
+    if (result.step > 0 && result.end < result.begin)
+      warn("begin is greater than the end, but step is positive", range.span);
+    else if (result.step < 0 && result.end > result.begin)
+      warn("begin is smaller than the end, but step is negative", range.span);
   }
   return RangePtr(std::make_shared<const Range>(result));
 }

@@ -25,9 +25,22 @@ void Evaluator::trace(const EnteredCalls& entered) {
   if (entered.first()) trace(callee_name(*entered.first()), entered.first()->span);
 }
 
+void Evaluator::stop_if_recursive(const EnteredCalls& entered) {
+  constexpr int many_repeats = 16, deep = 200;
+  if (!entered.last() || (entered.repeats() < many_repeats && depth_ < deep)) return;
+  say_recursion(*entered.last());
+  trace(entered);
+  throw Stopped{};
+}
+
+void Evaluator::say_recursion(const ast::Call& call) {
+  say(Message::Kind::error, "Recursion detected calling function '" + callee_name(call) + '\'', call.span);
+}
+
 void Evaluator::check_depth(const ast::Call& call) {
-  if (depth_ > options_.limits.depth - spare_levels)
-    stop("Recursion detected calling function '" + callee_name(call) + '\'', call.span);
+  if (depth_ <= options_.limits.depth - spare_levels) return;
+  say_recursion(call);
+  throw Stopped{};
 }
 
 // Sets the special variables of a used file.

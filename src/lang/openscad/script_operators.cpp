@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "lang/engine/operators.h"
+#include "lang/openscad/ranges.h"
 #include "lang/openscad/value_text.h"
 
 namespace ombre::lang::openscad {
@@ -19,8 +20,8 @@ class Computation {
 
   Value binary(Operator op, const Value& left, const Value& right) {
     meter_.spend();
-    if (op == Operator::equal) return equal(left, right, meter_);
-    if (op == Operator::not_equal) return !equal(left, right, meter_);
+    if (op == Operator::equal) return are_equal(left, right);
+    if (op == Operator::not_equal) return !are_equal(left, right);
     if (is_order(op)) return comparison(op, left, right);
     return op == Operator::multiply ? product(left, right) : arithmetic(op, left, right);
   }
@@ -174,13 +175,15 @@ class Computation {
     return result.finish();
   }
 
+  bool are_equal(const Value& left, const Value& right) {
+    const Range *a = left.range(), *b = right.range();
+    return a && b ? order_key(*a) == order_key(*b) : equal(left, right, meter_);
+  }
+
   Value comparison(Operator op, const Value& left, const Value& right) {
     if (const auto is_ordered = ordered_values(op, left, right)) return *is_ordered;
     if (left.list() && right.list()) return of_vectors(op, *left.list(), *right.list());
-    if (const Range* a = left.range(), *b = right.range(); a && b) {
-      const std::array<double, 3> x{a->begin, a->step, a->end}, y{b->begin, b->step, b->end};
-      return ordered(op, x, y);
-    }
+    if (const Range* a = left.range(), *b = right.range(); a && b) return ordered(op, order_key(*a), order_key(*b));
     if (left.is_undef() && right.is_undef())
       return fail(std::string("operation undefined (undefined ") + ast::spelling(op) + " undefined)");
     return undefined(op, left, right);

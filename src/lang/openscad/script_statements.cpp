@@ -101,8 +101,9 @@ void Evaluator::check_depth(const CallStatement& statement) {
     stop("Recursion detected calling module '" + statement.name.text() + '\'', statement.span);
 }
 
-void Evaluator::set_counts(const CallStatement& statement, const Scope&, size_t specials_from) {
-  set_special(children_count_, static_cast<double>(statement.children.plan.actions.size()), specials_from);
+// $children belongs to the module in which it stands, so braces of a call have that of the module around them.
+void Evaluator::set_counts(const CallStatement& statement, Scope& inner, size_t specials_from) {
+  inner.set(children_count_, static_cast<double>(statement.children.plan.actions.size()));
   set_special(parent_modules_, static_cast<double>(module_calls_.size() + 1), specials_from);
 }
 
