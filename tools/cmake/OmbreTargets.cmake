@@ -68,6 +68,20 @@ function(ombre_room room)
   endif()
 endfunction()
 
+# ombre_test_program(<name> SOURCES tests LINKS libraries): a program of unit tests, each of which ctest knows.
+function(ombre_test_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  if(NOT TARGET ombre_test_main)
+    add_library(ombre_test_main OBJECT ${PROJECT_SOURCE_DIR}/tests/test_main.cpp)
+    target_link_libraries(ombre_test_main PUBLIC GTest::gtest)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINKS} ombre_test_main)
+  ombre_test_options(${name})
+  target_compile_definitions(${name} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${OMBRE_TEST_TIMEOUT})
+endfunction()
+
 # ombre_tests(<folder> [FOLDERS that it tests]): a program of all tests in the folder and its rooms.
 function(ombre_tests folder)
   cmake_parse_arguments(ARG "" "" "FOLDERS" ${ARGN})
@@ -79,11 +93,7 @@ function(ombre_tests folder)
   if(NOT OMBRE_TESTS OR NOT tests)
     return()
   endif()
-  add_executable(test_${folder} ${tests})
-  target_link_libraries(test_${folder} PRIVATE ombre_${folder} GTest::gtest_main)
-  ombre_test_options(test_${folder})
-  target_compile_definitions(test_${folder} PRIVATE OMBRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(test_${folder} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${OMBRE_TEST_TIMEOUT})
+  ombre_test_program(test_${folder} SOURCES ${tests} LINKS ombre_${folder})
 endfunction()
 
 # ombre_rooms(<folder> <rooms...> [FOLDERS that it tests besides]): all rooms of a folder as one, and their tests.
