@@ -6,16 +6,14 @@
 
 #include "base/text/error.h"
 #include "base/text/file_ending.h"
-#include "base/text/text.h"
 #include "formats/containers/file.h"
 #include "formats/drawings/plane_files.h"
 #include "formats/images/uncoloured.h"
 #include "formats/mesh/mesh.h"
 #include "formats/mesh/mesh_objects.h"
 #include "formats/packages/read_mesh.h"
-#include "import/surfaces/corner_welder.h"
 #include "solids/fragments.h"
-#include "solids/kernel.h"
+#include "solids/mended_solid.h"
 #include "solids/regions.h"
 
 namespace ombre::solids {
@@ -69,7 +67,7 @@ Pieces mesh_pieces(const Import& import, const std::string& bytes, const SourceR
   }
   Pieces pieces;
   const auto add = [&](const formats::Mesh& part, Attributes attributes) {
-    if (const auto solid = checked_solid(mesh_of(part, import.scale), "\"" + import.path + '"', where, messages))
+    if (const auto solid = mended_solid(mesh_of(part, import.scale), "\"" + import.path + '"', where, messages))
       pieces.push_back({std::move(attributes), *solid});
   };
   if (!names_attributes(ending_of(import.path)) || mesh->groups.size() < 2) {
@@ -113,41 +111,6 @@ Pieces region_pieces(const Import& import, const std::string& bytes, const Sourc
 }
 
 }  // namespace
-
-namespace {
-
-// Joins corners that differ by rounding, where that closes the surface; says so.
-bool join_corners(TriangleMesh& mesh, const std::string& what, const SourceRange& where, Diagnostics& messages) {
-  formats::Mesh joined;
-  joined.vertices = mesh.points;
-  joined.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-  const auto welded = importing::weld_corners(joined, false);
-  if (!welded) return false;
-  mesh.points = std::move(joined.vertices);
-  mesh = tidied(mesh);
-  messages.note(where, format_count(welded->corners) + " corners of " + what + " that lie up to " +
-                           format_rounded(welded->farthest_mm, 2) + " mm apart were joined, which closes its surface");
-  return true;
-}
-
-}  // namespace
-
-std::optional<Solid> checked_solid(TriangleMesh mesh, const std::string& what, const SourceRange& where,
-                                   Diagnostics& messages) {
-  for (bool is_joined = false;; is_joined = true) {
-    std::string remark;
-    try {
-      Solid solid(kernel().body(mesh, false, remark));
-      if (!remark.empty()) messages.warning(where, what + ' ' + remark);
-      return solid;
-    } catch (const Error& error) {
-      if (!is_joined && error.code() == Code::surface_open && join_corners(mesh, what, where, messages)) continue;
-      messages.error(where, what + " cannot be used: " + error.what(),
-                     "close its surface, and turn all faces so that they are clockwise when seen from outside");
-      return std::nullopt;
-    }
-  }
-}
 
 Pieces import_pieces(const Import& import, const SourceRange& where, Diagnostics& messages) {
   const auto bytes = bytes_of(import.path, where, messages);

@@ -8,11 +8,6 @@
 
 namespace ombre::solids {
 
-// Returns the solid of an untrusted mesh. If the mesh is not closed or crosses itself, reports an error and returns
-// null. Overlapping shells become one. `what` begins the message.
-std::optional<Solid> checked_solid(TriangleMesh mesh, const std::string& what, const SourceRange& where,
-                                   Diagnostics& messages);
-
 // Imports a file. STL, OFF, OBJ, PLY, AMF and 3MF give a solid for each material and colour of each object, with the
 // names and colours of the file; SVG and DXF give one region. Returns no pieces, with messages, if there are none.
 Pieces import_pieces(const Import& import, const SourceRange& where, Diagnostics& messages);

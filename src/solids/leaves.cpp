@@ -4,6 +4,7 @@
 #include "base/text/error.h"
 #include "solids/files.h"
 #include "solids/kernel.h"
+#include "solids/mended_solid.h"
 #include "solids/operations.h"
 #include "solids/primitives.h"
 #include "solids/regions.h"
@@ -32,7 +33,7 @@ class Leaf {
   Pieces operator()(const Polyhedron& polyhedron) const {
     TriangleMesh mesh = mesh_of(polyhedron, tree_.where, messages());
     if (mesh.triangles.empty()) return {{}};
-    const auto solid = checked_solid(mesh, "the polyhedron", tree_.where, messages());
+    const auto solid = mended_solid(mesh, "the polyhedron", tree_.where, messages());
     return {{{}, solid ? std::variant<std::monostate, Solid, Region>(*solid) : std::monostate{}}};
   }
   Pieces operator()(const Square& square) const { return piece_of(region_of(rings_of(square))); }

@@ -77,10 +77,29 @@ TEST_F(Operations, WrongPolyhedra) {
   };
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_EQ(message({points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}}}),
+            "the surface of the polyhedron lacks a face, filled as flat as their edges allow");
+  EXPECT_EQ(message({points, {{0, 1, 2}, {0, 3, 1}, {0, 3, 1}}}),
             "the polyhedron cannot be used: its surface is not closed");
   EXPECT_EQ(message({points, {{2, 1, 0}, {1, 3, 0}, {3, 2, 0}, {2, 3, 1}}}),
             "the polyhedron is inside out, in part or as a whole; it was turned");
   EXPECT_EQ(message({points, {{0, 1, 2, 9}}}), "Point index 9 is out of bounds (from faces[0][3])");
+}
+
+TEST_F(Operations, MissingFacesAreFilled) {
+  const std::vector<Vec3> corners{{0, 0, 0},  {10, 0, 0},  {10, 10, 0},  {0, 10, 0},
+                                  {0, 0, 10}, {10, 0, 10}, {10, 10, 10}, {0, 10, 10}};
+  const std::vector<std::vector<size_t>> faces{{0, 1, 2, 3}, {4, 5, 1, 0}, {7, 6, 5, 4},
+                                               {5, 6, 2, 1}, {6, 7, 3, 2}, {7, 4, 0, 3}};
+  constexpr std::array<size_t, 6> opposite{2, 4, 0, 5, 1, 3};
+  for (size_t first = 0; first < faces.size(); ++first)
+    for (size_t second = first; second < faces.size(); ++second) {
+      Polyhedron box{corners, {}};
+      for (size_t n = 0; n < faces.size(); ++n)
+        if (n != first && n != second) box.faces.push_back(faces[n]);
+      // Two faces with an edge in common leave a hole along six edges, whose filling need not be the two faces.
+      if (first == second || opposite[first] == second)
+        EXPECT_NEAR(size_of(node(box)), 1000, 1e-9) << first << ' ' << second;
+    }
 }
 
 TEST_F(Operations, CornersThatDifferByRoundingAreJoined) {
