@@ -136,15 +136,16 @@ TriangleMesh mesh_of(const Polyhedron& polyhedron, const SourceRange& where, Dia
   TriangleMesh mesh{polyhedron.points, {}};
   formats::PolygonCutter cutter;
   for (size_t row = 0; row < polyhedron.faces.size(); ++row) {
-    const std::vector<size_t>& face = polyhedron.faces[row];
+    std::vector<size_t> face = polyhedron.faces[row];
     if (!check_indices(face, mesh.points.size(), "faces", row, where, messages)) continue;
+    // Counter-clockwise from outside, with the same first corner, from which OpenSCAD cuts faces that are not flat.
+    if (!face.empty()) std::reverse(face.begin() + 1, face.end());
     std::vector<Vec3> corners;
     std::vector<uint32_t> number;
-    // Counter-clockwise from outside. NOLINTNEXTLINE(modernize-loop-convert): clang 14 has no std::views::reverse
-    for (auto corner = face.rbegin(); corner != face.rend(); ++corner) {
-      if (!corners.empty() && (mesh.points[*corner] == corners.back())) continue;
-      corners.push_back(mesh.points[*corner]);
-      number.push_back(static_cast<uint32_t>(*corner));
+    for (const size_t corner : face) {
+      if (!corners.empty() && mesh.points[corner] == corners.back()) continue;
+      corners.push_back(mesh.points[corner]);
+      number.push_back(static_cast<uint32_t>(corner));
     }
     while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
     if (corners.size() < 3) continue;

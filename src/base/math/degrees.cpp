@@ -51,11 +51,11 @@ double cosine(double angle) {
 
 double tangent(double angle) {
   if (!std::isfinite(angle)) return std::nan("");
-  const double a = std::fmod(angle, 180);
-  if (a == 45 || a == -135) return 1;
-  if (a == -45 || a == 135) return -1;
-  if (a == 60 || a == -120) return std::numbers::sqrt3;
-  if (a == -60 || a == 120) return -std::numbers::sqrt3;
+  double a = std::fmod(angle, 180);
+  if (std::abs(a) > 90) a -= std::copysign(180, a);
+  if (std::abs(a) == 30) return std::copysign(std::numbers::sqrt3 / 3, a);
+  if (std::abs(a) == 45) return std::copysign(1, a);
+  if (std::abs(a) == 60) return std::copysign(std::numbers::sqrt3, a);
   return sine(angle) / cosine(angle);
 }
 
