@@ -170,8 +170,10 @@ class Extruder {
       }
       const double from = mesh_.points[t[0]][axis], to = mesh_.points[t[1]][axis];
       std::vector<uint32_t> way{t[0]};
-      for (auto between = ridge.upper_bound(std::min(from, to)); between->first < std::max(from, to); ++between)
-        way.push_back(between->second);
+      const auto beyond = ridge.lower_bound(std::max(from, to));
+      if (from != to)
+        for (auto between = ridge.upper_bound(std::min(from, to)); between != beyond; ++between)
+          way.push_back(between->second);
       if (from > to) std::reverse(way.begin() + 1, way.end());
       way.push_back(t[1]);
       for (size_t n = 0; n + 1 < way.size(); ++n) cut.push_back({way[n], way[n + 1], t[2]});
@@ -199,7 +201,7 @@ class Revolver {
   Revolver(const Region& region, const RotateExtrude& by, double reach)
       : outline_(outline_of(region)), is_whole_(std::abs(by.angle) >= 360) {
     angle_ = is_whole_ ? 360 : by.angle;
-    start_ = by.start;
+    start_ = by.start.value_or(is_whole_ ? 180 : 0);
     const double edges = edges_of_circle(reach, by.fragments);
     steps_ = is_whole_ ? static_cast<int>(edges) : std::max(1, static_cast<int>(edges * std::abs(angle_) / 360));
     const double side = outline_.points.empty() ? 0

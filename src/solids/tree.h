@@ -117,7 +117,8 @@ struct LinearExtrude {
   Fragments fragments = {};
 };
 struct RotateExtrude {
-  double angle = 360, start = 0;  // degrees
+  double angle = 360;                // degrees
+  std::optional<double> start = {};  // degrees from the x axis; by default 180 for a whole turn, else 0
   int convexity = 2;
   Fragments fragments = {};
 };

@@ -145,7 +145,7 @@ TEST(Interpret, CyclesOfIncludesAreReported) {
     return std::nullopt;
   };
   EXPECT_EQ(first_message("include <a>", options),
-            "b:1:9: error: \"a\" includes itself, through b; move what both need into a third file");
+            "b:1:10: error: \"a\" includes itself, through b; move what both need into a third file");
   EXPECT_NE(first_message("include <n>", options).find("files include each other deeper than 32 levels"),
             std::string::npos);
   EXPECT_EQ(run_script("include <twice> show(v);", options).nodes, "show(1)");

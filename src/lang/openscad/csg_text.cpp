@@ -141,7 +141,7 @@ class Head {
     return text + (has_slices && !is_exact_ ? "" : ", " + fragments(extrude.fragments)) + ')';
   }
   std::string operator()(const solids::RotateExtrude& extrude) const {
-    const std::string start = extrude.start == 0 ? "" : ", start = " + stream(extrude.start);
+    const std::string start = extrude.start ? ", start = " + stream(*extrude.start) : "";
     return "rotate_extrude(angle = " + stream(extrude.angle) + start +
            ", convexity = " + std::to_string(extrude.convexity) + ", " + fragments(extrude.fragments) + ')';
   }

@@ -105,6 +105,59 @@ TEST(Openscad, AMessageIsNotRepeatedMoreThanFiveTimes) {
   EXPECT_EQ(run_text("for (i = [0:9]) if (x) cube();").lines, five);
 }
 
+// The results are those of OpenSCAD 2021.01.
+TEST(Openscad, EmptyPlacesAreLeftOut) {
+  EXPECT_EQ(value_of("[1,, 2,,,]"), "ECHO: [1, 2]\n");
+  EXPECT_EQ(value_of("[,]"), "ECHO: []\n");
+  EXPECT_EQ(run_text("echo(, 1,, 2);").lines, "ECHO: 1, 2\n");
+  EXPECT_EQ(run_text("function f(, a,, b) = a + b; for (i = [1],, j = [2]) echo(f(i,, j));").lines, "ECHO: 3\n");
+}
+
+TEST(Openscad, RangesCompareByTheirElements) {
+  EXPECT_EQ(value_of("[[1:1:0] == [5:1:4], [0:2:4] == [0:2:5], [0:2:4] < [0:2:5], [1:1:0] < [1:2], [1:2] < [1:1:0]]"),
+            "WARNING: begin is greater than the end, but step is positive in file t.scad, line 1\n"
+            "WARNING: begin is greater than the end, but step is positive in file t.scad, line 1\n"
+            "WARNING: begin is greater than the end, but step is positive in file t.scad, line 1\n"
+            "WARNING: begin is greater than the end, but step is positive in file t.scad, line 1\n"
+            "ECHO: [true, true, false, true, false]\n");
+}
+
+TEST(Openscad, RangesWarnOfNumbersAsTheyAreWritten) {
+  const std::string warning = "WARNING: begin is greater than the end, but step is positive in file t.scad, line 1\n";
+  EXPECT_EQ(run_text("for (i = [5:1:-(1)]) echo(i);").lines, warning);
+  EXPECT_EQ(run_text("for (i = [5:1:2 - 1]) echo(i);").lines, "");
+  EXPECT_EQ(run_text("a = 5; for (i = [a:1:1]) echo(i);").lines, "");
+}
+
+TEST(Openscad, RangesMayBeInfinite) {
+  EXPECT_EQ(run_text("for (i = [0:1/0:5]) echo(i); for (i = [0:-1/0:5]) echo(i); for (i = [1/0:1:5]) echo(i);").lines,
+            "ECHO: 0\n");
+}
+
+TEST(Openscad, AnglesAreExactAtMultiplesOf30And45) {
+  EXPECT_EQ(
+      value_of("[sin(45) == sqrt(2) / 2, cos(405) == sqrt(2) / 2, sin(-60) == -sqrt(3) / 2, cos(150) == -sqrt(3) / 2, "
+               "tan(30) == sqrt(3) / 3, tan(120) == -sqrt(3), tan(135) == -1]"),
+      "ECHO: [true, true, true, true, true, true, true]\n");
+}
+
+TEST(Openscad, BracesHaveTheChildrenOfTheModuleAroundThem) {
+  EXPECT_EQ(run_text("module outer() { inner() { echo(\"braces\", $children); cube(); } }"
+                     "module inner() { echo(\"inner\", $children); children(); }"
+                     "outer() { cube(); sphere(); cylinder(); }")
+                .lines,
+            "ECHO: \"inner\", 2\nECHO: \"braces\", 3\n");
+  EXPECT_EQ(run_text("module n() children(); n() echo($children);").lines,
+            "WARNING: Ignoring unknown variable '$children' in file t.scad, line 1\nECHO: undef\n");
+}
+
+TEST(Openscad, FilesMayHaveOtherEncodings) {
+  EXPECT_EQ(run_text("a\xA0=\xC2\xA0"
+                     "5; echo(a, \"\xE4\");")
+                .lines,
+            "ECHO: 5, \"\xE4\"\n");
+}
+
 TEST(Openscad, TailCallsTakeNoDepth) {
   EXPECT_EQ(run_text("function f(n) = n == 0 ? 7 : f(n - 1); echo(f(50000));").lines, "ECHO: 7\n");
 }
@@ -114,7 +167,12 @@ TEST(Openscad, EndlessScriptsEndAtLimits) {
   options.limits.steps = 100'000;
   options.limits.calls = 1000;
   options.limits.depth = 500;
-  EXPECT_NE(run_text("function f(n) = f(n + 1); echo(f(0));", options).lines.find("steps"), std::string::npos);
+  EXPECT_NE(run_text("for (n = [0:99999]) { x = n; }", options).lines.find("steps"), std::string::npos);
+  for (const std::string grows : {"f(x + 1)", "f(concat(x, [1]))", "f(concat(x, x))", "f(str(x, x))"})
+    EXPECT_EQ(run_text("function f(x) = " + grows + "; echo(f([1]));", options).lines,
+              "ERROR: Recursion detected calling function 'f' in file t.scad, line 1\n"
+              "TRACE: called by 'f' in file t.scad, line 1\nTRACE: called by 'echo' in file t.scad, line 1\n")
+        << grows;
   EXPECT_NE(run_text("module m() { m(); m(); } m();", options).lines.find("Recursion detected calling module 'm'"),
             std::string::npos);
   EXPECT_NE(run_text("module m(n) { if (n > 0) { m(n - 1); m(n - 1); } } m(20);", options).lines.find("calls modules"),

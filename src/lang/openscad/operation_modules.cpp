@@ -93,7 +93,7 @@ TreePtr rotate_extrude(ModuleCall& call) {
   result.fragments = call.fragments();
   const double angle = call.number("angle", call.number("file", 360));
   if (std::isfinite(angle) && std::abs(angle) <= 360) result.angle = angle;
-  result.start = call.number("start", 0);
+  result.start = call.number("start");
   result.convexity = std::max(2, whole(call.number("convexity", 2)));
   return extruded(call, result);
 }
