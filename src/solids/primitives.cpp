@@ -92,6 +92,41 @@ bool check_indices(const std::vector<size_t>& indices, size_t points, const std:
   return true;
 }
 
+// Returns a positive number if d lies within the circle through a, b and c, which are counter-clockwise.
+double within_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Vec2 x = a - d, y = b - d, z = c - d;
+  return dot(x, x) * cross(y, z) + dot(y, y) * cross(z, x) + dot(z, z) * cross(x, y);
+}
+
+// True if OpenSCAD 2021.01 cuts a face with four corners from the second to the last. Which triangles it makes counts
+// if the face is not flat: they are those of Delaunay as seen along the axis that the face looks along most, and where
+// the corners lie on a circle, those that a sweep makes.
+bool is_cut_from_second(const std::vector<Vec3>& corners) {
+  const Vec3 normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
+  int axis = 0;
+  for (const int other : {1, 2})
+    if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+  std::array<Vec2, 4> flat;
+  for (size_t n = 0; n < 4; ++n) {
+    const double across = corners[n][(axis + 2) % 3];
+    flat[n] = {corners[n][(axis + 1) % 3], normal[axis] < 0 ? -across : across};
+  }
+  double size = 0;
+  for (size_t n = 0; n < 4; ++n) {
+    const Vec2 before = flat[n] - flat[(n + 3) % 4], behind = flat[(n + 1) % 4] - flat[n];
+    if (cross(before, behind) <= 0) return false;  // not convex
+    size = std::max(size, dot(before, before));
+  }
+  constexpr double rounding = 1e-9;
+  const double within = within_circle(flat[0], flat[1], flat[2], flat[3]);
+  if (std::abs(within) > rounding * size * size) return within > 0;
+  std::array<size_t, 4> order{0, 1, 2, 3};
+  std::ranges::sort(
+      order, [&](size_t a, size_t b) { return std::pair(flat[a].x, flat[a].y) < std::pair(flat[b].x, flat[b].y); });
+  const bool is_one_chain = (order[1] + 1) % 4 == order[2] || (order[2] + 1) % 4 == order[1];
+  return (is_one_chain ? order[0] : order[1]) % 2 == 1;
+}
+
 }  // namespace
 
 TriangleMesh mesh_of(const Cube& cube) {
@@ -138,8 +173,7 @@ TriangleMesh mesh_of(const Polyhedron& polyhedron, const SourceRange& where, Dia
   for (size_t row = 0; row < polyhedron.faces.size(); ++row) {
     std::vector<size_t> face = polyhedron.faces[row];
     if (!check_indices(face, mesh.points.size(), "faces", row, where, messages)) continue;
-    // Counter-clockwise from outside, with the same first corner, from which OpenSCAD cuts faces that are not flat.
-    if (!face.empty()) std::reverse(face.begin() + 1, face.end());
+    std::ranges::reverse(face);  // counter-clockwise from outside
     std::vector<Vec3> corners;
     std::vector<uint32_t> number;
     for (const size_t corner : face) {
@@ -149,6 +183,10 @@ TriangleMesh mesh_of(const Polyhedron& polyhedron, const SourceRange& where, Dia
     }
     while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
     if (corners.size() < 3) continue;
+    if (corners.size() == 4 && is_cut_from_second(corners)) {
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+      std::rotate(number.begin(), number.begin() + 1, number.begin() + 4);
+    }
     for (const auto& [a, b, c] : cutter.cut(corners)) mesh.triangles.push_back({number[a], number[b], number[c]});
   }
   return tidied(mesh);
