@@ -26,7 +26,7 @@ void Evaluator::trace(const EnteredCalls& entered) {
 }
 
 void Evaluator::stop_if_recursive(const EnteredCalls& entered) {
-  constexpr int many_repeats = 16, deep = 200;
+  constexpr int many_repeats = 8, deep = 200;
   if (!entered.last() || (entered.repeats() < many_repeats && depth_ < deep)) return;
   say_recursion(*entered.last());
   trace(entered);
