@@ -2,6 +2,7 @@
 
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/text/error.h"
 #include "base/text/text.h"
@@ -79,6 +80,12 @@ class Mender {
   Diagnostics& messages_;
 };
 
+TriangleMesh turned_outward(TriangleMesh mesh) {
+  if (volume_of(mesh) < 0)
+    for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
 }  // namespace
 
 std::optional<Solid> mended_solid(TriangleMesh mesh, const std::string& what, const SourceRange& where,
@@ -91,6 +98,10 @@ std::optional<Solid> mended_solid(TriangleMesh mesh, const std::string& what, co
       if (!remark.empty()) messages.warning(where, what + ' ' + remark);
       return solid;
     } catch (const Error& error) {
+      if (error.code() == Code::surface_crosses) {
+        messages.warning(where, what + " stays as it is, and cannot be combined with other solids: " + error.what());
+        return Solid(turned_outward(std::move(mesh)));
+      }
       const bool is_open = error.code() == Code::surface_open;
       if (is_open && !is_mended && (mender.join_corners() || mender.fill_holes())) continue;
       messages.error(where, what + " cannot be used: " + error.what(),

@@ -7,6 +7,7 @@
 #include "base/text/error.h"
 #include "solids/extrusions.h"
 #include "solids/kernel.h"
+#include "solids/mended_solid.h"
 #include "solids/piece_attributes.h"
 #include "solids/regions.h"
 
@@ -292,14 +293,8 @@ class Applier {
   // Returns the solid of a mesh, repaired by the kernel if the mesh may cross itself.
   Solid checked(TriangleMesh mesh, bool is_sound) const {
     if (is_sound || mesh.triangles.empty()) return Solid(std::move(mesh));
-    std::string remark;
-    try {
-      return Solid(kernel().body(mesh, false, remark));
-    } catch (const Error& error) {
-      context_.messages->error(tree_.where, std::string("the extrusion cannot be used: ") + error.what(),
-                               "twist less, or use more slices");
-      return Solid(TriangleMesh{});
-    }
+    const auto solid = mended_solid(std::move(mesh), "the extrusion", tree_.where, *context_.messages);
+    return solid ? *solid : Solid(TriangleMesh{});
   }
 
   // Says so if pieces of several colours become one piece, which has the colour of the first.
