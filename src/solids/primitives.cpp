@@ -92,15 +92,9 @@ bool check_indices(const std::vector<size_t>& indices, size_t points, const std:
   return true;
 }
 
-// Returns a positive number if d lies within the circle through a, b and c, which are counter-clockwise.
-double within_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const Vec2 x = a - d, y = b - d, z = c - d;
-  return dot(x, x) * cross(y, z) + dot(y, y) * cross(z, x) + dot(z, z) * cross(x, y);
-}
-
 // True if OpenSCAD 2021.01 cuts a face with four corners from the second to the last. Which triangles it makes counts
-// if the face is not flat: they are those of Delaunay as seen along the axis that the face looks along most, and where
-// the corners lie on a circle, those that a sweep makes.
+// if the face is not flat: it cuts along the shorter diagonal as seen along the axis that the face looks along most.
+// Where the diagonals have one length, it cuts as a sweep does.
 bool is_cut_from_second(const std::vector<Vec3>& corners) {
   const Vec3 normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
   int axis = 0;
@@ -111,15 +105,11 @@ bool is_cut_from_second(const std::vector<Vec3>& corners) {
     const double across = corners[n][(axis + 2) % 3];
     flat[n] = {corners[n][(axis + 1) % 3], normal[axis] < 0 ? -across : across};
   }
-  double size = 0;
-  for (size_t n = 0; n < 4; ++n) {
-    const Vec2 before = flat[n] - flat[(n + 3) % 4], behind = flat[(n + 1) % 4] - flat[n];
-    if (cross(before, behind) <= 0) return false;  // not convex
-    size = std::max(size, dot(before, before));
-  }
+  for (size_t n = 0; n < 4; ++n)
+    if (cross(flat[n] - flat[(n + 3) % 4], flat[(n + 1) % 4] - flat[n]) <= 0) return false;  // not convex
   constexpr double rounding = 1e-9;
-  const double within = within_circle(flat[0], flat[1], flat[2], flat[3]);
-  if (std::abs(within) > rounding * size * size) return within > 0;
+  const double first = length(flat[2] - flat[0]), second = length(flat[3] - flat[1]);
+  if (std::abs(first - second) > rounding * first) return second < first;
   std::array<size_t, 4> order{0, 1, 2, 3};
   std::ranges::sort(
       order, [&](size_t a, size_t b) { return std::pair(flat[a].x, flat[a].y) < std::pair(flat[b].x, flat[b].y); });
