@@ -93,10 +93,10 @@ bool check_indices(const std::vector<size_t>& indices, size_t points, const std:
 }
 
 // True if OpenSCAD 2021.01 cuts a face with four corners from the second to the last. Which triangles it makes counts
-// if the face is not flat: it cuts along the shorter diagonal as seen along the axis that the face looks along most.
-// Where the diagonals have one length, it cuts as a sweep does.
+// if the face is not flat: it cuts along the shorter diagonal as seen along the axis that its first three corners face
+// most. Where the diagonals have one length, it cuts as a sweep does.
 bool is_cut_from_second(const std::vector<Vec3>& corners) {
-  const Vec3 normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[1]);
   int axis = 0;
   for (const int other : {1, 2})
     if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
