@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -56,8 +57,7 @@ TEST(HelperProcess, CountsProcessorTime) {
   EXPECT_EQ(run(sleep, 0.2), "awake");
   const auto begin = std::chrono::steady_clock::now();
   const auto spin = []() -> std::string {
-    for (volatile int n = 0;; n = n + 1) {
-    }
+    for (std::atomic<int> n = 0;;) ++n;
   };
   EXPECT_EQ(run(spin, 0.3), "error: it is slow");
   // The work ends by its processor time, well before the limit of the clock.

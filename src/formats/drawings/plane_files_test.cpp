@@ -21,7 +21,7 @@ Measured measured(const PlaneShapes& shapes) {
   Measured result;
   for (const auto& shape : shapes.shapes) {
     ++result.shapes;
-    for (const Ring& ring : shape) {
+    for (const Ring& ring : shape.rings) {
       ++result.rings;
       result.area += doubled_area(ring) / 2;
       for (const Vec2& p : ring) result.box = hull(result.box, Box{{p.x, p.y, 0}, {p.x, p.y, 0}});
