@@ -119,7 +119,7 @@ Pieces region_pieces(const Import& import, const std::string& bytes, const Sourc
   }
   const Region region = region_of_shapes(shapes->shapes, import.fragments);
   if (region.is_empty()) {
-    const std::string others = text_of_left_out(shapes->left_out);
+    const std::string others = formats::text_of_left_out(shapes->left_out);
     messages.warning(
         where, "the drawing \"" + import.path + "\" encloses no area" + (others.empty() ? "" : "; it holds " + others));
     return {};

@@ -211,7 +211,7 @@ Region stroked(const formats::PlaneStroke& stroke, const Fragments& fragments) {
   offsetter.AddPaths(grid.paths(stroke.closed), join, clip::etClosedLine);
   Paths result;
   offsetter.Execute(result, distance);
-  return moved(grid.region(result), Affine{{{map.a, map.c, 0}, {map.b, map.d, 0}, {0, 0, 1}}, {map.e, map.f, 0}});
+  return moved(grid.region(result), Affine{{Vec3{map.a, map.c, 0}, {map.b, map.d, 0}, {0, 0, 1}}, {map.e, map.f, 0}});
 }
 
 Region cleaned(const Region& region, double distance_mm) {

@@ -152,8 +152,12 @@ TEST(Dxf, LinesBecomeRings) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_dxf("test.dxf", dxf_of(square + line(9, 9, 8, 8)), {}, diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1U);
-  EXPECT_EQ(diagnostics.list()[0].message,
-            "1 lines or chains of lines do not close; a straight line joins the ends of each");
+  EXPECT_EQ(diagnostics.list()[0].message, "left out of the drawing: 1 lines that enclose nothing");
+  Diagnostics of_chain;
+  EXPECT_TRUE(read_dxf("test.dxf", dxf_of(square + line(9, 9, 8, 8) + line(8, 8, 8, 9)), {}, of_chain));
+  ASSERT_EQ(of_chain.list().size(), 1U);
+  EXPECT_EQ(of_chain.list()[0].message,
+            "1 chains of lines do not close within 0.0009; a straight line joins the ends of each, at most 1 long");
 }
 
 TEST(Dxf, ArcsAndBulges) {

@@ -59,6 +59,12 @@ std::vector<Ring> mapped(const std::vector<Ring>& rings, const PlaneMap& map) {
   return result;
 }
 
+// The rings of a shape, each list with the map that takes it to mm.
+std::vector<std::pair<const std::vector<Ring>*, PlaneMap>> rings_of(const PlaneShape& shape) {
+  if (!shape.stroke) return {{&shape.rings, {}}};
+  return {{&shape.rings, {}}, {&shape.stroke->open, shape.stroke->map}, {&shape.stroke->closed, shape.stroke->map}};
+}
+
 class SvgReader {
  public:
   SvgReader(const XmlFile& file, const PlaneOptions& options)
@@ -408,12 +414,21 @@ PlaneStroke SvgReader::stroke(pugi::xml_node node, const State& state) const {
 
 void SvgReader::add(PlaneShape shape, const State& state, Shapes& shapes) {
   size_t points = 0;
-  for (const Ring& ring : shape.rings) points += ring.size();
-  if (shape.stroke)
-    for (const auto* rings : {&shape.stroke->open, &shape.stroke->closed})
-      for (const Ring& ring : *rings) points += ring.size();
+  for (const auto& [rings, map] : rings_of(shape))
+    for (const Ring& ring : *rings) points += ring.size();
   if ((points_ += points) > most_points)
     fail(file_.diagnostics(), file_.name(), "the drawing has more than ten million points");
+  constexpr double farthest = 1e15;
+  const auto reaches_too_far = [](const Ring& ring, const PlaneMap& map) {
+    return std::ranges::any_of(ring, [&](const Vec2& own) {
+      const Vec2 p = map(own);
+      return !(std::abs(p.x) <= farthest && std::abs(p.y) <= farthest && std::abs(own.x) <= farthest &&
+               std::abs(own.y) <= farthest);
+    });
+  };
+  for (const auto& [rings, map] : rings_of(shape))
+    for (const Ring& ring : *rings)
+      if (reaches_too_far(ring, map)) fail(file_.diagnostics(), file_.name(), "the drawing reaches farther than 10^15");
   shape.clips = state.clips;
   shapes.push_back(std::move(shape));
 }
