@@ -15,7 +15,7 @@ namespace ombre::formats {
 namespace {
 
 constexpr int deepest = 64;  // greatest depth of nested blocks
-constexpr size_t most_points = 10'000'000;
+constexpr size_t most_dxf_points = 10'000'000;
 
 // Returns the direction in which an entity is extruded.
 Vec3 normal_of(const DxfValues& values) {
@@ -97,7 +97,8 @@ class DxfReader {
     }
   }
   void count(size_t points) {
-    if ((points_ += points) > most_points) fail(diagnostics_, name_, "the drawing has more than ten million points");
+    if ((points_ += points) > most_dxf_points)
+      fail(diagnostics_, name_, "the drawing has more than ten million points");
   }
   void add_arc(const DxfValues& values, double begin, double turn, const PlaneMap& map);
   void add_polyline(const DxfEntity& entity, const DxfValues& values, const PlaneMap& map);
@@ -253,7 +254,7 @@ void DxfReader::add_block(const DxfEntity& entity, const DxfValues& values, cons
   const Vec2 at = values.point(10), base = block->second.base;
   const double columns = std::max(1.0, values.number(70, 1)), rows = std::max(1.0, values.number(71, 1));
   const Vec2 step{values.number(44), values.number(45)};
-  if (columns * rows > static_cast<double>(most_points)) count(most_points + 1);
+  if (columns * rows > static_cast<double>(most_dxf_points)) count(most_dxf_points + 1);
   const PlaneMap turned = map * PlaneMap{c, s, -s, c, at.x, at.y};
   for (double row = 0; row < rows; ++row)
     for (double column = 0; column < columns; ++column) {

@@ -19,8 +19,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int deepest_element = 1000;  // greatest depth of nested elements, uses included
-constexpr size_t most_elements = 2'000'000, most_points = 10'000'000;
+constexpr size_t most_elements = 2'000'000, most_svg_points = 10'000'000;
 
 // What an element inherits.
 struct Style {
@@ -86,7 +85,7 @@ class SvgReader {
   using Shapes = std::vector<PlaneShape>;
 
   void index_ids(pugi::xml_node node, int depth) {
-    if (depth > deepest_element) file_.fail_at(node, "elements lie more than 1000 deep within each other");
+    if (depth > deepest_svg_element) file_.fail_at(node, "elements lie more than 1000 deep within each other");
     for (const pugi::xml_node child : node.children()) {
       if (child.type() != pugi::node_element) continue;
       if (const std::string_view id = child.attribute("id").value(); !id.empty()) ids_.emplace(id, child);
@@ -236,7 +235,7 @@ std::optional<State> SvgReader::state_of(pugi::xml_node node, const State& outer
   if (value(values, "display") == "none") return std::nullopt;
   State state = outer;
   ++state.depth;
-  if (state.depth > deepest_element) file_.fail_at(node, "elements lie more than 1000 deep within each other");
+  if (state.depth > deepest_svg_element) file_.fail_at(node, "elements lie more than 1000 deep within each other");
   state.style = inherited(node, outer, values);
   state.map = outer.map * transform_of(node, values);
   state.is_wanted = outer.is_wanted || (!options_.id.empty() && options_.id == node.attribute("id").value());
@@ -416,7 +415,7 @@ void SvgReader::add(PlaneShape shape, const State& state, Shapes& shapes) {
   size_t points = 0;
   for (const auto& [rings, map] : rings_of(shape))
     for (const Ring& ring : *rings) points += ring.size();
-  if ((points_ += points) > most_points)
+  if ((points_ += points) > most_svg_points)
     fail(file_.diagnostics(), file_.name(), "the drawing has more than ten million points");
   constexpr double farthest = 1e15;
   const auto reaches_too_far = [](const Ring& ring, const PlaneMap& map) {

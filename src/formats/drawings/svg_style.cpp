@@ -13,8 +13,6 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int deepest_element = 1000;
-
 // The properties that decide about shapes.
 constexpr std::array<std::string_view, 29> properties{"display",
                                                       "visibility",
@@ -98,7 +96,7 @@ std::string_view take_body(std::string_view& text) {
 SvgSheet::SvgSheet(const XmlFile& file, pugi::xml_node root) : file_(file) { read_sheets(root, 0); }
 
 void SvgSheet::read_sheets(pugi::xml_node node, int depth) {
-  if (depth > deepest_element) file_.fail_at(node, "elements lie more than 1000 deep within each other");
+  if (depth > deepest_svg_element) file_.fail_at(node, "elements lie more than 1000 deep within each other");
   for (const pugi::xml_node child : node.children()) {
     if (child.type() != pugi::node_element) continue;
     if (local_name(child) != "style") {

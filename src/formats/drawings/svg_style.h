@@ -12,6 +12,9 @@
 
 namespace ombre::formats {
 
+// Greatest depth of nested elements, uses of other elements included.
+inline constexpr int deepest_svg_element = 1000;
+
 // The values that apply to one element, without those that it inherits.
 using SvgValues = std::map<std::string_view, std::string_view>;
 
