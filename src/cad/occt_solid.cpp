@@ -118,6 +118,7 @@ class OcctSolid final : public Solid {
     name = shape.named.name;
     colour = shape.named.colour;
     volume_mm3 = shape.volume_mm3;
+    faces = face_count(shape.named.shape);
     bounds = shape.bounds;
   }
 

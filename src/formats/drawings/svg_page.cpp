@@ -45,12 +45,11 @@ std::vector<double> arguments_of(std::string_view text) {
   return numbers;
 }
 
-// Returns the share of the free length that lies before the box: 0, 0.5 or 1; null if the word is no alignment.
-std::optional<double> share_of(std::string_view word) {
+// Returns the share of the free length that lies before the box: 0, 0.5 or 1; -1 if the word is no alignment.
+double share_of(std::string_view word) {
   if (word == "Min") return 0;
   if (word == "Mid") return 0.5;
-  if (word == "Max") return 1;
-  return std::nullopt;
+  return word == "Max" ? 1 : -1;
 }
 
 }  // namespace
@@ -83,11 +82,11 @@ std::optional<PlaneMap> fit_svg_box(const SvgBox& box, const SvgBox& viewport, s
   std::string align = words.empty() ? "xMidYMid" : words[0];
   Vec2 share;
   if (align != "none") {
-    const auto x = align.size() == 8 && align[0] == 'x' ? share_of(align.substr(1, 3)) : std::nullopt;
-    const auto y = align.size() == 8 && align[4] == 'Y' ? share_of(align.substr(5)) : std::nullopt;
+    if (align.size() != 8 || align[0] != 'x' || align[4] != 'Y') return std::nullopt;
+    share = {share_of(align.substr(1, 3)), share_of(align.substr(5))};
     const bool is_slice = words.size() > 1 && words[1] == "slice";
-    if (!x || !y || (words.size() > 1 && !is_slice && words[1] != "meet")) return std::nullopt;
-    share = {*x, *y};
+    const bool is_known = is_slice || words.size() < 2 || words[1] == "meet";
+    if (share.x < 0 || share.y < 0 || !is_known) return std::nullopt;
     sx = sy = is_slice ? std::max(sx, sy) : std::min(sx, sy);
   }
   const Vec2 free{viewport.size.x - sx * box.size.x, viewport.size.y - sy * box.size.y};
