@@ -161,8 +161,8 @@ TEST_F(Drawings, StyleGoesBeforeAttributes) {
 
 TEST_F(Drawings, Uses) {
   EXPECT_AREA(svg_area(R"(<defs><path id="p" d="M 0 0 H 10 V 10 H 0 Z"/></defs>
-<rect x="70" y="70" width="10" height="10"/><use xlink:href="#p" transform='translate(5 5)' /
-                       > <use href = "#p" x = "40" y = "20" />) "),
+<rect x="70" y="70" width="10" height="10"/><use xlink:href="#p" transform='translate(5 5)'/>
+<use href="#p" x="40" y="20"/>)"),
               300);
   const std::string symbol = R"(<symbol id="s" viewBox="0 0 10 10"><rect width="5" height="10"/></symbol>)";
   EXPECT_AREA(svg_area(symbol + R"(<use href="#s" width="20" height="20"/>)"), 200);
@@ -183,8 +183,7 @@ TEST_F(Drawings, NestedPicturesAndClips) {
   EXPECT_AREA(svg_area(R"(<svg x="10" y="10" width="5" height="5"><rect width="10" height="10"/></svg>)"), 25);
   EXPECT_AREA(svg_area(R"(<svg width="5" height="5" overflow="visible"><rect width="10" height="10"/></svg>)"), 100);
   EXPECT_AREA(svg_area(R"(<clipPath id="c"><rect width="5" height="7"/></clipPath>
-<g transform='scale(2)' > <rect width = "10" height = "10" clip - path = "url(#c)" /
-                       > </ g>) "),
+<g transform='scale(2)'><rect width="10" height="10" clip-path='url(#c)'/></g>)"),
               140);
   EXPECT_TRUE(svg(R"(<mask id="m"/><rect width="5" height="7" mask='url(#m)'/>)").messages.has_errors());
   EXPECT_AREA(svg_area(R"(<switch><rect requiredExtensions="x" width="9" height="9"/><rect width="2" height="1"/>
