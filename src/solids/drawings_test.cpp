@@ -12,7 +12,7 @@
 #include "solids/files.h"
 #include "solids/kernel.h"
 
-namespace ombre::solids {
+namespace ombre::solids::drawings {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -368,4 +368,4 @@ TEST_F(Drawings, AreEqualAfterWriting) {
 }
 
 }  // namespace
-}  // namespace ombre::solids
+}  // namespace ombre::solids::drawings
