@@ -75,7 +75,7 @@ class SvgReader {
     State state;
     state.is_wanted = options_.id.empty();
     begin_page(state);
-    state.style = inherited(root_, state, sheet_.values_of(root_));
+    state.style = inherited(state, sheet_.values_of(root_));
     children(root_, state, shapes_.shapes);
     tell_left_out();
     return std::move(shapes_);
@@ -120,7 +120,7 @@ class SvgReader {
   double across(const Vec2& view) const { return std::sqrt((view.x * view.x + view.y * view.y) / 2); }
 
   void begin_page(State& state);
-  Style inherited(pugi::xml_node node, const State& state, const SvgValues& values) const;
+  static Style inherited(const State& state, const SvgValues& values);
   PlaneMap transform_of(pugi::xml_node node, const SvgValues& values) const;
   std::optional<State> state_of(pugi::xml_node node, const State& outer, const SvgValues& values);
 
@@ -194,7 +194,7 @@ void SvgReader::begin_page(State& state) {
   state.view = box->size;
 }
 
-Style SvgReader::inherited(pugi::xml_node node, const State& state, const SvgValues& values) const {
+Style SvgReader::inherited(const State& state, const SvgValues& values) {
   Style style = state.style;
   for (const auto& [name, text] : values) {
     if (text == "inherit") continue;
@@ -210,8 +210,6 @@ Style SvgReader::inherited(pugi::xml_node node, const State& state, const SvgVal
       style.cap = text == "round" ? StrokeCap::round : text == "square" ? StrokeCap::square : StrokeCap::butt;
     if (name == "stroke-linejoin")
       style.join = text == "round" ? StrokeJoin::round : text == "bevel" ? StrokeJoin::bevel : StrokeJoin::miter;
-    if (name == "vector-effect" && text != "none" && style.is_stroked && options_.is_painted)
-      file_.fail_at(node, "vector-effect " + quoted(text) + " is not read");
   }
   return style;
 }
@@ -236,7 +234,7 @@ std::optional<State> SvgReader::state_of(pugi::xml_node node, const State& outer
   State state = outer;
   ++state.depth;
   if (state.depth > deepest_svg_element) file_.fail_at(node, "elements lie more than 1000 deep within each other");
-  state.style = inherited(node, outer, values);
+  state.style = inherited(outer, values);
   state.map = outer.map * transform_of(node, values);
   state.is_wanted = outer.is_wanted || (!options_.id.empty() && options_.id == node.attribute("id").value());
   if (!state.is_wanted) return state;
@@ -394,7 +392,7 @@ PlaneClip SvgReader::clip_of(pugi::xml_node node, std::string_view text, const S
   inner.view = state.view;
   inner.is_clip = true;
   inner.depth = state.depth + 1;
-  inner.style = inherited(target, inner, values);
+  inner.style = inherited(inner, values);
   auto shapes = std::make_shared<Shapes>();
   children(target, inner, *shapes);
   in_use_.erase(target);
@@ -462,6 +460,8 @@ void SvgReader::draw(pugi::xml_node node, const Outlines& outlines, const SvgVal
     add(std::move(area), state, shapes);
   }
   if (lines.open.empty() && lines.closed.empty()) return;
+  if (const std::string_view effect = value(values, "vector-effect"); !is_one_of(effect, {"", "none"}))
+    file_.fail_at(node, "vector-effect " + quoted(effect) + " of a stroke is not read", "turn the stroke into a path");
   if (style.has_dashes) ++shapes_.left_out["gaps of dashed lines"];
   PlaneShape drawn;
   drawn.stroke = stroke(node, state);
