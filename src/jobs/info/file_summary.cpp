@@ -131,7 +131,7 @@ std::optional<FileSummary> drawing_summary(const std::string& path, Session&, Di
 std::optional<FileSummary> table_summary(const std::string& path, Session& session, Diagnostics& diagnostics) {
   compile::DesignSources loader(session.cache, &session.stop);
   const design::MaterialTable materials;
-  const design::Reader reader{materials, diagnostics, &loader};
+  const design::Reader reader{materials, diagnostics, &loader, {}, {}, {}};
   design::TableRequest request{{path, {}}};
   const auto rows = loader.source(request, reader);
   if (!rows) return std::nullopt;
