@@ -26,6 +26,7 @@ struct Drawn {
 Drawn drawn(const std::string& name, const std::string& text, Import import = {}) {
   const TemporaryFolder folder;
   import.path = folder.file(name);
+  import.fragments = {64};
   std::ofstream(import.path, std::ios::binary) << text;
   Drawn result;
   for (const Piece& piece : import_pieces(import, {}, result.messages))
