@@ -279,7 +279,7 @@ TEST_F(Drawings, ExtrusionsMirror) {
 
 TEST_F(Drawings, Splines) {
   std::vector<std::pair<int, double>> cubic{{70, 8}, {71, 3}};
-  for (const double knot : {0, 0, 0, 0, 1, 1, 1, 1}) cubic.emplace_back(40, knot);
+  for (const double parameter : {0, 0, 0, 0, 1, 1, 1, 1}) cubic.emplace_back(40, parameter);
   for (const auto& [x, y] : std::vector<std::pair<double, double>>{{0, 0}, {0, 4}, {6, 4}, {6, 0}}) {
     cubic.emplace_back(10, x);
     cubic.emplace_back(20, y);
@@ -288,7 +288,7 @@ TEST_F(Drawings, Splines) {
   EXPECT_NEAR(dxf(entity("SPLINE", cubic) + line(6, 0, 0, 0)).area, 14.4, 0.01);
   // A quarter of a circle is a rational spline of degree 2.
   std::vector<std::pair<int, double>> quarter{{70, 4}, {71, 2}};
-  for (const double knot : {0, 0, 0, 1, 1, 1}) quarter.emplace_back(40, knot);
+  for (const double parameter : {0, 0, 0, 1, 1, 1}) quarter.emplace_back(40, parameter);
   for (const double weight : {1.0, std::sqrt(0.5), 1.0}) quarter.emplace_back(41, weight);
   for (const auto& [x, y] : std::vector<std::pair<double, double>>{{10, 0}, {10, 10}, {0, 10}}) {
     quarter.emplace_back(10, x);

@@ -35,7 +35,7 @@ Vec2 point_at(const DxfSpline& spline, size_t span, double t) {
   }
   for (size_t round = 1; round <= degree; ++round)
     for (size_t n = degree; n >= round; --n) {
-      const double from = spline.knots[span - degree + n], to = spline.knots[span + 1 + n - round];
+      const double from = spline.parameters[span - degree + n], to = spline.parameters[span + 1 + n - round];
       d[n] = blend(d[n - 1], d[n], to > from ? (t - from) / (to - from) : 0);
     }
   return (1 / d[degree].weight) * d[degree].point;
@@ -44,8 +44,8 @@ Vec2 point_at(const DxfSpline& spline, size_t span, double t) {
 bool is_valid(const DxfSpline& spline) {
   const size_t count = spline.controls.size();
   return spline.degree >= 1 && spline.degree <= highest_degree && count > static_cast<size_t>(spline.degree) &&
-         spline.knots.size() >= count + static_cast<size_t>(spline.degree) + 1 &&
-         std::ranges::is_sorted(spline.knots) &&
+         spline.parameters.size() >= count + static_cast<size_t>(spline.degree) + 1 &&
+         std::ranges::is_sorted(spline.parameters) &&
          std::ranges::all_of(spline.weights, [](double weight) { return weight > 0; });
 }
 
@@ -53,11 +53,11 @@ Ring curve_of_controls(const DxfSpline& spline) {
   if (!is_valid(spline)) return {};
   const auto degree = static_cast<size_t>(spline.degree);
   size_t pieces = 0;
-  for (size_t n = degree; n < spline.controls.size(); ++n) pieces += spline.knots[n + 1] > spline.knots[n];
+  for (size_t n = degree; n < spline.controls.size(); ++n) pieces += spline.parameters[n + 1] > spline.parameters[n];
   const int chords = chords_of_piece(pieces);
   Ring ring;
   for (size_t span = degree; span < spline.controls.size(); ++span) {
-    const double from = spline.knots[span], to = spline.knots[span + 1];
+    const double from = spline.parameters[span], to = spline.parameters[span + 1];
     if (!(to > from)) continue;
     for (int n = ring.empty() ? 0 : 1; n <= chords; ++n)
       ring.push_back(point_at(spline, span, from + (to - from) * n / chords));

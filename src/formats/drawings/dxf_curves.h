@@ -17,7 +17,7 @@ void append_bulge(Vec2 to, double bulge, const ChordsOfRadius& chords, Ring& rin
 struct DxfSpline {
   int degree = 3;
   bool is_closed = false;
-  std::vector<double> knots, weights;  // weights may be missing
+  std::vector<double> parameters, weights;  // the knots; weights may be missing
   std::vector<Vec2> controls, fits;
   std::optional<Vec2> first_way, last_way;  // directions at the ends, for curves through points
 };

@@ -102,8 +102,8 @@ class BorderReader {
     spline.degree = static_cast<int>(take(94, 3));
     take(73, 0);
     spline.is_closed = take(74, 0) != 0;
-    const double knots = take(95, 0), controls = take(96, 0);
-    while (is_at(40) && static_cast<double>(spline.knots.size()) < knots) spline.knots.push_back(take());
+    const double parameters = take(95, 0), controls = take(96, 0);
+    while (is_at(40) && static_cast<double>(spline.parameters.size()) < parameters) spline.parameters.push_back(take());
     while (is_at(10) && static_cast<double>(spline.controls.size()) < controls) {
       spline.controls.push_back(take_point(10));
       if (is_at(42)) spline.weights.push_back(take());

@@ -227,7 +227,7 @@ void DxfReader::add_spline(const DxfEntity& entity, const DxfValues& values, con
   DxfSpline spline;
   spline.degree = static_cast<int>(values.number(71, 3));
   spline.is_closed = values.flags(70) & 1;
-  spline.knots = values.numbers(40);
+  spline.parameters = values.numbers(40);
   spline.weights = values.numbers(41);
   spline.controls = values.points(10);
   spline.fits = values.points(11);
@@ -237,7 +237,7 @@ void DxfReader::add_spline(const DxfEntity& entity, const DxfValues& values, con
   if (curve.empty())
     fail_at(entity,
             "a SPLINE of degree " + std::to_string(spline.degree) + " has " + std::to_string(spline.controls.size()) +
-                " control points and " + std::to_string(spline.knots.size()) + " knots, which do not fit together",
+                " control points and " + std::to_string(spline.parameters.size()) + " knots, which do not fit together",
             "give it one knot more than control points and degree together, in ascending order");
   add_line(std::move(curve), map);
 }

@@ -59,9 +59,10 @@ struct PlaneShapes {
 std::string text_of_left_out(const std::map<std::string, size_t>& left_out);
 
 // Reads the shapes of SVG with their transforms, style sheets, viewports, uses and clip paths. The lower edge of the
-// picture is y = 0. As in OpenSCAD 2021.01, lengths are mm if there is no viewBox, a viewBox with y other than 0 moves
-// the picture down by that, a closed outline is an area even without a fill, and of open lines without a fill the
-// stroke is the area. Null, with diagnostics, if the bytes are not SVG, or use what is not read and changes shapes.
+// picture is y = 0. As in OpenSCAD 2021.01, lengths are mm if there is no viewBox, and a viewBox with y other than 0
+// moves the picture down by that. A closed outline is an area even without a fill. The area of open lines without a
+// fill is that of their stroke. Null, with diagnostics, if the bytes are not SVG, or use what is not read and changes
+// shapes.
 std::optional<PlaneShapes> read_svg(const std::string& name, std::string_view bytes, const PlaneOptions& options,
                                     Diagnostics& diagnostics);
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr size_t most_elements = 2'000'000, most_svg_points = 10'000'000;
 
-// What an element inherits.
+// The style that an element inherits.
 struct Style {
   bool is_visible = true, is_filled = true, is_stroked = false;
   bool is_evenodd = false, is_clip_evenodd = false;
@@ -31,7 +31,7 @@ struct Style {
   StrokeJoin join = StrokeJoin::miter;
 };
 
-// Where an element lies and what applies to it.
+// The place of an element, and the style that applies to it.
 struct State {
   PlaneMap map;
   Vec2 view;  // the viewport's size in the element's units, for percentages

@@ -185,7 +185,7 @@ std::optional<FileSummary> image_summary(const std::string& path, Session& sessi
   return summary;
 }
 
-// What describes each kind of content; the first row that fits a file's name counts.
+// A function that describes a kind of content; the first row that fits a file's name counts.
 struct Row {
   Content content;
   std::optional<FileSummary> (*summarise)(const std::string& path, Session& session, Diagnostics& diagnostics);
