@@ -14,9 +14,9 @@
 namespace ombre::cad {
 namespace {
 
-// Limits of the helper process. Valid files take one or two seconds per megabyte, and memory of some tens of times
-// their size.
-constexpr double least_seconds = 10, seconds_for_a_byte = 10e-6;
+// Limits of the helper process. Most valid files take one or two seconds of processor time per megabyte, surfaces with
+// many knots ten times as long, and memory of some tens of times their size.
+constexpr double least_seconds = 20, seconds_for_a_byte = 30e-6;
 constexpr size_t least_memory = size_t{2} << 30, memory_for_a_byte = 200;
 
 HelperLimits limits_for(const std::string& path) {
@@ -51,9 +51,9 @@ void ombre_read_cad(const std::string* path, const ombre::StopFlag* stop, std::v
   const HelperLimits limits = limits_for(*path);
   const auto explain = [&](HelperFailure failure) {
     const std::string seconds = std::to_string(static_cast<int>(limits.seconds));
-    const std::string reason = failure == HelperFailure::crashed
-                                   ? ": it is broken"
-                                   : ": it takes longer than " + seconds + " s, so it is probably broken";
+    const std::string reason = failure == HelperFailure::crashed ? ": it is broken"
+                                                                 : ": it takes longer than " + seconds +
+                                                                       " s of processor time, so it is probably broken";
     return Error(Code::file_content, what + reason + "; export it again, as STEP AP214 or AP242", {{"file", *path}});
   };
   const std::string bytes = run_in_helper([&] { return read_and_pack(*path, what); }, limits, explain, stop);

@@ -118,6 +118,7 @@ class OcctSolid final : public Solid {
     name = shape.named.name;
     colour = shape.named.colour;
     volume_mm3 = shape.volume_mm3;
+    faces = face_count(shape.named.shape);
     bounds = shape.bounds;
   }
 
@@ -138,13 +139,12 @@ class OcctSolid final : public Solid {
     };
     const HelperLimits limits{seconds_to_cut + seconds_to_cut_a_face * static_cast<double>(face_count(shape_))};
     const auto explain = [&](HelperFailure failure) {
-      return Error(
-          Code::file_content,
-          what() +
-              (failure == HelperFailure::crashed
-                   ? " makes Open CASCADE crash; repair it where it was drawn"
-                   : " takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
-                         " s to cut into triangles; give cad a larger tolerance, or repair it where it was drawn"));
+      return Error(Code::file_content,
+                   what() + (failure == HelperFailure::crashed
+                                 ? " makes Open CASCADE crash; repair it where it was drawn"
+                                 : " takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
+                                       " s of processor time to cut into triangles; give cad a larger tolerance, or "
+                                       "repair it where it was drawn"));
     };
     const std::string bytes = run_in_helper(cut, limits, explain, nullptr);
     ByteUnpacker unpacker(bytes);

@@ -44,6 +44,7 @@ class Solid {
   std::string name;  // may be empty
   std::optional<std::array<uint8_t, 4>> colour;
   double volume_mm3 = 0;
+  size_t faces = 0;
   Box bounds;
 
   virtual ~Solid() = default;

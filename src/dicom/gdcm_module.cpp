@@ -45,7 +45,7 @@ void ombre_read_dicom(const std::string* name, const std::vector<std::string>* f
                      (failure == HelperFailure::crashed
                           ? "a file is broken"
                           : "it takes longer than " + std::to_string(static_cast<int>(limits.seconds)) +
-                                " s, so a file is probably broken") +
+                                " s of processor time, so a file is probably broken") +
                      "; export it again",
                  {{"file", *name}});
   };

@@ -66,7 +66,7 @@ struct Adder {
     w.add(v.text, v.size, v.font, v.horizontal, v.vertical, v.direction, v.language, v.script, v.spacing, v.fragments);
   }
   void operator()(const Import& v) const {
-    w.add(v.path, v.layer, v.id, v.origin, v.scale, v.dots_per_inch, v.centred, v.fragments);
+    w.add(v.path, v.layer, v.id, v.origin, v.scale, v.dots_per_inch, v.centred, v.is_painted, v.fragments);
   }
   void operator()(const Surface& v) const { w.add(v.path, v.centred, v.inverted); }
   void operator()(const Group&) const {}

@@ -87,8 +87,28 @@ Pieces mesh_pieces(const Import& import, const std::string& bytes, const SourceR
   return pieces;
 }
 
+Region region_of_shape(const formats::PlaneShape& shape, const Fragments& fragments);
+
+Region region_of_shapes(const std::vector<formats::PlaneShape>& shapes, const Fragments& fragments) {
+  std::vector<Region> regions;
+  for (const formats::PlaneShape& shape : shapes) regions.push_back(region_of_shape(shape, fragments));
+  return unite(std::span(std::as_const(regions)));
+}
+
+Region region_of_shape(const formats::PlaneShape& shape, const Fragments& fragments) {
+  Region region = shape.stroke       ? stroked(*shape.stroke, fragments)
+                  : shape.is_nonzero ? wound_region_of(shape.rings)
+                                     : region_of(shape.rings);
+  for (const formats::PlaneClip& clip : shape.clips) {
+    if (region.is_empty()) break;
+    region = intersect(region, region_of_shapes(*clip, fragments));
+  }
+  return region;
+}
+
 Pieces region_pieces(const Import& import, const std::string& bytes, const SourceRange& where, Diagnostics& messages) {
   formats::PlaneOptions options{import.layer, import.id, import.dots_per_inch};
+  options.is_painted = import.is_painted;
   options.chords_of_radius = [&](double radius) { return edges_of_circle(radius * import.scale, import.fragments); };
   const bool is_svg = ending_of(import.path) == ".svg";
   auto shapes = is_svg ? formats::read_svg(import.path, bytes, options, messages)
@@ -97,10 +117,13 @@ Pieces region_pieces(const Import& import, const std::string& bytes, const Sourc
     messages.note(where, "the file is imported here");
     return {};
   }
-  std::vector<Region> regions;
-  for (const std::vector<Ring>& rings : shapes->shapes) regions.push_back(region_of(rings));
-  const Region region = unite(std::span(std::as_const(regions)));
-  if (region.is_empty()) return {};
+  const Region region = region_of_shapes(shapes->shapes, import.fragments);
+  if (region.is_empty()) {
+    const std::string others = formats::text_of_left_out(shapes->left_out);
+    messages.warning(
+        where, "the drawing \"" + import.path + "\" encloses no area" + (others.empty() ? "" : "; it holds " + others));
+    return {};
+  }
   Affine map = Affine::scaling({import.scale, import.scale, 1});
   if (!is_svg) map = map * Affine::translation({-import.origin.x, -import.origin.y, 0});
   if (import.centred) {

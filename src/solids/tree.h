@@ -73,6 +73,7 @@ struct Import {
   Vec2 origin = {};
   double scale = 1, dots_per_inch = 72;
   bool centred = false;
+  bool is_painted = false;  // an SVG file is read as it is painted: strokes are areas, outlines without a fill are none
   int convexity = 1;
   Fragments fragments = {};
 };

@@ -29,8 +29,25 @@ std::vector<FileFormat> make_table() {
   pages.name = "TIFF of many pages";
   pages.content = Content::volume;
   add({pages});
-  add({{"SVG", {".svg"}, Content::drawing, true, true},
-       {"DXF", {".dxf"}, Content::drawing, true, true},
+  add({{"SVG",
+        {".svg"},
+        Content::drawing,
+        true,
+        true,
+        nullptr,
+        "masks; references to other files; clip paths in units of a box; attribute selectors of styles; @media; "
+        "@import; "
+        "transform-origin; lengths in em, ex or rem",
+        "texts; images; outlines without a fill and a stroke; gaps of dashed lines; markers; effects of filters"},
+       {"DXF",
+        {".dxf"},
+        Content::drawing,
+        true,
+        true,
+        nullptr,
+        "the binary form; text in UTF-16; splines whose knots do not fit",
+        "paper space; invisible entities; texts; dimensions; meshes and solids in space; inserts of missing blocks; "
+        "hatches within closed lines"},
        {"Common Layer Interface", {".cli"}, Content::outlines, false, true}});
   for (const formats::ResultFormat& row : formats::result_formats()) all.push_back(row.file);
   std::ranges::stable_sort(all, {}, &FileFormat::content);

@@ -27,15 +27,20 @@ std::optional<formats::Mesh> result_border(const std::string& name, std::string_
                                            Diagnostics& diagnostics) {
   auto results = formats::read_results(name, bytes, beside, diagnostics);
   if (!results) return std::nullopt;
-  if (results->kinds.empty()) {
-    diagnostics.error({make_source(name, ""), 0, 0}, "the file has no elements that enclose space");
-    return std::nullopt;
-  }
-  if (deform != 0 && !formats::deform(*results, deform)) {
+  if (!results->kinds.empty() && deform != 0 && !formats::deform(*results, deform)) {
     diagnostics.error({make_source(name, ""), 0, 0}, "the file has no displacement of all nodes that could deform it");
     return std::nullopt;
   }
-  const importing::ResultMesh elements(std::move(*results));
+  return border_of_elements(name, std::move(*results), diagnostics);
+}
+
+std::optional<formats::Mesh> border_of_elements(const std::string& name, formats::Results results,
+                                                Diagnostics& diagnostics) {
+  if (results.kinds.empty()) {
+    diagnostics.error({make_source(name, ""), 0, 0}, "the file has no elements that enclose space");
+    return std::nullopt;
+  }
+  const importing::ResultMesh elements(std::move(results));
   formats::Mesh mesh;
   std::vector<uint32_t> places(elements.results().points.size(), UINT32_MAX);
   for (const importing::BorderTriangle& triangle : elements.border()) {

@@ -22,4 +22,8 @@ std::optional<formats::Mesh> result_border(const std::string& name, std::string_
                                            const formats::ResultsBeside& beside, double deform,
                                            Diagnostics& diagnostics);
 
+// Returns the outer sides of the elements of results, as above; `name` is used in messages.
+std::optional<formats::Mesh> border_of_elements(const std::string& name, formats::Results results,
+                                                Diagnostics& diagnostics);
+
 }  // namespace ombre::sources

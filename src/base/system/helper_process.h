@@ -13,8 +13,12 @@
 namespace ombre {
 
 struct HelperLimits {
+  // Processor time of the child and of the processes that it has waited for, so that a busy machine does not make work
+  // fail. A child that waits without working ends after `clock_factor` times as many seconds of the clock.
   double seconds = 60;
   size_t memory_bytes = size_t{4} << 30;  // beyond what the process holds at the start; 0 means no limit
+
+  static constexpr double clock_factor = 20;
 };
 
 enum class HelperFailure { crashed, too_slow };
@@ -32,7 +36,7 @@ std::string run_in_helper(const std::function<std::string()>& work, const Helper
 // must outlive it.
 class Helper {
  public:
-  // `answer` runs in the child. The limit of time applies to each request, the limit of memory to the child.
+  // `answer` runs in the child. The limits of time apply to each request, the limit of memory to the child.
   Helper(std::function<std::string(const std::string& request)> answer, const HelperLimits& limits,
          HelperExplain explain);
   // Kills the child if it still runs.

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -45,7 +46,24 @@ TEST(HelperProcess, TellsErrorsCrashesAndHangs) {
             }),
             "error: it crashed");
   EXPECT_EQ(run([]() -> std::string { _exit(0); }), "error: it crashed");
-  EXPECT_EQ(run(wait_forever, 0.2), "error: it is slow");
+  EXPECT_EQ(run(wait_forever, 0.02), "error: it is slow");
+}
+
+TEST(HelperProcess, CountsProcessorTime) {
+  const auto sleep = [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    return std::string("awake");
+  };
+  EXPECT_EQ(run(sleep, 0.2), "awake");
+  const auto begin = std::chrono::steady_clock::now();
+  const auto spin = []() -> std::string {
+    for (std::atomic<int> n = 0;;) ++n;
+  };
+  EXPECT_EQ(run(spin, 0.3), "error: it is slow");
+  // The work ends by its processor time, well before the limit of the clock.
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(taken.count(), 0.3);
+  EXPECT_LT(taken.count(), 0.3 * HelperLimits::clock_factor + 5);
 }
 
 TEST(HelperProcess, ErrorsKeepTheirCodesAndValues) {

@@ -14,6 +14,7 @@ class DocumentReader {
       : name_(name), scanner_(scanner), bytes_(bytes), diagnostics_(diagnostics) {}
 
   DxfDocument read() {
+    check_kind();
     read_sections();
     return std::move(document_);
   }
@@ -28,6 +29,18 @@ class DocumentReader {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
     return text;
+  }
+
+  // Skips a byte order mark, and says which other files have the name of a drawing.
+  void check_kind() {
+    constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
+    if (bytes_.starts_with(utf8_mark)) at_ = utf8_mark.size();
+    constexpr const char* remedy = "save the drawing as DXF in text form (ASCII)";
+    if (bytes_.starts_with("AutoCAD Binary DXF"))
+      fail(diagnostics_, name_, "this is a DXF file in binary form, which is not read", remedy);
+    if (bytes_.starts_with("AC10")) fail(diagnostics_, name_, "this is a DWG file, not a DXF file", remedy);
+    if (bytes_.starts_with("\xFF\xFE") || bytes_.starts_with("\xFE\xFF"))
+      fail(diagnostics_, name_, "this text is in UTF-16, which is not read", "save the drawing as DXF in UTF-8");
   }
 
   bool next(DxfPair& pair) {
@@ -114,6 +127,8 @@ void DocumentReader::read_blocks(DxfPair& pair) {
 void DocumentReader::add_vertex(std::vector<DxfEntity>& entities, const DxfEntity& vertex) const {
   if (entities.empty() || entities.back().kind != "POLYLINE") return;
   const DxfValues values(scanner_, vertex);
+  constexpr int control_point = 16;  // of a spline, whose curve other vertices follow
+  if (values.flags(70) & control_point) return;
   entities.back().vertices.push_back(values.point(10));
   entities.back().bulges.push_back(values.number(42));
 }
@@ -124,6 +139,22 @@ double DxfValues::number(int code, double otherwise) const {
   for (const DxfPair& pair : entity_.pairs)
     if (pair.code == code) return parsed(pair);
   return otherwise;
+}
+
+std::vector<double> DxfValues::numbers(int code) const {
+  std::vector<double> list;
+  for (const DxfPair& pair : entity_.pairs)
+    if (pair.code == code) list.push_back(parsed(pair));
+  return list;
+}
+
+std::vector<Vec2> DxfValues::points(int code) const {
+  std::vector<Vec2> list;
+  for (const DxfPair& pair : entity_.pairs) {
+    if (pair.code == code) list.push_back({parsed(pair), 0});
+    if (pair.code == code + 10 && !list.empty()) list.back().y = parsed(pair);
+  }
+  return list;
 }
 
 std::string_view DxfValues::text(int code) const {

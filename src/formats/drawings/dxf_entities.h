@@ -1,6 +1,7 @@
 // The contents of DXF files before conversion to lines: entities with their values, and blocks of entities.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -33,6 +34,11 @@ class DxfValues {
 
   double number(int code, double otherwise = 0) const;
   Vec2 point(int code) const { return {number(code), number(code + 10)}; }
+  int64_t flags(int code) const { return static_cast<int64_t>(number(code)); }
+  // Returns all numbers of a code in their order.
+  std::vector<double> numbers(int code) const;
+  // Returns all points whose x has the code.
+  std::vector<Vec2> points(int code) const;
   std::string_view text(int code) const;
 
   double parsed(const DxfPair& pair) const;

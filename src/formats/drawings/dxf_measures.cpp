@@ -1,6 +1,7 @@
 #include "formats/drawings/dxf_measures.h"
 
 #include <cmath>
+#include <set>
 
 #include "base/math/math.h"
 #include "formats/drawings/dxf_entities.h"
@@ -55,6 +56,20 @@ std::optional<DxfMeasures> read_dxf_measures(const std::string& name, std::strin
     return measures;
   } catch (const DesignError&) {
     return std::nullopt;
+  }
+}
+
+std::vector<std::string> dxf_layers(const std::string& name, std::string_view bytes) {
+  Diagnostics diagnostics;
+  try {
+    const TextScanner scanner(name, bytes, diagnostics);
+    std::set<std::string> layers;
+    for (const DxfEntity& entity : read_dxf_document(name, bytes, scanner, diagnostics).entities)
+      layers.emplace(DxfValues(scanner, entity).text(8));
+    layers.erase("");
+    return {layers.begin(), layers.end()};
+  } catch (const DesignError&) {
+    return {};
   }
 }
 

@@ -32,4 +32,7 @@ struct DxfMeasures {
 // Returns the measures; null, with diagnostics, if the bytes are not DXF.
 std::optional<DxfMeasures> read_dxf_measures(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
+// Returns the names of the layers that have entities, in alphabetical order; none if the bytes are not DXF.
+std::vector<std::string> dxf_layers(const std::string& name, std::string_view bytes);
+
 }  // namespace ombre::formats

@@ -21,7 +21,7 @@ Measured measured(const PlaneShapes& shapes) {
   Measured result;
   for (const auto& shape : shapes.shapes) {
     ++result.shapes;
-    for (const Ring& ring : shape) {
+    for (const Ring& ring : shape.rings) {
       ++result.rings;
       result.area += doubled_area(ring) / 2;
       for (const Vec2& p : ring) result.box = hull(result.box, Box{{p.x, p.y, 0}, {p.x, p.y, 0}});
@@ -152,8 +152,12 @@ TEST(Dxf, LinesBecomeRings) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_dxf("test.dxf", dxf_of(square + line(9, 9, 8, 8)), {}, diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 1U);
-  EXPECT_EQ(diagnostics.list()[0].message,
-            "1 lines or chains of lines do not close; a straight line joins the ends of each");
+  EXPECT_EQ(diagnostics.list()[0].message, "left out of the drawing: 1 lines that enclose nothing");
+  Diagnostics of_chain;
+  EXPECT_TRUE(read_dxf("test.dxf", dxf_of(square + line(9, 9, 8, 8) + line(8, 8, 8, 9)), {}, of_chain));
+  ASSERT_EQ(of_chain.list().size(), 1U);
+  EXPECT_EQ(of_chain.list()[0].message,
+            "1 chains of lines do not close within 0.0009; a straight line joins the ends of each, at most 1 long");
 }
 
 TEST(Dxf, ArcsAndBulges) {

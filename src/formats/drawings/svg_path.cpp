@@ -50,9 +50,14 @@ class PathReader {
  private:
   bool is_relative() const { return std::islower(static_cast<unsigned char>(command_)) != 0; }
   Ring& ring() {
-    if (path_.rings.empty() || is_closed_) path_.rings.push_back({start_});
+    if (path_.rings.empty() || is_closed_) begin_ring(start_);
     is_closed_ = false;
     return path_.rings.back();
+  }
+
+  void begin_ring(Vec2 at) {
+    path_.rings.push_back({at});
+    path_.is_closed.push_back(false);
   }
 
   double number() {
@@ -151,7 +156,7 @@ void PathReader::step() {
   switch (kind) {
     case 'M':
       at_ = start_ = point();
-      path_.rings.push_back({at_});
+      begin_ring(at_);
       is_closed_ = false;
       command_ = is_relative() ? 'l' : 'L';  // further points are lines
       break;
@@ -192,6 +197,7 @@ void PathReader::step() {
     case 'Z':
       at_ = start_;
       is_closed_ = true;
+      if (!path_.is_closed.empty()) path_.is_closed.back() = true;
       command_ = 0;
       break;
     default:

@@ -10,8 +10,9 @@
 namespace ombre::formats {
 
 struct SvgPath {
-  std::vector<Ring> rings;  // in the path's own units, closed or open
-  std::string error;        // the error, if there is one; the rings before it are valid
+  std::vector<Ring> rings;      // in the path's own units
+  std::vector<bool> is_closed;  // by ring: it ends with the command Z
+  std::string error;            // the error, if there is one; the rings before it are valid
 };
 
 SvgPath read_svg_path(std::string_view data, int chords_per_turn);

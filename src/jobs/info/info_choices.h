@@ -19,7 +19,9 @@ struct InfoChoices {
     static const options::Spec<InfoChoices> spec{
         option("file", &InfoChoices::file, kind::file,
                "A volume: a folder of DICOM files or images, .dcm, .nii, .nrrd, .mha, .vdb, .vti, .tif, .npy, or raw "
-               "numbers with a .json beside them; or a design, or a script: .scad; or results: .vtu, .xdmf, .frd, .inp",
+               "numbers with a .json beside them; or a design, or a script: .scad; or results: .vtu, .xdmf, .frd, "
+               ".inp; or a mesh, "
+               "a CAD file, a drawing, a table or an image",
                "FILE")
             .required(),
         option("--series", &InfoChoices::series, kind::text,

@@ -9,6 +9,7 @@
 #include "base/text/json.h"
 #include "base/text/text.h"
 #include "formats/results/results.h"
+#include "import/surfaces/mesh_report.h"
 #include "jobs/common/session.h"
 #include "sources/files_of_results.h"
 #include "sources/result_border.h"
@@ -51,6 +52,15 @@ std::string field_text(const formats::ResultField& field) {
   return text + "\n";
 }
 
+// Returns the volume that the elements fill in mm3; null if there are none, or their outer sides do not close.
+std::optional<double> volume_of_elements(const std::string& path, const formats::Results& results) {
+  Diagnostics ignored;
+  const auto border = sources::border_of_elements(path, results, ignored);
+  if (!border) return std::nullopt;
+  const importing::MeshReport report = importing::inspect(*border);
+  return report.is_closed() ? std::optional(report.volume) : std::nullopt;
+}
+
 std::string results_text(const std::string& path, const formats::Results& results) {
   const Box box = box_of_points(results);
   const auto counts = counts_of_kinds(results);
@@ -58,6 +68,8 @@ std::string results_text(const std::string& path, const formats::Results& result
                      ", from " + format_point(box.lo, 6) + " to " + format_point(box.hi, 6) + " mm\n";
   for (size_t n = 0; n < counts.size(); ++n)
     if (counts[n] > 0) text += "  elements  " + format_count(counts[n]) + " " + std::string(kind_names[n]) + "\n";
+  if (const auto volume = volume_of_elements(path, results))
+    text += "  volume    " + format_rounded(*volume, 7) + " mm3\n";
   text += results.fields.empty() ? "\nno fields\n" : "\nfields\n";
   for (const formats::ResultField& field : results.fields) text += field_text(field);
   return text;
@@ -81,10 +93,12 @@ DataMembers results_members(const std::string& path, const formats::Results& res
                                     {"ranges", std::move(ranges)}});
   }
   const Box box = box_of_points(results);
+  const auto volume = volume_of_elements(path, results);
   return {{"file", path},
           {"nodes", static_cast<double>(results.points.size())},
           {"elements", std::move(elements)},
           {"bounds_mm", DataList{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}},
+          {"volume_mm3", volume ? Data(*volume) : Data()},
           {"fields", std::move(fields)}};
 }
 

@@ -10,6 +10,7 @@
 #include "jobs/common/job_design.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
+#include "jobs/info/file_summary.h"
 #include "jobs/info/mesh_coverage.h"
 #include "jobs/info/result_files.h"
 #include "jobs/info/volume_info.h"
@@ -141,6 +142,8 @@ int show_file(const InfoChoices& a, Session& session) {
   const std::string& path = a.file;
   if (path.ends_with(".scad")) return show_script(path, session);
   if (is_results(path)) return show_results(path, session);
+  if (const auto content = summarised_content(path); content && a.picture.empty())
+    return show_summary(path, *content, session);
   return is_design(path) ? show_design(path, session) : show_volume(a, session);
 }
 
@@ -148,10 +151,14 @@ int show_file(const InfoChoices& a, Session& session) {
 
 JobKind info_kind() {
   return job_kind<InfoChoices>(
-      "info", "Say what a volume, a design, results or a script hold",
+      "info", "Say what a file holds: a design, or any file that designs read",
       "For a volume (a scan, a grid) it prints size, voxels, orientation, values and how often they occur. For a\n"
       "design it prints attributes with type, unit and range, and the share that lies in the meshes of its results;\n"
-      "for results of a simulation the fields, and for an OpenSCAD script the parameters.\n\n"
+      "for results of a simulation elements and fields, and for an OpenSCAD script the parameters. For a mesh it "
+      "prints\n"
+      "triangles, volume, whether it is closed, parts and colours; for a CAD file its solids; for a drawing its "
+      "regions\n"
+      "and area; for a table and an image their size and values.\n\n"
       "Examples:\n  ombre info models/two_lobes.nrrd\n  ombre info scan/ --picture planes.png\n  ombre info "
       "part.vcad\n  ombre info seat.vtu\n",
       show_file);

@@ -87,8 +87,8 @@ class Head {
         has_dots ? std::string(", center = ") + truth_text(file.centred) + ", dpi = " + stream(file.dots_per_inch) : "";
     return "import(file = " + quoted(path(file.path)) + ", layer = " + quoted(file.layer) +
            (is_exact_ ? ", id = " + quoted(file.id) : "") + ", origin = " + vector(file.origin) + placed +
-           ", scale = " + stream(file.scale) + ", convexity = " + std::to_string(file.convexity) + ", " +
-           fragments(file.fragments) + ", timestamp = 0)";
+           (is_exact_ && file.is_painted ? ", strokes = true" : "") + ", scale = " + stream(file.scale) +
+           ", convexity = " + std::to_string(file.convexity) + ", " + fragments(file.fragments) + ", timestamp = 0)";
   }
   std::string operator()(const solids::Surface& surface) const {
     return "surface(file = " + quoted(path(surface.path)) + ", center = " + truth_text(surface.centred) +

@@ -29,6 +29,7 @@ TreePtr import_file(ModuleCall& call) {
     result.dots_per_inch = 72;
   }
   result.centred = call.flag("center", false);
+  result.is_painted = call.flag("strokes", false);  // OpenSCAD 2021.01 has no such parameter
   result.convexity = std::max(1, whole(call.number("convexity", 1)));
   result.fragments = call.fragments();
   return call.node(std::move(result));
@@ -49,7 +50,8 @@ TreePtr surface(ModuleCall& call) {
 
 std::vector<Module> file_modules() {
   const std::vector<std::string_view> positional{"file", "layer", "convexity", "origin", "scale"};
-  const std::vector<std::string_view> named{"width", "height", "filename", "layername", "center", "dpi", "id"};
+  const std::vector<std::string_view> named{"width",  "height", "filename", "layername",
+                                            "center", "dpi",    "id",       "strokes"};
   return {{"import", positional, named, import_file},
           {"import_stl", positional, named, import_old},
           {"import_off", positional, named, import_old},

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""What `ombre info` says of the files that designs read.
+
+    python3 tests/run_info.py build/dev/apps/ombre/ombre
+"""
+import json
+import struct
+
+import program
+from program import expect, near
+
+CORNERS = [(x, y, z) for z in (0, 3) for y in (0, 4) for x in (0, 2)]
+BLOCK = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
+         (1, 3, 7), (1, 7, 5)]
+
+
+def off(triangles):
+    """A file of a block of 2 x 4 x 3 mm, or of some of its triangles."""
+    lines = ["OFF", f"{len(CORNERS)} {len(triangles)} 0"]
+    lines += [" ".join(map(str, corner)) for corner in CORNERS]
+    return "\n".join(lines + ["3 " + " ".join(map(str, triangle)) for triangle in triangles]) + "\n"
+
+
+class Folder(program.Folder):
+    def info(self, name):
+        return next(event for event in self.events("info", name) if event.get("file") == name)
+
+
+def meshes_are_described(folder):
+    folder.write("block.off", off(BLOCK))
+    found = folder.info("block.off")
+    expect(found["triangles"] == 12 and found["closed"], found)
+    near(found["volume_mm3"], 24, 1e-9, "the volume")
+    near(found["area_mm2"], 52, 1e-9, "the area")
+    expect(found["bounds_mm"] == [0, 0, 0, 2, 4, 3], found)
+    expect("24 mm3" in folder.run("info", "block.off").stdout, "no volume in the text")
+    folder.write("open.off", off(BLOCK[1:]))
+    found = folder.info("open.off")
+    expect(not found["closed"] and found["open_edges"] == 3, found)
+    expect("no: 3 open edges" in folder.run("info", "open.off").stdout, "no open edges in the text")
+    inward = [(a, c, b) for a, b, c in BLOCK]
+    folder.write("inward.off", off(inward))
+    expect("face inward" in folder.run("info", "inward.off").stdout, "nothing of the side")
+
+
+def drawings_are_described(folder):
+    folder.write("a.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm" viewBox="0 0 9 9">'
+                          '<path fill-rule="evenodd" d="M0 0h6v5h-6zM1 1h2v2h-2z"/><text>a</text></svg>')
+    lines = folder.events("info", "a.svg")
+    found = next(event for event in lines if event["event"] == "drawing")
+    expect(found["regions"] == 1 and found["holes"] == 1, found)
+    near(found["area_mm2"], 26, 1e-6, "the area")
+    expect("1 texts" in folder.run("info", "a.svg").stderr, "nothing of the text")
+    square = "".join(f"0\nLINE\n8\ncut\n10\n{a}\n20\n{b}\n11\n{c}\n21\n{d}\n"
+                     for a, b, c, d in ((0, 0, 3, 0), (3, 0, 3, 3), (3, 3, 0, 3), (0, 3, 0, 0)))
+    folder.write("a.dxf", f"0\nSECTION\n2\nENTITIES\n{square}0\nENDSEC\n0\nEOF\n")
+    found = folder.info("a.dxf")
+    near(found["area_mm2"], 9, 1e-6, "the area")
+    expect(found["layers"] == ["cut"], found)
+    folder.write("b.dxf", "AutoCAD Binary DXF\r\n")
+    expect("binary form" in folder.run("info", "b.dxf", status=1).stderr, "no error of a binary file")
+
+
+def tables_are_described(folder):
+    folder.write("a.csv", "x,y\n1,5\n3,-2\n")
+    found = folder.info("a.csv")
+    expect(found["rows"] == 2 and found["columns"] == 2 and found["ranges"] == [[1, 3], [-2, 5]], found)
+
+
+def images_are_described(folder):
+    rows = b"".join(bytes(row) + bytes(2) for row in ([0, 0, 255] * 2, [255, 0, 0] * 2))
+    header = struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(rows), 0, 0, 54, 40, 2, 2, 1, 24, 0, len(rows), 0, 0, 0, 0)
+    (folder.path / "a.bmp").write_bytes(header + rows)
+    found = folder.info("a.bmp")
+    expect(found["width"] == 2 and found["height"] == 2, found)
+    expect(sorted(found["colours"]) == [["#0000FF", 2], ["#FF0000", 2]], found)
+
+
+def cad_files_are_described(folder):
+    path = program.TESTS / "cad" / "base_and_pin.step"
+    result = program.run([folder.ombre, "info", path, "--json"], cwd=folder.path)
+    if program.WITHOUT_CAD in result.stdout + result.stderr:
+        return
+    found = next(event for event in map(json.loads, result.stdout.splitlines()) if event["event"] == "cad")
+    expect(found["solid_count"] == 2 and len(found["solids"]) == 2, found)
+    near(found["solids"][1]["volume_mm3"], 125.663706, 1e-3, "the volume of the pin")
+    expect(all(solid["faces"] > 0 for solid in found["solids"]), found)
+
+
+CHECKS = [meshes_are_described, drawings_are_described, tables_are_described, images_are_described,
+          cad_files_are_described]
+
+
+if __name__ == "__main__":
+    raise SystemExit(program.main(Folder, program.named(CHECKS)))
