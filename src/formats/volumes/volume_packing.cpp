@@ -47,13 +47,14 @@ std::string unpacked(const std::string& path, std::string_view bytes, Packing pa
   return result;
 }
 
-std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most) {
+std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most,
+                          std::vector<std::string>& warnings) {
   constexpr uint64_t least_room = 1 << 16;
   const uint64_t possible = std::min(most, most_growth * bytes.size() + least_room);
   const Unpacker unpacker = make_unpacker();
   std::string result;
   uint64_t room = std::clamp(stated_gzip_size(bytes), least_room, possible);
-  while (!bytes.empty()) {
+  for (bool is_first = true; !bytes.empty() && (is_first || is_gzip(bytes));) {
     const size_t done = result.size();
     result.resize(done + room);
     size_t taken = 0, made = 0;
@@ -66,9 +67,13 @@ std::string unpacked_file(const std::string& path, std::string_view bytes, uint6
       continue;
     }
     if (status != LIBDEFLATE_SUCCESS) fail_volume(path, "is packed by gzip, and damaged or cut off");
+    is_first = false;
     bytes.remove_prefix(taken);
     room = std::min(std::max(least_room, room), possible - std::min(possible, static_cast<uint64_t>(result.size())));
   }
+  if (bytes.find_first_not_of('\0') != std::string_view::npos)
+    warnings.push_back("the volume \"" + path + "\" has " + format_count(bytes.size()) +
+                       " bytes behind its packed contents, which are not read");
   return result;
 }
 
