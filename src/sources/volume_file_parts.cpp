@@ -73,15 +73,19 @@ void add_layer(const LayerNumbers& image, const std::string& path, formats::Voxe
   ++volume.count[2];
 }
 
-formats::VoxelVolume read_images(const std::string& path, const std::vector<std::string>& files, int channel,
-                                 const ReadFile& read, const StopFlag* stop, std::vector<std::string>& warnings) {
+formats::VoxelVolume read_images(const std::string& path, const std::vector<std::string>& files,
+                                 const formats::VolumeChoice& choice, const ReadFile& read, const StopFlag* stop,
+                                 std::vector<std::string>& warnings) {
   formats::VoxelVolume volume;
   for (const std::string& file : files) {
     if (stop && stop->requested()) throw Cancelled();
-    for (const LayerNumbers& layer : read_layer_numbers(file, read(file).bytes, channel, stop))
-      add_layer(layer, file, volume);
+    const LayerStack stack = read_layer_numbers(file, read(file).bytes, choice, stop);
+    for (const LayerNumbers& layer : stack.layers) add_layer(layer, file, volume);
+    warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
+    if (stack.spacing_mm && files.size() == 1)
+      volume.space_from_index = formats::placed_along_axes(path, *stack.spacing_mm, {});
   }
-  formats::check_volume(path, volume);
+  formats::settle_volume(path, choice.nan, volume);
   if (const auto missing = files.size() > 1 ? missing_number(files) : std::nullopt)
     warnings.push_back("the images have a gap: number " + std::to_string(*missing) +
                        " is missing, and the layers above it move down by one");
@@ -89,8 +93,9 @@ formats::VoxelVolume read_images(const std::string& path, const std::vector<std:
 }
 
 formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::string>& files,
-                                const std::string& series, const StopFlag* stop, std::vector<std::string>& warnings) {
-  dicom::Series read = dicom::read_series(path, files, series, stop);
+                                const formats::VolumeChoice& choice, const StopFlag* stop,
+                                std::vector<std::string>& warnings) {
+  dicom::Series read = dicom::read_series(path, files, choice.name, stop);
   warnings = std::move(read.warnings);
   formats::VoxelVolume volume;
   volume.count = read.count;
@@ -103,7 +108,7 @@ formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::
   volume.intercept = read.intercept;
   volume.space_from_index = read.lps_from_index;
   volume.space = formats::VolumeSpace::lps;
-  formats::check_volume(path, volume);
+  formats::settle_volume(path, choice.nan, volume);
   return volume;
 }
 
@@ -115,12 +120,13 @@ formats::VoxelVolume read_vdb(const std::string& path, const formats::VolumeChoi
   volume.channels = dense.channels;
   volume.values = std::move(dense.values);
   volume.space_from_index = dense.space_from_index;
-  formats::check_volume(path, volume);
+  formats::settle_volume(path, choice.nan, volume);
   return volume;
 }
 
 formats::VoxelVolume read_numbers(const std::string& path, const VolumeParts& parts,
-                                  const formats::VolumeChoice& choice, const ReadFile& read) {
+                                  const formats::VolumeChoice& choice, const ReadFile& read,
+                                  std::vector<std::string>& warnings) {
   const FileView whole = read(parts.files[0]);
   formats::VolumeFile file{path, whole.bytes, nullptr, choice, true};
   FileView rest;
@@ -129,6 +135,7 @@ formats::VoxelVolume read_numbers(const std::string& path, const VolumeParts& pa
     file.companion = &rest.bytes;
   }
   formats::VoxelVolume volume = formats::read_volume(file);
+  warnings.insert(warnings.end(), volume.warnings.begin(), volume.warnings.end());
   const bool is_in_rest =
       volume.in_file.data() >= rest.bytes.data() && volume.in_file.data() < rest.bytes.data() + rest.bytes.size();
   if (!volume.in_file.empty() && !volume.file) {
@@ -142,6 +149,14 @@ void check_no_channel(const std::string& path, int channel) {
   if (channel > 0)
     throw Error(Code::file_content,
                 "the scan \"" + path + "\" has one value in each voxel, and no channel " + std::to_string(channel),
+                {{"file", path}});
+}
+
+void check_no_phase(const std::string& path, int phase) {
+  if (phase > 0)
+    throw Error(Code::file_content,
+                "the volume \"" + path + "\" has no phase " + std::to_string(phase) +
+                    "; volumes in time are chosen by channel=0 in files other than DICOM and TIFF",
                 {{"file", path}});
 }
 
@@ -169,13 +184,15 @@ formats::VoxelVolume read_volume_parts(const std::string& path, const VolumePart
   switch (parts.kind) {
     case VolumeParts::Kind::dicom:
       check_no_channel(path, choice.channel);
-      return read_dicom(path, parts.files, choice.name, stop, warnings);
+      return read_dicom(path, parts.files, choice, stop, warnings);
     case VolumeParts::Kind::vdb:
+      check_no_phase(path, choice.phase);
       return read_vdb(path, choice, stop);
     case VolumeParts::Kind::images:
-      return read_images(path, parts.files, choice.channel, read, stop, warnings);
+      return read_images(path, parts.files, choice, read, stop, warnings);
     default:
-      return read_numbers(path, parts, choice, read);
+      check_no_phase(path, choice.phase);
+      return read_numbers(path, parts, choice, read, warnings);
   }
 }
 

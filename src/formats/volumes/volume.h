@@ -84,6 +84,12 @@ struct VolumeChoice {
   std::string name;                // name of one of several arrays; empty if there is only one
   int channel = -1;                // counted from 0; -1 if there is only one
   std::optional<double> nan = {};  // the number in place of NaN; without it, NaN is an error
+  int phase = -1;                  // one of several volumes at the same place, counted from 0; -1 if there is only one
+  bool are_labels = false;         // true where images with a palette give indices
+  int64_t label = -1;              // the only label that is wanted; -1 for all
+  bool is_regular = false;         // true where slices at uneven distances are resampled
+  std::optional<double> outside = {};  // the number of voxels that a scan marks as padding
+  bool is_outside_high = false;        // without `outside`: padding gets the scan's greatest number, not its least
 };
 
 // The bytes of a file. With `may_refer`, numbers are not copied if they can be used in place.
