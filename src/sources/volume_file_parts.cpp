@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 
 #include "base/text/error.h"
 #include "dicom/series.h"
@@ -16,12 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns all files of the folder, in the order of the numbers in their names.
+// Returns all files of the folder and of the folders in it, in the order of the numbers in their names.
 std::vector<std::string> files_in(const std::string& folder) {
+  constexpr int most_depth = 16;
+  constexpr size_t most_files = 1'000'000;
   std::error_code error;
   std::vector<std::string> files;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end;
+       !error && it != end && files.size() < most_files; it.increment(error)) {
     std::error_code unknown;
+    if (it.depth() >= most_depth) it.disable_recursion_pending();
     if (it->is_regular_file(unknown)) files.push_back(it->path().string());
   }
   if (error)
@@ -34,12 +39,32 @@ std::vector<std::string> files_in(const std::string& folder) {
   return files;
 }
 
+bool is_dicom_file(const std::string& path) {
+  constexpr size_t head = 132;
+  std::string bytes(head, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(head));
+  return file.gcount() == static_cast<std::streamsize>(head) && dicom::is_dicom(bytes);
+}
+
+// Images form a stack if they lie in the folder itself and none of its files is DICOM; pictures beside a scan do not.
 VolumeParts parts_of_folder(const std::string& folder) {
   VolumeParts parts{VolumeParts::Kind::dicom, files_in(folder)};
-  if (!std::ranges::any_of(parts.files, has_image_name)) return parts;
-  std::erase_if(parts.files, [](const std::string& file) { return !has_image_name(file); });
+  std::vector<std::string> images = parts.files;
+  std::erase_if(images, [&](const std::string& file) {
+    return !has_image_name(file) || fs::path(file).parent_path() != fs::path(folder + "/").parent_path();
+  });
+  if (images.empty() || std::ranges::any_of(parts.files, is_dicom_file)) return parts;
+  parts.files = std::move(images);
   parts.kind = VolumeParts::Kind::images;
   return parts;
+}
+
+std::vector<formats::VolumeSegment> dicom_segments(const std::string& path, std::string_view bytes) {
+  std::vector<formats::VolumeSegment> segments;
+  for (const dicom::Segment& segment : dicom::read_segments(path, path, bytes))
+    segments.push_back({segment.name, std::to_string(segment.label), segment.label, 0, segment.colour});
+  return segments;
 }
 
 // Adds the rows of an image, from the bottom up.
@@ -95,7 +120,9 @@ formats::VoxelVolume read_images(const std::string& path, const std::vector<std:
 formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::string>& files,
                                 const formats::VolumeChoice& choice, const StopFlag* stop,
                                 std::vector<std::string>& warnings) {
-  dicom::Series read = dicom::read_series(path, files, choice.name, stop);
+  const dicom::SeriesChoice wanted{choice.name,       choice.phase,   choice.label,
+                                   choice.is_regular, choice.outside, choice.is_outside_high};
+  dicom::Series read = dicom::read_series(path, files, wanted, stop);
   warnings = std::move(read.warnings);
   formats::VoxelVolume volume;
   volume.count = read.count;
@@ -106,7 +133,7 @@ formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::
     volume.values = std::move(read.whole);
   volume.slope = read.slope;
   volume.intercept = read.intercept;
-  volume.space_from_index = read.lps_from_index;
+  if (read.has_lengths) volume.space_from_index = read.lps_from_index;
   volume.space = formats::VolumeSpace::lps;
   formats::settle_volume(path, choice.nan, volume);
   return volume;
@@ -167,7 +194,15 @@ VolumeParts volume_parts(const std::string& path, const ReadFile& read) {
   if (fs::is_directory(path, error)) return parts_of_folder(path);
   VolumeParts parts{VolumeParts::Kind::numbers, {path}};
   const FileView file = read(path);
-  if (dicom::is_dicom(file.bytes)) parts.kind = VolumeParts::Kind::dicom;
+  if (dicom::is_directory_of_files(file.bytes)) {
+    const std::string folder = fs::path(path).parent_path().string();
+    return {VolumeParts::Kind::dicom, files_in(folder.empty() ? "." : folder)};
+  }
+  if (dicom::is_dicom(file.bytes)) {  // before images, since a TIFF header may lie before its mark
+    parts.kind = VolumeParts::Kind::dicom;
+    parts.segments = dicom_segments(path, file.bytes);
+    return parts;
+  }
   if (vdb::is_vdb(file.bytes)) parts.kind = VolumeParts::Kind::vdb;
   if (is_image(file.bytes)) parts.kind = VolumeParts::Kind::images;
   if (parts.kind != VolumeParts::Kind::numbers) return parts;

@@ -194,7 +194,8 @@ class OmeDescription {
     const std::string name(*xml_.attribute(uuid, "FileName"));
     if (first_file_.empty()) first_file_ = name;
     if (name != first_file_)
-      xml_.fail_at(data, "the planes lie in several files: " + quoted(first_file_) + " and " + quoted(name),
+      xml_.fail_at(data,
+                   "the planes lie in several files: " + formats::quoted(first_file_) + " and " + formats::quoted(name),
                    "join them, by Fiji for example");
   }
 
