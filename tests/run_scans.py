@@ -42,7 +42,7 @@ def wrong_volumes_are_errors(folder):
     numbers = np.ones((2, 2, 2), "<f4")
     numbers[1, 0, 1] = np.nan
     np.save(folder / "nan.npy", numbers)
-    fails(folder / "nan.npy", "not finite at voxel (1, 0, 1)", options=", spacing=(1, 1, 1)")
+    fails(folder / "nan.npy", "1 value that is NaN", "voxel (1, 0, 1)", "nan=0", options=", spacing=(1, 1, 1)")
     for kernel, words in (("[[[0]]]", "kernel"), ("[for (i=[1:300]) [for (j=[1:300]) [for (k=[1:300]) i*j+k]]]", "")):
         try:
             ombre.load_text(f"convolve({kernel}) cube(2);").voxels(voxel=0.5)

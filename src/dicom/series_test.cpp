@@ -109,7 +109,7 @@ class Dicom : public testing::Test {
   void put(const Elements& elements) { put(file_of(elements)); }
 
   Series read(const std::string& choice = "", const StopFlag* stop = nullptr) const {
-    return read_series("scan", files_, choice, stop);
+    return read_series("scan", files_, {choice}, stop);
   }
   std::string failure(const std::string& choice = "") const {
     try {
@@ -223,7 +223,8 @@ TEST_F(Dicom, MissingSlicesAreAnError) {
 TEST_F(Dicom, UnevenSlicesAreAnError) {
   for (const double height : {0.0, 1.0, 2.0, 3.3, 4.3}) put(slice(height, {1, 2}));
   EXPECT_NE(failure().find("has slices at uneven distances: 1.3 mm"), std::string::npos) << failure();
-  EXPECT_NE(failure().find("elsewhere 1 mm; resample the scan"), std::string::npos) << failure();
+  EXPECT_NE(failure().find("elsewhere 1 mm; write regular=true to resample them linearly"), std::string::npos)
+      << failure();
 }
 
 TEST_F(Dicom, SlicesThatComeTwiceAreLeftOut) {
