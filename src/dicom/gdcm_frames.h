@@ -29,6 +29,9 @@ struct Frame {
   std::vector<uint32_t> padding;  // indices of values that lie outside of what was scanned
 };
 
+// Returns the place of a frame along its normal, in mm.
+inline double height(const Frame& frame) { return dot(frame.place, cross(frame.directions[0], frame.directions[1])); }
+
 // Reads all frames. Throws Error, naming the scan, if the file is damaged or holds what is not read.
 std::vector<Frame> read_frames(const std::string& name, const std::string& path);
 

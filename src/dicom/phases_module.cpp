@@ -14,8 +14,6 @@ constexpr std::string_view key_names[] = {"temporal position", "trigger time", "
 
 using Place = std::vector<Frame>;
 
-double height(const Frame& frame) { return dot(frame.place, cross(frame.directions[0], frame.directions[1])); }
-
 std::vector<Place> places_of(std::vector<Frame> frames) {
   constexpr double same_mm = 1e-4;
   std::vector<Place> places;

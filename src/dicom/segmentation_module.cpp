@@ -16,8 +16,6 @@ namespace {
   throw Error(Code::file_content, "the scan \"" + name + "\" " + message, {{"file", name}});
 }
 
-double height(const Frame& frame) { return dot(frame.place, cross(frame.directions[0], frame.directions[1])); }
-
 // Returns the distance between slices: what the file says, else the least between its frames.
 double step_of(const std::vector<Frame>& frames) {
   constexpr double same_mm = 1e-3;

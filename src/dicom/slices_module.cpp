@@ -13,12 +13,13 @@
 #include "dicom/gdcm_slices.h"
 #include "dicom/phases.h"
 #include "dicom/segmentation.h"
+#include "dicom/tags.h"
 
 namespace ombre::dicom {
 namespace {
 
 const gdcm::Tag series_uid(0x0020, 0x000e), series_number(0x0020, 0x0011), modality(0x0008, 0x0060),
-    sop_class(0x0008, 0x0016), image_type(0x0008, 0x0008), rows(0x0028, 0x0010), columns(0x0028, 0x0011);
+    image_type(0x0008, 0x0008);
 
 struct File {
   std::string path, uid, number, kind, size;
