@@ -254,6 +254,9 @@ class NrrdReader : TextHeader {
       volume.space_from_index = placed(steps, volume);
     else if (!lengths.empty() && !std::isnan(lengths[0] + lengths[1] + lengths[2]))
       volume.space_from_index = placed({{lengths[0], 0, 0}, {0, lengths[1], 0}, {0, 0, lengths[2]}}, volume);
+    if (!has_directions && (fields_.contains("axis mins") || fields_.contains("axismins")))
+      volume.warnings.push_back("the volume \"" + path_ +
+                                "\" has \"axis mins\", which are not read; write origin=(x, y, z) where they matter");
     if (channel.count == 1) chosen_channel(file, 1, false);
     return channel;
   }
