@@ -5,6 +5,7 @@
 """
 import numpy as np
 import pydicom
+import pydicom.datadict
 import pydicom.encaps
 import pydicom.uid
 
@@ -223,7 +224,11 @@ def change(folder, **changes):
     for file in folder.iterdir():
         data = pydicom.dcmread(file)
         for name, function in changes.items():
-            setattr(data, name, function(data.InstanceNumber - 1))
+            value = function(data.InstanceNumber - 1)
+            if name.startswith("PixelPadding"):
+                data.add_new(pydicom.datadict.tag_for_keyword(name), "SS", value)
+            else:
+                setattr(data, name, value)
         data.save_as(file)
     return folder
 

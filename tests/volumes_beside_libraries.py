@@ -45,7 +45,7 @@ class Comparison:
         except (ombre.DesignError, ombre.MachineError) as error:
             self.refuse(str(error))
             return
-        scale = max(1.0, float(np.abs(reference).max()))
+        scale = max(1.0, float(np.nan_to_num(np.abs(reference), posinf=0).max()))
         same = np.abs(found - reference).max() <= 1e-5 * scale
         if same and spacing is not None:
             channel = 0 if "channel=0" in options else None
@@ -81,7 +81,7 @@ def with_nibabel(nibabel, comparison, _):
             continue
         try:
             image = nibabel.load(path)
-            values = np.asarray(image.get_fdata(), float)
+            values, affine = np.asarray(image.get_fdata(), float), image.affine
         except Exception:  # a file that the library refuses says nothing
             continue
         options = ", channel=0" if values.ndim > 3 and values[..., 0].size < values.size else ""
@@ -93,8 +93,7 @@ def with_nibabel(nibabel, comparison, _):
             continue
         if np.isnan(values).any():
             values, options = np.nan_to_num(values, nan=-1), options + ", nan=-1"
-        zooms = nibabel.affines.voxel_sizes(image.affine)
-        comparison.compare(path, values, zooms, options)
+        comparison.compare(path, values, nibabel.affines.voxel_sizes(affine), options)
 
 
 def with_pydicom(pydicom, comparison, _):
@@ -105,16 +104,24 @@ def with_pydicom(pydicom, comparison, _):
             positions, slopes = places(data)
         except Exception:
             continue
-        if data.SamplesPerPixel != 1 or "PixelPaddingValue" in data or data.Modality == "SEG":
+        if data.SamplesPerPixel != 1:
+            comparison.compare(path, np.full((1, 1, 1), np.inf))  # colours are refused
             continue
         if pixels.ndim == 2:
             pixels = pixels[np.newaxis]
         if pixels.size > MOST_VOXELS:
             continue
+        if data.Modality == "SEG":
+            labels = [group.SegmentIdentificationSequence[0].ReferencedSegmentNumber
+                      for group in data.PerFrameFunctionalGroupsSequence]
+            pixels = pixels * np.array(labels)[:, np.newaxis, np.newaxis]
+        options = ""
+        if "PixelPaddingValue" in data:
+            options = f", outside={slopes[0][0] * data.PixelPaddingValue + slopes[0][1]}"
         pixels = np.array([slope * plane + intercept for plane, (slope, intercept) in zip(pixels, slopes)])
-        if positions is not None:
+        if positions is not None and len(positions) == len(pixels):
             pixels = pixels[np.argsort(positions, kind="stable")]
-        comparison.compare(path, pixels.transpose(2, 1, 0), label=path.name)
+        comparison.compare(path, pixels.transpose(2, 1, 0), None, options)
 
 
 def places(data):
@@ -191,7 +198,7 @@ def with_tifffile(tifffile, comparison, folder):
         stack = made_array(kind, (3, 4, 5))
         path = folder / f"plain_{kind}_{compression}.tif"
         tifffile.imwrite(path, stack, compression=compression, photometric="minisblack", metadata=None)
-        comparison.compare(path, upwards(stack), options=", spacing=(1, 1, 1)")
+        comparison.compare(path, upwards(stack))
 
 
 def upwards(stack):

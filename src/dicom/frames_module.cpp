@@ -46,7 +46,7 @@ class FileFrames {
  public:
   FileFrames(const std::string& name, const std::string& path) : name_(name), path_(path) {}
 
-  std::vector<Frame> read() {
+  std::vector<Frame> read(std::vector<std::string>& warnings) {
     open();
     const DataSet& data = this->data();
     if (binary_of<uint16_t>(data, samples).value_or(1) != 1)
@@ -62,10 +62,7 @@ class FileFrames {
     count_ = std::max<int64_t>(1, static_cast<int64_t>(frames));
     shared_items_ = items_of(data, shared_groups);
     frame_items_ = items_of(data, frame_groups);
-    if (frame_items_ && static_cast<int64_t>(frame_items_->GetNumberOfItems()) != count_ &&
-        frame_items_->GetNumberOfItems() > 0)
-      fail("has functional groups for " + std::to_string(frame_items_->GetNumberOfItems()) + " of its " +
-           std::to_string(count_) + " frames in \"" + path_ + '"');
+    check_groups(warnings);
     check_segmentation();
     const std::vector<double> stored = stored_values();
     std::vector<Frame> result;
@@ -102,6 +99,15 @@ class FileFrames {
     gdcm::Trace::WarningOff();
     gdcm::Trace::SetStream(std::cerr);
     return stream.str();
+  }
+
+  // Groups of frames that the file lacks tell nothing; frames without groups would have no place.
+  void check_groups(std::vector<std::string>& warnings) const {
+    const int64_t groups = frame_items_ ? static_cast<int64_t>(frame_items_->GetNumberOfItems()) : 0;
+    const std::string counts = "functional groups for " + std::to_string(groups) + " frames, and " +
+                               std::to_string(count_) + (count_ == 1 ? " frame" : " frames") + ", in \"" + path_ + '"';
+    if (groups > 0 && groups < count_) fail("has " + counts);
+    if (groups > count_) warnings.push_back("the scan \"" + name_ + "\" has " + counts + "; the first are read");
   }
 
   // A segmentation is one bit a pixel, or whole labels; probabilities are no labels.
@@ -342,8 +348,8 @@ class FileFrames {
 
 }  // namespace
 
-std::vector<Frame> read_frames(const std::string& name, const std::string& path) {
-  return FileFrames(name, path).read();
+std::vector<Frame> read_frames(const std::string& name, const std::string& path, std::vector<std::string>& warnings) {
+  return FileFrames(name, path).read(warnings);
 }
 
 }  // namespace ombre::dicom

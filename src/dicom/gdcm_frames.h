@@ -32,7 +32,8 @@ struct Frame {
 // Returns the place of a frame along its normal, in mm.
 inline double height(const Frame& frame) { return dot(frame.place, cross(frame.directions[0], frame.directions[1])); }
 
-// Reads all frames. Throws Error, naming the scan, if the file is damaged or holds what is not read.
-std::vector<Frame> read_frames(const std::string& name, const std::string& path);
+// Reads all frames. Adds sentences about what was left out to `warnings`. Throws Error, naming the scan, if the file is
+// damaged or holds what is not read.
+std::vector<Frame> read_frames(const std::string& name, const std::string& path, std::vector<std::string>& warnings);
 
 }  // namespace ombre::dicom

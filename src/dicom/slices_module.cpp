@@ -37,7 +37,7 @@ class Reading {
 
   Series read() {
     for (const File& file : chosen())
-      for (Frame& frame : read_frames(name_, file.path)) slices_.push_back(std::move(frame));
+      for (Frame& frame : read_frames(name_, file.path, warnings_)) slices_.push_back(std::move(frame));
     check_sizes();
     const bool is_segmentation = slices_.front().segment > 0;
     if (is_segmentation)

@@ -188,6 +188,8 @@ class Reading {
     if (form == SAMPLEFORMAT_IEEEFP && bits != 32 && bits != 64)
       fail("its numbers are floats of " + size + " bits; save it as floats of 32 bits");
     if (form == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64)) return "float" + size;
+    if (bits == 64 && form != SAMPLEFORMAT_IEEEFP)
+      fail("its numbers are integers of 64 bits; save it as integers of 8 to 32 bits");
     if (bits != 8 && bits != 16 && bits != 32) return "";
     return (form == SAMPLEFORMAT_INT ? "int" : "uint") + size;
   }
