@@ -39,25 +39,33 @@ std::vector<std::string> files_in(const std::string& folder) {
   return files;
 }
 
-bool is_dicom_file(const std::string& path) {
-  constexpr size_t head = 132;
-  std::string bytes(head, '\0');
+// Returns the first bytes of a file, by which its kind is known.
+std::string head_of(const std::string& path) {
+  constexpr size_t most = 512;
+  std::string bytes(most, '\0');
   std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(head));
-  return file.gcount() == static_cast<std::streamsize>(head) && dicom::is_dicom(bytes);
+  file.read(bytes.data(), static_cast<std::streamsize>(most));
+  bytes.resize(static_cast<size_t>(file.gcount()));
+  return bytes;
+}
+
+bool is_dicom_file(const std::string& path) { return dicom::is_dicom(head_of(path)); }
+
+// Directories of media list what lies beside them, and hold no images.
+VolumeParts dicom_parts(std::vector<std::string> files) {
+  std::erase_if(files, [](const std::string& file) { return dicom::is_directory_of_files(head_of(file)); });
+  return {VolumeParts::Kind::dicom, std::move(files)};
 }
 
 // Images form a stack if they lie in the folder itself and none of its files is DICOM; pictures beside a scan do not.
 VolumeParts parts_of_folder(const std::string& folder) {
-  VolumeParts parts{VolumeParts::Kind::dicom, files_in(folder)};
-  std::vector<std::string> images = parts.files;
+  const std::vector<std::string> files = files_in(folder);
+  std::vector<std::string> images = files;
   std::erase_if(images, [&](const std::string& file) {
     return !has_image_name(file) || fs::path(file).parent_path() != fs::path(folder + "/").parent_path();
   });
-  if (images.empty() || std::ranges::any_of(parts.files, is_dicom_file)) return parts;
-  parts.files = std::move(images);
-  parts.kind = VolumeParts::Kind::images;
-  return parts;
+  if (images.empty() || std::ranges::any_of(files, is_dicom_file)) return dicom_parts(files);
+  return {VolumeParts::Kind::images, std::move(images)};
 }
 
 std::vector<formats::VolumeSegment> dicom_segments(const std::string& path, std::string_view bytes) {
@@ -196,7 +204,7 @@ VolumeParts volume_parts(const std::string& path, const ReadFile& read) {
   const FileView file = read(path);
   if (dicom::is_directory_of_files(file.bytes)) {
     const std::string folder = fs::path(path).parent_path().string();
-    return {VolumeParts::Kind::dicom, files_in(folder.empty() ? "." : folder)};
+    return dicom_parts(files_in(folder.empty() ? "." : folder));
   }
   if (dicom::is_dicom(file.bytes)) {  // before images, since a TIFF header may lie before its mark
     parts.kind = VolumeParts::Kind::dicom;

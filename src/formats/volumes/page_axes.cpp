@@ -15,7 +15,7 @@
 namespace ombre::formats {
 namespace {
 
-constexpr int64_t most_planes = 10'000'000;
+constexpr int64_t most_planes = 100'000;  // as many as pages of a TIFF file are read
 
 // Returns the factor to mm of a unit of length, or nothing for other words, such as pixels.
 std::optional<double> mm_of_unit(const std::string& unit) {
@@ -94,7 +94,7 @@ class OmeDescription {
     axes.frames = count(pixels, "SizeT");
     read_channels(pixels, axes);
     if (axes.slices > most_planes / axes.channels || axes.slices * axes.channels > most_planes / axes.frames)
-      fail_volume(path_, "has an OME description of more than 10000000 planes");
+      fail_volume(path_, "has an OME description of more than 100000 planes");
     axes.order = order(pixels);
     axes.x_mm = length(pixels, "PhysicalSizeX");
     axes.y_mm = length(pixels, "PhysicalSizeY");
@@ -164,6 +164,7 @@ class OmeDescription {
   void read_pages(pugi::xml_node pixels, PageAxes& axes) const {
     std::vector<int64_t> pages(static_cast<size_t>(axes.count()), -1);
     bool is_given = false;
+    int64_t named = 0;
     for (const pugi::xml_node data : pixels.children()) {
       if (local_name(data) != "TiffData") continue;
       for (const pugi::xml_node uuid : data.children())
@@ -179,8 +180,11 @@ class OmeDescription {
       const int64_t begin = axes.plane(number("FirstZ", 0), number("FirstC", 0), number("FirstT", 0));
       const bool has_one = xml_.attribute(data, "IFD").has_value();
       const int64_t planes = number("PlaneCount", has_one ? 1 : static_cast<uint64_t>(axes.count()));
-      for (int64_t n = 0; n < planes && begin + n < axes.count(); ++n)
-        if (begin + n >= 0) pages[static_cast<size_t>(begin + n)] = first + n;
+      if (planes > 0 && begin >= axes.count())
+        fail_volume(path_, "has an OME description of planes that it does not have");
+      for (int64_t n = 0; n < planes && begin + n < axes.count(); ++n, ++named)
+        pages[static_cast<size_t>(begin + n)] = first + n;
+      if (named > 2 * axes.count()) fail_volume(path_, "has an OME description that names its planes several times");
     }
     if (!is_given) return;
     if (std::ranges::find(pages, -1) != pages.end())

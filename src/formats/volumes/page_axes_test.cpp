@@ -9,11 +9,11 @@
 namespace ombre::formats {
 namespace {
 
-std::string problem(const std::string& text) {
+std::string axes_problem(const std::string& text) {
   return failure_of([&] { page_axes("v", text); });
 }
 
-bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 #ifdef OMBRE_3MF
 std::string ome(const std::string& attributes, const std::string& content = "") {
@@ -51,9 +51,9 @@ TEST(PageAxes, PlainStacksOfImageJAreSlices) {
   ASSERT_TRUE(axes);
   EXPECT_EQ(axes->slices, 7);
   EXPECT_FALSE(axes->z_mm);
-  EXPECT_TRUE(has(problem("ImageJ=1.11a\nimages=7\nslices=3\n"), "7 images"));
-  EXPECT_TRUE(has(problem("ImageJ=1.11a\nimages=x\n"), "wrong \"images\""));
-  EXPECT_TRUE(has(problem("ImageJ=1.11a\nimages=1e30\n"), "wrong \"images\""));
+  EXPECT_TRUE(mentions(axes_problem("ImageJ=1.11a\nimages=7\nslices=3\n"), "7 images"));
+  EXPECT_TRUE(mentions(axes_problem("ImageJ=1.11a\nimages=x\n"), "wrong \"images\""));
+  EXPECT_TRUE(mentions(axes_problem("ImageJ=1.11a\nimages=1e30\n"), "wrong \"images\""));
 }
 
 #ifdef OMBRE_3MF
@@ -89,16 +89,18 @@ TEST(PageAxes, OmeMayNameThePages) {
 }
 
 TEST(PageAxes, WrongOmeDescriptionsAreErrors) {
-  EXPECT_TRUE(has(problem(ome(R"(DimensionOrder="XYZCQ" SizeZ="2" SizeC="1" SizeT="1")")), "DimensionOrder"));
-  EXPECT_TRUE(has(problem(ome(R"(DimensionOrder="XYZCT" SizeZ="0" SizeC="1" SizeT="1")")), "SizeZ"));
-  EXPECT_TRUE(has(problem(ome(R"(DimensionOrder="XYZCT" SizeZ="9999999" SizeC="9999999" SizeT="9")")), "planes"));
-  EXPECT_TRUE(has(problem("<OME><Image>"), "cannot be read"));
-  EXPECT_TRUE(has(problem(ome(R"(DimensionOrder="XYZCT" SizeZ="2" SizeC="1" SizeT="1")",
-                              R"(<TiffData IFD="0"><UUID FileName="a.tif">1</UUID></TiffData>)"
-                              R"(<TiffData IFD="0" FirstZ="1"><UUID FileName="b.tif">2</UUID></TiffData>)")),
-                  "several files"));
-  EXPECT_TRUE(has(problem(ome(R"(DimensionOrder="XYZCT" SizeZ="2" SizeC="1" SizeT="1")", R"(<TiffData IFD="0"/>)")),
-                  "no page for some planes"));
+  EXPECT_TRUE(mentions(axes_problem(ome(R"(DimensionOrder="XYZCQ" SizeZ="2" SizeC="1" SizeT="1")")), "DimensionOrder"));
+  EXPECT_TRUE(mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="0" SizeC="1" SizeT="1")")), "SizeZ"));
+  EXPECT_TRUE(
+      mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="9999999" SizeC="9999999" SizeT="9")")), "planes"));
+  EXPECT_TRUE(mentions(axes_problem("<OME><Image>"), "cannot be read"));
+  EXPECT_TRUE(mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="2" SizeC="1" SizeT="1")",
+                                        R"(<TiffData IFD="0"><UUID FileName="a.tif">1</UUID></TiffData>)"
+                                        R"(<TiffData IFD="0" FirstZ="1"><UUID FileName="b.tif">2</UUID></TiffData>)")),
+                       "several files"));
+  EXPECT_TRUE(
+      mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="2" SizeC="1" SizeT="1")", R"(<TiffData IFD="0"/>)")),
+               "no page for some planes"));
 }
 
 #endif
