@@ -91,8 +91,7 @@ TEST(PageAxes, OmeMayNameThePages) {
 TEST(PageAxes, WrongOmeDescriptionsAreErrors) {
   EXPECT_TRUE(mentions(axes_problem(ome(R"(DimensionOrder="XYZCQ" SizeZ="2" SizeC="1" SizeT="1")")), "DimensionOrder"));
   EXPECT_TRUE(mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="0" SizeC="1" SizeT="1")")), "SizeZ"));
-  EXPECT_TRUE(
-      mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="9999999" SizeC="9999999" SizeT="9")")), "planes"));
+  EXPECT_TRUE(mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="99999" SizeC="99999" SizeT="9")")), "planes"));
   EXPECT_TRUE(mentions(axes_problem("<OME><Image>"), "cannot be read"));
   EXPECT_TRUE(mentions(axes_problem(ome(R"(DimensionOrder="XYZCT" SizeZ="2" SizeC="1" SizeT="1")",
                                         R"(<TiffData IFD="0"><UUID FileName="a.tif">1</UUID></TiffData>)"
