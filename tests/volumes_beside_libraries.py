@@ -113,7 +113,7 @@ def with_pydicom(pydicom, comparison, _):
             continue
         if data.Modality == "SEG":
             labels = [group.SegmentIdentificationSequence[0].ReferencedSegmentNumber
-                      for group in data.PerFrameFunctionalGroupsSequence]
+                      for group in data.PerFrameFunctionalGroupsSequence][:len(pixels)]
             pixels = pixels * np.array(labels)[:, np.newaxis, np.newaxis]
         options = ""
         if "PixelPaddingValue" in data:

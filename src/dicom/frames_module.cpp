@@ -1,4 +1,5 @@
 #include <gdcmPixmapReader.h>
+#include <gdcmSequenceOfFragments.h>
 #include <gdcmTrace.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cstring>
 #include <iostream>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 #include "base/text/error.h"
@@ -187,7 +189,25 @@ class FileFrames {
     return static_cast<double>(static_cast<int64_t>(extended));
   }
 
+  // The library unpacks all frames of JPEG 2000 with the bits of the first one.
+  void check_precisions() const {
+    constexpr size_t components = 40, precision = 42;
+    const gdcm::SequenceOfFragments* fragments = data().GetDataElement(pixels).GetSequenceOfFragments();
+    std::optional<char> first;
+    for (size_t n = 0; fragments && n < fragments->GetNumberOfFragments(); ++n) {
+      const gdcm::ByteValue* value = fragments->GetFragment(n).GetByteValue();
+      if (!value || value->GetLength() <= precision) continue;
+      const std::string_view bytes(value->GetPointer(), value->GetLength());
+      if (!bytes.starts_with("\xFF\x4F\xFF\x51") || bytes[components + 1] != 1) continue;
+      if (!first) first = bytes[precision];
+      if (bytes[precision] != *first)
+        fail("has frames that are packed with different numbers of bits in \"" + path_ +
+             "\"; export it without packing");
+    }
+  }
+
   std::vector<double> packed_values() {
+    check_precisions();
     gdcm::PixmapReader reader;
     reader.SetFileName(path_.c_str());
     bool is_read = false;
