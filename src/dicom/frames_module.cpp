@@ -35,7 +35,8 @@ const Tag samples(0x0028, 0x0002), photometric(0x0028, 0x0004), frame_count(0x00
 // The sequences of functional groups that hold these values.
 const Tag position_group(0x0020, 0x9113), orientation_group(0x0020, 0x9116), measures_group(0x0028, 0x9110),
     scale_group(0x0028, 0x9145), content_group(0x0020, 0x9111), cardiac_group(0x0018, 0x9118),
-    echo_group(0x0018, 0x9114), diffusion_group(0x0018, 0x9117), segment_group(0x0062, 0x000a);
+    echo_group(0x0018, 0x9114), diffusion_group(0x0018, 0x9117), segment_group(0x0062, 0x000a),
+    detectors(0x0054, 0x0022);
 
 constexpr int64_t most_frames = 1'000'000;
 
@@ -253,6 +254,14 @@ class FileFrames {
     return decimals_of(holder(n, sequence, tag), tag);
   }
 
+  // Returns a place or an orientation; files of nuclear medicine give those of their detector.
+  std::vector<double> placement(int64_t n, const Tag& sequence, const Tag& tag) {
+    std::vector<double> numbers = decimals(n, sequence, tag);
+    if (!numbers.empty()) return numbers;
+    const DataSet* detector = first_item(data(), detectors, keeper_);
+    return detector ? decimals_of(*detector, tag) : numbers;
+  }
+
   Frame frame(int64_t n, const std::vector<double>& stored) {
     Frame frame;
     frame.path = path_;
@@ -267,11 +276,11 @@ class FileFrames {
   }
 
   void read_place(int64_t n, Frame& frame) {
-    if (const auto numbers = decimals(n, position_group, position); numbers.size() == 3) {
+    if (const auto numbers = placement(n, position_group, position); numbers.size() == 3) {
       frame.place = {numbers[0], numbers[1], numbers[2]};
       frame.has_place = true;
     }
-    if (const auto numbers = decimals(n, orientation_group, orientation); numbers.size() == 6)
+    if (const auto numbers = placement(n, orientation_group, orientation); numbers.size() == 6)
       frame.directions = {Vec3{numbers[0], numbers[1], numbers[2]}, Vec3{numbers[3], numbers[4], numbers[5]}};
     for (Vec3& direction : frame.directions) {
       const double size = length(direction);
@@ -349,8 +358,10 @@ class FileFrames {
     if (!offsets.empty() && offsets.size() != frames.size())
       fail("has offsets for " + std::to_string(offsets.size()) + " of its " + std::to_string(frames.size()) +
            " frames in \"" + path_ + '"');
+    const bool is_downwards = decimal_of(data(), between_slices).value_or(0) < 0;  // in nuclear medicine
     for (size_t n = 1; n < frames.size(); ++n) {
-      const double offset = offsets.empty() ? static_cast<double>(n) * frames[n].step : offsets[n] - offsets[0];
+      const double step = is_downwards ? -frames[n].step : frames[n].step;
+      const double offset = offsets.empty() ? static_cast<double>(n) * step : offsets[n] - offsets[0];
       frames[n].place = frames[0].place + offset * normal;
       if (offsets.empty() && frames[n].step == 0) frames[n].has_place = false;
     }

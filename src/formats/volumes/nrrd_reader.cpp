@@ -57,7 +57,7 @@ class NrrdReader : TextHeader {
       if (segment.label < 0 || segment.label > most_label) fail("has a wrong \"" + prefix + "LabelValue\"");
       segment.layer = layer ? static_cast<int>(whole(prefix + "Layer", *layer)) : label ? 0 : n;
       if (segment.layer < 0 || segment.layer > most_layers) fail("has a wrong \"" + prefix + "Layer\"");
-      if (const auto colour = note(prefix + "Color")) segment.colour = read_colour(prefix + "Color", *colour);
+      if (const auto colour = note(prefix + "Color")) segment.colour = read_colour(*colour);
       segments.push_back(std::move(segment));
     }
   }
@@ -111,13 +111,15 @@ class NrrdReader : TextHeader {
     return found == notes_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  std::array<double, 3> read_colour(const std::string& key, const std::string& text) const {
+  // Returns nothing for a text that is no colour, since colours of segments only show.
+  static std::optional<std::array<double, 3>> read_colour(const std::string& text) {
     const Words words = words_of(text);
-    if (words.size() != 3) fail("has a wrong \"" + key + "\": three numbers from 0 to 1 are a colour");
+    if (words.size() != 3) return std::nullopt;
     std::array<double, 3> colour{};
     for (size_t n = 0; n < 3; ++n) {
-      colour[n] = number(key, words[n]);
-      if (!(colour[n] >= 0 && colour[n] <= 1)) fail("has a wrong \"" + key + "\": its numbers lie from 0 to 1");
+      const auto value = parse_number(words[n]);
+      if (!value || !(*value >= 0 && *value <= 1)) return std::nullopt;
+      colour[n] = *value;
     }
     return colour;
   }

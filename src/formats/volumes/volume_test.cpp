@@ -107,9 +107,10 @@ TEST(Volume, SegmentsHaveNamesNumbersAndColours) {
   EXPECT_FALSE(segments[1].colour);
   EXPECT_TRUE(segments_of("v", nrrd_with("uint8", "encoding: ascii", "1 2 3 4 5 6")).empty());
   EXPECT_TRUE(segments_of("v", "\x93NUMPY").empty());
-  for (const auto& [key, value] :
-       {std::pair{"LabelValue", "-1"}, {"LabelValue", "1.5"}, {"Layer", "-1"}, {"Color", "1 1"}, {"Color", "0 0 255"}})
+  for (const auto& [key, value] : {std::pair{"LabelValue", "-1"}, {"LabelValue", "1.5"}, {"Layer", "-1"}})
     EXPECT_THROW(segments_of("v", nrrd_with("uint8", both + "Segment0_" + key + ":=" + value, "")), Error) << key;
+  for (const char* colour : {"1 1", "0 0 255", "red"})
+    EXPECT_FALSE(segments_of("v", nrrd_with("uint8", both + "Segment0_Color:=" + colour, ""))[0].colour) << colour;
 }
 
 TEST(Volume, NumbersMayLieBesideTheHeader) {
