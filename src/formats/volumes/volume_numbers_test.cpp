@@ -134,6 +134,11 @@ TEST(VolumeNumbers, BytesBehindNumbersAreAWarning) {
   EXPECT_EQ(std::get<std::vector<int16_t>>(behind.values)[2], 3);
 }
 
+TEST(VolumeNumbers, ShortPackedFilesAreErrors) {
+  for (const char* bytes : {"\x1F\x8B", "\x1F\x8B\x08", "\x1F\x8B\x08zzzzzzzz"})
+    EXPECT_TRUE(has(problem(bytes), "damaged or cut off")) << problem(bytes);
+}
+
 TEST(VolumeNumbers, NrrdDirectionsOfNanAreUnknown) {
   const std::string nans = "(nan,nan,nan) ", data = "abcd";
   const VoxelVolume unknown =

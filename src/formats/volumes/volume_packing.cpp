@@ -20,10 +20,12 @@ Unpacker make_unpacker() { return {libdeflate_alloc_decompressor(), libdeflate_f
 }  // namespace
 
 uint64_t stated_gzip_size(std::string_view bytes) {
+  constexpr size_t digits = 4;
+  if (bytes.size() < digits) return 0;
   uint64_t size = 0;
-  for (size_t n = 0; n < 4 && n < bytes.size(); ++n)
-    size |= static_cast<uint64_t>(static_cast<unsigned char>(bytes[bytes.size() - 4 + n])) << 8 * n;
-  return size;
+  for (size_t n = 0; n < digits; ++n)
+    size |= static_cast<uint64_t>(static_cast<unsigned char>(bytes[bytes.size() - digits + n])) << 8 * n;
+  return std::min<uint64_t>(size, most_growth * bytes.size());
 }
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }

@@ -18,7 +18,7 @@ std::string unpacked(const std::string& path, std::string_view bytes, Packing pa
 std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most,
                           std::vector<std::string>& warnings);
 bool is_gzip(std::string_view bytes);
-// Returns the decompressed size modulo 2^32, as stated at the end of a gzip file.
+// Returns the decompressed size modulo 2^32, as stated at the end of a gzip file, as far as it is possible.
 uint64_t stated_gzip_size(std::string_view bytes);
 
 }  // namespace ombre::formats
