@@ -42,7 +42,7 @@ def wrong_volumes_are_errors(folder):
     numbers = np.ones((2, 2, 2), "<f4")
     numbers[1, 0, 1] = np.nan
     np.save(folder / "nan.npy", numbers)
-    fails(folder / "nan.npy", "not finite at voxel (1, 0, 1)", options=", spacing=(1, 1, 1)")
+    fails(folder / "nan.npy", "1 value that is NaN", "voxel (1, 0, 1)", "nan=0", options=", spacing=(1, 1, 1)")
     for kernel, words in (("[[[0]]]", "kernel"), ("[for (i=[1:300]) [for (j=[1:300]) [for (k=[1:300]) i*j+k]]]", "")):
         try:
             ombre.load_text(f"convolve({kernel}) cube(2);").voxels(voxel=0.5)
@@ -50,6 +50,23 @@ def wrong_volumes_are_errors(folder):
             expect(words in str(error) and len(str(error)) < 2000, str(error))
         else:
             raise AssertionError(f"the kernel {kernel} was taken")
+
+
+def palettes_are_labels(folder):
+    """Pascal VOC and Cityscapes hold labels as indices of a palette."""
+    labels = np.arange(24).reshape(4, 6) % 5
+    picture = PIL.Image.fromarray(labels.astype(np.uint8), "P")
+    picture.putpalette([0, 0, 0, 128, 0, 0, 0, 128, 0, 128, 128, 0, 0, 0, 128])
+    (folder / "labels").mkdir()
+    for number in range(3):
+        picture.save(folder / "labels" / f"{number}.png")
+    picture.save(folder / "labels.tif")
+    points = np.array([[x, y, 0] for x in range(6) for y in range(4)], float)
+    expected = [labels[3 - int(y), int(x)] for x, y, _ in points]
+    for path in (folder / "labels", folder / "labels.tif"):
+        found = values_at(path, points, ', spacing=(1, 1, 1), between="nearest"', "nearest")
+        expect((found == expected).all(), f"{path}: {found}")
+    fails(folder / "labels", "it has a palette", "label=1", options=", spacing=(1, 1, 1)")
 
 
 def nifti_affines_are_honoured(folder):
@@ -404,7 +421,7 @@ def sparse_grids_are_read(folder):
 
 
 if __name__ == "__main__":
-    run([wrong_volumes_are_errors, nifti_affines_are_honoured, meta_images_are_read, arrays_are_volumes,
+    run([wrong_volumes_are_errors, palettes_are_labels, nifti_affines_are_honoured, meta_images_are_read, arrays_are_volumes,
          tiles_and_planes_are_read, stacks_of_images_are_read, vtk_images_are_read, image_data_of_ours_are_read_back,
          voxels_may_be_counted, facts_and_pictures_name_nobody, large_files_stay_on_disk,
          segments_have_names_and_colours, sparse_grids_are_read])

@@ -210,7 +210,14 @@ struct VolumeRequest {
   std::string series = {};   // number or UID of one of several series in a folder; empty if there is only one
   int channel = -1;          // number, from 0, of one of several values per voxel; -1 if there is only one
   std::string segment = {};  // name of a segment of a segmentation, which determines the channel; empty for none
-  int64_t label = -1;        // the segment's number, set by `load`
+  int64_t label = -1;        // number of the wanted label, if there is one; `load` sets that of a segment
+  int phase = -1;            // number, from 0, of one of several volumes at the same place; -1 if there is only one
+  bool are_labels = false;   // true where images with a palette give indices
+  bool is_regular = false;   // true where slices at uneven distances are resampled
+  std::optional<double> nan = {};      // the number in place of NaN, which is an error without it
+  std::optional<double> outside = {};  // the number of voxels that a scan marks as padding; else `is_outside_high`
+  bool is_outside_high = false;        // padding gets the greatest number of the scan, in place of the least
+  bool has_space = false;              // true where the design chooses the coordinate system
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 

@@ -6,6 +6,6 @@
 namespace ombre::dicom {
 
 // Reads, sorts and checks slices; see read_series().
-Series read_slices(const std::string& name, const std::vector<std::string>& files, const std::string& choice);
+Series read_slices(const std::string& name, const std::vector<std::string>& files, const SeriesChoice& choice);
 
 }  // namespace ombre::dicom

@@ -40,6 +40,7 @@ std::string pack(const Series& series) {
   put(bytes, &series.lps_from_index.offset, 1);
   put(bytes, &series.slope, 1);
   put(bytes, &series.intercept, 1);
+  put(bytes, &series.has_lengths, 1);
   for (const std::string& warning : series.warnings) warnings += warning + '\n';
   put_list(bytes, std::vector<char>(warnings.begin(), warnings.end()));
   put_list(bytes, series.whole);
@@ -54,6 +55,7 @@ Series unpack(std::string_view bytes) {
   take(bytes, &series.lps_from_index.offset, 1);
   take(bytes, &series.slope, 1);
   take(bytes, &series.intercept, 1);
+  take(bytes, &series.has_lengths, 1);
   std::vector<char> warnings;
   take_list(bytes, warnings);
   std::string line;
@@ -68,6 +70,39 @@ Series unpack(std::string_view bytes) {
   take_list(bytes, series.whole);
   take_list(bytes, series.real);
   return series;
+}
+
+std::string pack_segments(const std::vector<Segment>& segments) {
+  std::string bytes;
+  const uint64_t count = segments.size();
+  put(bytes, &count, 1);
+  for (const Segment& segment : segments) {
+    put_list(bytes, std::vector<char>(segment.name.begin(), segment.name.end()));
+    put(bytes, &segment.label, 1);
+    const bool has_colour = segment.colour.has_value();
+    const std::array<double, 3> colour = segment.colour.value_or(std::array<double, 3>{});
+    put(bytes, &has_colour, 1);
+    put(bytes, colour.data(), colour.size());
+  }
+  return bytes;
+}
+
+std::vector<Segment> unpack_segments(std::string_view bytes) {
+  uint64_t count = 0;
+  take(bytes, &count, 1);
+  std::vector<Segment> segments(count);
+  for (Segment& segment : segments) {
+    std::vector<char> name;
+    take_list(bytes, name);
+    segment.name.assign(name.begin(), name.end());
+    take(bytes, &segment.label, 1);
+    bool has_colour = false;
+    std::array<double, 3> colour{};
+    take(bytes, &has_colour, 1);
+    take(bytes, colour.data(), colour.size());
+    if (has_colour) segment.colour = colour;
+  }
+  return segments;
 }
 
 }  // namespace ombre::dicom

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,20 +22,41 @@ struct Series {
   double slope = 1, intercept = 0;  // slope and intercept of the first slice
   // maps indices of voxels to their centres in mm; x to the patient's left, y to the back, z to the head
   Affine lps_from_index;
+  bool has_lengths = true;  // false if the files do not say how large voxels are
   std::vector<std::string> warnings;
 };
 
-FileFormat file_format();
-// Returns true if the bytes begin like a DICOM file.
-bool is_dicom(std::string_view bytes);
+struct SeriesChoice {
+  std::string series = {};             // number or UID of one of several series; empty for the only one
+  int phase = -1;                      // one of several volumes at the same places, from 0; -1 for the only one
+  int64_t label = -1;                  // the only label of a segmentation that is wanted; -1 for all
+  bool is_regular = false;             // resamples slices at uneven distances linearly
+  std::optional<double> outside = {};  // the value of padding; else the least of the others
+  bool is_outside_high = false;        // without `outside`: the greatest of the others
+};
 
-// Reads a series. `files` are those of a folder, in any order; files other than DICOM images are skipped. `choice` is
-// the number or UID of a series if there are several; empty for the only one.
-// Throws Error, naming `name`, if there are no images or several series, if slices are missing, differ in size or are
-// unevenly spaced, and if pixels are in colour, damaged or in an unknown encoding. Also throws Error in builds without
-// the library, and Cancelled once `stop`, which may be null, is set. Names and other identifiers of patients are not
-// read.
-Series read_series(const std::string& name, const std::vector<std::string>& files, const std::string& choice,
+// A segment of a segmentation: its name, its number and its colour in sRGB from 0 to 1.
+struct Segment {
+  std::string name;
+  int64_t label = 1;
+  std::optional<std::array<double, 3>> colour = {};
+};
+
+FileFormat file_format();
+// Returns true if the bytes begin like a DICOM file; the 128 bytes before its mark may hold anything.
+bool is_dicom(std::string_view bytes);
+// Returns true if the bytes begin like the directory of a medium (DICOMDIR).
+bool is_directory_of_files(std::string_view bytes);
+
+// Returns the segments that a file names; none if it is no segmentation. Throws Error.
+std::vector<Segment> read_segments(const std::string& name, const std::string& file, std::string_view bytes);
+
+// Reads a series. `files` are those of a folder, in any order; files other than DICOM images are skipped, and
+// localizers and secondary captures are set aside. Throws Error, naming `name`, if there are no images or several
+// series or phases, if slices are missing, differ in size, jump sideways or are unevenly spaced, and if pixels are in
+// colour, damaged or in an unknown encoding. Also throws Error in builds without the library, and Cancelled once
+// `stop`, which may be null, is set. Names and other identifiers of patients are not read.
+Series read_series(const std::string& name, const std::vector<std::string>& files, const SeriesChoice& choice,
                    const StopFlag* stop);
 
 }  // namespace ombre::dicom

@@ -30,7 +30,7 @@ class RandomDesign {
   NodePtr node(const NodeType& type, int depth) {
     // Random values may be invalid in combination (equal end points, an unbounded solid to repeat); then new ones are
     // drawn.
-    for (int attempt = 0; attempt < 20; ++attempt) {
+    for (int attempt = 0; attempt < 60; ++attempt) {
       std::vector<NodePtr> inputs;
       if (type.inputs.most > 0) {
         const size_t count = type.inputs.most == 1 ? 1 : std::clamp(1 + index(3), type.inputs.least, type.inputs.most);

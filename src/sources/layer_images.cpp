@@ -7,6 +7,7 @@
 #include "formats/images/bmp.h"
 #include "formats/images/png.h"
 #include "formats/volumes/volume_parts.h"
+#include "sources/tiff_stack.h"
 #include "tiff/pages.h"
 
 namespace ombre::sources {
@@ -83,6 +84,17 @@ LayerColours bmp_colours(const std::string& path, std::string_view bytes) {
   return colours_of(formats::decode_bmp(bytes, path));
 }
 
+// The indices of an image with a palette, which are labels.
+LayerNumbers indices_of(const formats::PngImage& png) {
+  return {png.width, png.height, "uint16", 1, std::vector<uint16_t>(png.pixels.begin(), png.pixels.end())};
+}
+
+bool has_palette(std::string_view bytes) {
+  constexpr size_t colour_type = 25;  // in the header chunk, which comes first
+  constexpr char indexed = 3;
+  return is_png_image(bytes) && bytes.size() > colour_type && bytes[colour_type] == indexed;
+}
+
 LayerNumbers png_shades(const std::string& path, std::string_view bytes) {
   formats::GrayImage image = formats::decode_gray_png(bytes, path);
   return {image.width, image.height, "uint16", 1, std::move(image.pixels)};
@@ -93,12 +105,17 @@ LayerNumbers bmp_shades(const std::string& path, std::string_view bytes) {
 
 // Numbers of the pixels, or those of one of four channels.
 template <auto colours, auto shades>
-std::vector<LayerNumbers> numbers_of_image(const std::string& path, std::string_view bytes, int channel,
-                                           const StopFlag*) {
-  check_channel(path, channel, 4);
-  std::vector<LayerNumbers> layers;
-  layers.push_back(channel < 0 ? shades(path, bytes) : channel_of(colours(path, bytes), channel));
-  return layers;
+LayerStack numbers_of_image(const std::string& path, std::string_view bytes, const formats::VolumeChoice& choice,
+                            const StopFlag*) {
+  check_channel(path, choice.channel, 4);
+  LayerStack stack;
+  if (choice.channel >= 0)
+    stack.layers.push_back(channel_of(colours(path, bytes), choice.channel));
+  else if (choice.are_labels && has_palette(bytes))
+    stack.layers.push_back(indices_of(formats::decode_png(bytes, path)));
+  else
+    stack.layers.push_back(shades(path, bytes));
+  return stack;
 }
 
 template <auto colours>
@@ -108,25 +125,30 @@ std::vector<LayerColours> colours_of_image(const std::string& path, std::string_
   return layers;
 }
 
-std::vector<LayerNumbers> tiff_numbers(const std::string& path, std::string_view bytes, int channel,
-                                       const StopFlag* stop) {
-  std::vector<LayerNumbers> layers;
-  for (const tiff::Page& page : tiff::read_pages(path, bytes, tiff::Wanted::numbers, stop))
-    layers.push_back(numbers_of(page, path, channel));
-  return layers;
+LayerStack tiff_numbers(const std::string& path, std::string_view bytes, const formats::VolumeChoice& choice,
+                        const StopFlag* stop) {
+  const tiff::Document document =
+      tiff::read_document(path, bytes, choice.are_labels ? tiff::Wanted::indices : tiff::Wanted::numbers, stop);
+  const ChosenPages chosen = chosen_pages(path, document, choice);
+  LayerStack stack{{}, chosen.spacing_mm, chosen.warnings};
+  for (const size_t page : chosen.pages) stack.layers.push_back(numbers_of(document.pages[page], path, chosen.channel));
+  return stack;
 }
 
 std::vector<LayerColours> tiff_colours(const std::string& path, std::string_view bytes, const StopFlag* stop) {
+  const tiff::Document document = tiff::read_document(path, bytes, tiff::Wanted::colours, stop);
   std::vector<LayerColours> layers;
-  for (tiff::Page& page : tiff::read_pages(path, bytes, tiff::Wanted::colours, stop))
+  for (const size_t n : chosen_pages(path, document, {}).pages) {
+    const tiff::Page& page = document.pages[n];
     layers.push_back({page.width, page.height, std::vector<uint8_t>(page.bytes.begin(), page.bytes.end())});
+  }
   return layers;
 }
 
 struct ImageFormat {
   FileFormat file;
   bool (*recognises)(std::string_view bytes);
-  std::vector<LayerNumbers> (*numbers)(const std::string&, std::string_view, int channel, const StopFlag*);
+  LayerStack (*numbers)(const std::string&, std::string_view, const formats::VolumeChoice&, const StopFlag*);
   std::vector<LayerColours> (*colours)(const std::string&, std::string_view, const StopFlag*);
 };
 
@@ -171,9 +193,9 @@ bool has_image_name(const std::string& path) {
 
 bool is_image(std::string_view bytes) { return find_image_format(bytes) != nullptr; }
 
-std::vector<LayerNumbers> read_layer_numbers(const std::string& path, std::string_view bytes, int channel,
-                                             const StopFlag* stop) {
-  return format_of_image(bytes).numbers(path, bytes, channel, stop);
+LayerStack read_layer_numbers(const std::string& path, std::string_view bytes, const formats::VolumeChoice& choice,
+                              const StopFlag* stop) {
+  return format_of_image(bytes).numbers(path, bytes, choice, stop);
 }
 
 std::vector<LayerColours> read_layer_colours(const std::string& path, std::string_view bytes, const StopFlag* stop) {

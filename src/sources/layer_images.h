@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,10 +30,17 @@ struct LayerColours {
   std::vector<uint8_t> rgba;  // rows from the top
 };
 
-// Returns the numbers of the pixels of each page as stored: of 8 or 16 bits in PNG, of any type in TIFF. If pixels have
-// several values, `channel` selects one; -1 makes them an error. Throws Error and Cancelled.
-std::vector<LayerNumbers> read_layer_numbers(const std::string& path, std::string_view bytes, int channel,
-                                             const StopFlag* stop);
+struct LayerStack {
+  std::vector<LayerNumbers> layers;
+  std::optional<Vec3> spacing_mm;  // if the file gives it
+  std::vector<std::string> warnings;
+};
+
+// Returns the numbers of the pixels of each slice as stored: of 8 or 16 bits in PNG, of any type in TIFF. Where pixels
+// have several values, or pages show several channels or frames, `choice` selects one; without it they are an error.
+// Throws Error and Cancelled.
+LayerStack read_layer_numbers(const std::string& path, std::string_view bytes, const formats::VolumeChoice& choice,
+                              const StopFlag* stop);
 
 // Returns the colours of the pixels of each page. Throws Error and Cancelled.
 std::vector<LayerColours> read_layer_colours(const std::string& path, std::string_view bytes, const StopFlag* stop);

@@ -60,7 +60,9 @@ std::shared_ptr<const VolumeParts> parts_of(FilePath& file, sources::Loading& lo
 // Returns the hash of the contents of all of its files.
 std::optional<Hash> content_of(const VolumeParts& parts, const VolumeRequest& request, sources::Loading& loading) {
   sources::Key key("volume");
-  key.add(request.series).add(request.channel);
+  key.add(request.series).add(request.channel).add(request.phase).add(static_cast<double>(request.label));
+  for (const bool flag : {request.are_labels, request.is_regular, request.is_outside_high}) key.add(flag);
+  for (const auto& number : {request.nan, request.outside}) key.add(number ? format_number(*number) : "none");
   for (const std::string& path : parts.files) {
     FilePath part{path, {}};
     if (!loading.read_content(part)) return std::nullopt;
@@ -113,6 +115,29 @@ bool choose_segment(const VolumeParts& parts, VolumeRequest& request, const Read
   return true;
 }
 
+formats::VolumeChoice choice_of(const VolumeRequest& request) {
+  formats::VolumeChoice choice{request.series, request.channel, request.nan, request.phase, request.are_labels};
+  choice.label = request.label;
+  choice.is_regular = request.is_regular;
+  choice.outside = request.outside;
+  choice.is_outside_high = request.is_outside_high;
+  return choice;
+}
+
+// Warns once for a design where two files call different sides of a patient positive, and both keep their axes.
+void compare_axes(const VolumeRequest& request, const VolumeGrid& grid, const sources::Loading& loading) {
+  if (request.has_space) return;
+  const std::string other = loading.loader().first_with_other_axes(request.file.path, grid.space);
+  if (other.empty()) return;
+  const bool is_ras = grid.space == PatientSpace::ras;
+  loading.reader().diagnostics.warning(
+      loading.reader().where,
+      "the volume \"" + request.file.path + "\" has the axes " + (is_ras ? "RAS" : "LPS") + ", and \"" + other +
+          "\" the axes " + (is_ras ? "LPS" : "RAS") + ", so they are turned by 180 degrees to each other",
+      "write " + spelled::parameter("space", "\"RAS\"") + " or " + spelled::parameter("space", "\"LPS\"") +
+          " for both");
+}
+
 }  // namespace
 
 std::shared_ptr<const VolumeGrid> VolumeRequest::load(sources::Loading& loading) {
@@ -123,10 +148,10 @@ std::shared_ptr<const VolumeGrid> VolumeRequest::load(sources::Loading& loading)
   if (!content) return nullptr;
   file.content = *content;
   using Made = sources::Loading::Made<VolumeGrid>;
-  return loading.cached<VolumeGrid>(*content, file.path, [&](const Reader& reader) {
+  const auto loaded = loading.cached<VolumeGrid>(*content, file.path, [&](const Reader& reader) {
     std::vector<std::string> warnings;
     formats::VoxelVolume volume =
-        sources::read_volume_parts(file.path, *parts, {series, channel}, reader_of(loading), loading.stop(), warnings);
+        sources::read_volume_parts(file.path, *parts, choice_of(*this), reader_of(loading), loading.stop(), warnings);
     for (const std::string& warning : warnings) reader.diagnostics.warning(reader.where, warning);
     auto grid = std::make_shared<VolumeGrid>();
     grid->space_from_index = volume.space_from_index;
@@ -137,6 +162,8 @@ std::shared_ptr<const VolumeGrid> VolumeRequest::load(sources::Loading& loading)
     grid->places = std::move(made.places);
     return Made{std::move(grid), made.bytes};
   });
+  if (loaded) compare_axes(*this, *loaded, loading);
+  return loaded;
 }
 
 }  // namespace ombre::design

@@ -19,6 +19,17 @@ bool Loader::is_new(const Hash& key) {
   return reported_.insert(key).second;
 }
 
+std::string Loader::first_with_other_axes(const std::string& path, design::PatientSpace space) {
+  const bool is_patient = space == design::PatientSpace::ras || space == design::PatientSpace::lps;
+  if (!is_patient) return "";
+  const std::scoped_lock lock(mutex_);
+  first_in_space_.try_emplace(space, path);
+  if (has_told_axes_ || first_in_space_.size() < 2) return "";
+  has_told_axes_ = true;
+  const bool is_ras = space == design::PatientSpace::ras;
+  return first_in_space_.at(is_ras ? design::PatientSpace::lps : design::PatientSpace::ras);
+}
+
 std::shared_ptr<const void> Loader::find(design::SourceRequest request, const design::Reader& reader) {
   Loading loading(*this, reader);
   return std::visit([&](auto* kind) -> std::shared_ptr<const void> { return kind->load(loading); }, request);

@@ -26,6 +26,9 @@ class Loader : public design::SourceLoader {
   int threads() const { return threads_; }
   // Returns true the first time that the design gets the source with this key.
   bool is_new(const Hash& key);
+  // Remembers a volume that keeps the axes of its file. Returns the path of the first one with other axes of a patient,
+  // once for a design; else an empty text.
+  std::string first_with_other_axes(const std::string& path, design::PatientSpace space);
 
  protected:
   std::shared_ptr<const void> find(design::SourceRequest request, const design::Reader& reader) override;
@@ -36,6 +39,8 @@ class Loader : public design::SourceLoader {
   int threads_;
   std::mutex mutex_;
   std::set<Hash> reported_;
+  std::map<design::PatientSpace, std::string> first_in_space_;
+  bool has_told_axes_ = false;
 };
 
 // Returns what to write instead of a name that a file does not have: the one that may have been meant, or its names;
@@ -64,6 +69,7 @@ class Loading {
   const design::Reader& reader() const { return reader_; }
   const StopFlag* stop() const { return loader_.stop(); }
   int threads() const { return loader_.threads(); }
+  Loader& loader() const { return loader_; }
 
   // Returns the bytes of a file that a script includes; null if it does not exist or is larger than 256 MiB.
   std::optional<std::string> included(const std::string& path);

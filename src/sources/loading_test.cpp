@@ -69,6 +69,7 @@ class DesignOfTest : public Loader {
     design::VolumeRequest request{{path, {}}};
     return source(request, reader());
   }
+  auto volume(design::VolumeRequest request) { return source(request, reader()); }
   auto square(double side) {
     PolygonsRequest request{{{{{0, 0}, {side, 0}, {side, side}, {0, side}}}, {}}, false};
     return source(request, reader());
@@ -256,6 +257,55 @@ TEST(SourceCache, FailuresAreNotKept) {
   EXPECT_FALSE(second.mesh(path));
   EXPECT_TRUE(second.diagnostics.has_errors());
   EXPECT_EQ(cache.bytes(), 0u);
+}
+
+namespace {
+
+std::string nrrd_in(const std::string& space) {
+  return "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nspace: " + space +
+         "\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n\na";
+}
+
+}  // namespace
+
+// A patient's left is positive in one and negative in the other.
+TEST(Volumes, OtherAxesAreAWarningOnce) {
+  const Folder folder("ombre_sources_axes");
+  const std::string lps = folder.write("lps.nrrd", nrrd_in("LPS")), ras = folder.write("ras.nrrd", nrrd_in("RAS"));
+  SourceCache cache;
+  DesignOfTest design(cache);
+  ASSERT_TRUE(design.volume(lps));
+  EXPECT_TRUE(design.diagnostics.list().empty());
+  ASSERT_TRUE(design.volume(ras));
+  ASSERT_TRUE(design.volume(lps));
+  ASSERT_EQ(design.diagnostics.list().size(), 1U);
+  const std::string& message = design.diagnostics.list()[0].message;
+  EXPECT_NE(message.find("ras.nrrd\" has the axes RAS"), std::string::npos) << message;
+  EXPECT_NE(message.find("lps.nrrd\" the axes LPS"), std::string::npos) << message;
+  DesignOfTest turned(cache);
+  ASSERT_TRUE(turned.volume(lps));
+  design::VolumeRequest request{{ras, {}}};
+  request.has_space = true;
+  ASSERT_TRUE(turned.volume(request));
+  EXPECT_TRUE(turned.diagnostics.list().empty());
+}
+
+// The number in place of NaN belongs to the key of a source.
+TEST(Volumes, NanIsReplacedForEachRequest) {
+  const Folder folder("ombre_sources_nan");
+  const std::string path = folder.write("nan.nrrd",
+                                        "NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nencoding: ascii\n"
+                                        "spacings: 1 1 1\n\nnan");
+  SourceCache cache;
+  DesignOfTest design(cache);
+  EXPECT_FALSE(design.volume(path));
+  for (const double number : {3.0, 4.0}) {
+    design::VolumeRequest request{{path, {}}};
+    request.nan = number;
+    const auto grid = design.volume(request);
+    ASSERT_TRUE(grid);
+    EXPECT_EQ(grid->source->sample(1, {0, 0, 0}), number);
+  }
 }
 
 }  // namespace ombre::sources

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 
 #include "base/text/error.h"
 #include "dicom/series.h"
@@ -16,12 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns all files of the folder, in the order of the numbers in their names.
+// Returns all files of the folder and of the folders in it, in the order of the numbers in their names.
 std::vector<std::string> files_in(const std::string& folder) {
+  constexpr int most_depth = 16;
+  constexpr size_t most_files = 1'000'000;
   std::error_code error;
   std::vector<std::string> files;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+  for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end;
+       !error && it != end && files.size() < most_files; it.increment(error)) {
     std::error_code unknown;
+    if (it.depth() >= most_depth) it.disable_recursion_pending();
     if (it->is_regular_file(unknown)) files.push_back(it->path().string());
   }
   if (error)
@@ -34,12 +39,40 @@ std::vector<std::string> files_in(const std::string& folder) {
   return files;
 }
 
+// Returns the first bytes of a file, by which its kind is known.
+std::string head_of(const std::string& path) {
+  constexpr size_t most = 512;
+  std::string bytes(most, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(most));
+  bytes.resize(static_cast<size_t>(file.gcount()));
+  return bytes;
+}
+
+bool is_dicom_file(const std::string& path) { return dicom::is_dicom(head_of(path)); }
+
+// Directories of media list what lies beside them, and hold no images.
+VolumeParts dicom_parts(std::vector<std::string> files) {
+  std::erase_if(files, [](const std::string& file) { return dicom::is_directory_of_files(head_of(file)); });
+  return {VolumeParts::Kind::dicom, std::move(files)};
+}
+
+// Images form a stack if they lie in the folder itself and none of its files is DICOM; pictures beside a scan do not.
 VolumeParts parts_of_folder(const std::string& folder) {
-  VolumeParts parts{VolumeParts::Kind::dicom, files_in(folder)};
-  if (!std::ranges::any_of(parts.files, has_image_name)) return parts;
-  std::erase_if(parts.files, [](const std::string& file) { return !has_image_name(file); });
-  parts.kind = VolumeParts::Kind::images;
-  return parts;
+  const std::vector<std::string> files = files_in(folder);
+  std::vector<std::string> images = files;
+  std::erase_if(images, [&](const std::string& file) {
+    return !has_image_name(file) || fs::path(file).parent_path() != fs::path(folder + "/").parent_path();
+  });
+  if (images.empty() || std::ranges::any_of(files, is_dicom_file)) return dicom_parts(files);
+  return {VolumeParts::Kind::images, std::move(images)};
+}
+
+std::vector<formats::VolumeSegment> dicom_segments(const std::string& path, std::string_view bytes) {
+  std::vector<formats::VolumeSegment> segments;
+  for (const dicom::Segment& segment : dicom::read_segments(path, path, bytes))
+    segments.push_back({segment.name, std::to_string(segment.label), segment.label, 0, segment.colour});
+  return segments;
 }
 
 // Adds the rows of an image, from the bottom up.
@@ -73,15 +106,19 @@ void add_layer(const LayerNumbers& image, const std::string& path, formats::Voxe
   ++volume.count[2];
 }
 
-formats::VoxelVolume read_images(const std::string& path, const std::vector<std::string>& files, int channel,
-                                 const ReadFile& read, const StopFlag* stop, std::vector<std::string>& warnings) {
+formats::VoxelVolume read_images(const std::string& path, const std::vector<std::string>& files,
+                                 const formats::VolumeChoice& choice, const ReadFile& read, const StopFlag* stop,
+                                 std::vector<std::string>& warnings) {
   formats::VoxelVolume volume;
   for (const std::string& file : files) {
     if (stop && stop->requested()) throw Cancelled();
-    for (const LayerNumbers& layer : read_layer_numbers(file, read(file).bytes, channel, stop))
-      add_layer(layer, file, volume);
+    const LayerStack stack = read_layer_numbers(file, read(file).bytes, choice, stop);
+    for (const LayerNumbers& layer : stack.layers) add_layer(layer, file, volume);
+    warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
+    if (stack.spacing_mm && files.size() == 1)
+      volume.space_from_index = formats::placed_along_axes(path, *stack.spacing_mm, {});
   }
-  formats::check_volume(path, volume);
+  formats::settle_volume(path, choice.nan, volume);
   if (const auto missing = files.size() > 1 ? missing_number(files) : std::nullopt)
     warnings.push_back("the images have a gap: number " + std::to_string(*missing) +
                        " is missing, and the layers above it move down by one");
@@ -89,8 +126,11 @@ formats::VoxelVolume read_images(const std::string& path, const std::vector<std:
 }
 
 formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::string>& files,
-                                const std::string& series, const StopFlag* stop, std::vector<std::string>& warnings) {
-  dicom::Series read = dicom::read_series(path, files, series, stop);
+                                const formats::VolumeChoice& choice, const StopFlag* stop,
+                                std::vector<std::string>& warnings) {
+  const dicom::SeriesChoice wanted{choice.name,       choice.phase,   choice.label,
+                                   choice.is_regular, choice.outside, choice.is_outside_high};
+  dicom::Series read = dicom::read_series(path, files, wanted, stop);
   warnings = std::move(read.warnings);
   formats::VoxelVolume volume;
   volume.count = read.count;
@@ -101,9 +141,9 @@ formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::
     volume.values = std::move(read.whole);
   volume.slope = read.slope;
   volume.intercept = read.intercept;
-  volume.space_from_index = read.lps_from_index;
+  if (read.has_lengths) volume.space_from_index = read.lps_from_index;
   volume.space = formats::VolumeSpace::lps;
-  formats::check_volume(path, volume);
+  formats::settle_volume(path, choice.nan, volume);
   return volume;
 }
 
@@ -115,12 +155,13 @@ formats::VoxelVolume read_vdb(const std::string& path, const formats::VolumeChoi
   volume.channels = dense.channels;
   volume.values = std::move(dense.values);
   volume.space_from_index = dense.space_from_index;
-  formats::check_volume(path, volume);
+  formats::settle_volume(path, choice.nan, volume);
   return volume;
 }
 
 formats::VoxelVolume read_numbers(const std::string& path, const VolumeParts& parts,
-                                  const formats::VolumeChoice& choice, const ReadFile& read) {
+                                  const formats::VolumeChoice& choice, const ReadFile& read,
+                                  std::vector<std::string>& warnings) {
   const FileView whole = read(parts.files[0]);
   formats::VolumeFile file{path, whole.bytes, nullptr, choice, true};
   FileView rest;
@@ -129,6 +170,7 @@ formats::VoxelVolume read_numbers(const std::string& path, const VolumeParts& pa
     file.companion = &rest.bytes;
   }
   formats::VoxelVolume volume = formats::read_volume(file);
+  warnings.insert(warnings.end(), volume.warnings.begin(), volume.warnings.end());
   const bool is_in_rest =
       volume.in_file.data() >= rest.bytes.data() && volume.in_file.data() < rest.bytes.data() + rest.bytes.size();
   if (!volume.in_file.empty() && !volume.file) {
@@ -145,6 +187,14 @@ void check_no_channel(const std::string& path, int channel) {
                 {{"file", path}});
 }
 
+void check_no_phase(const std::string& path, int phase) {
+  if (phase > 0)
+    throw Error(Code::file_content,
+                "the volume \"" + path + "\" has no phase " + std::to_string(phase) +
+                    "; volumes in time are chosen by channel=0 in files other than DICOM and TIFF",
+                {{"file", path}});
+}
+
 }  // namespace
 
 VolumeParts volume_parts(const std::string& path, const ReadFile& read) {
@@ -152,7 +202,15 @@ VolumeParts volume_parts(const std::string& path, const ReadFile& read) {
   if (fs::is_directory(path, error)) return parts_of_folder(path);
   VolumeParts parts{VolumeParts::Kind::numbers, {path}};
   const FileView file = read(path);
-  if (dicom::is_dicom(file.bytes)) parts.kind = VolumeParts::Kind::dicom;
+  if (dicom::is_directory_of_files(file.bytes)) {
+    const std::string folder = fs::path(path).parent_path().string();
+    return dicom_parts(files_in(folder.empty() ? "." : folder));
+  }
+  if (dicom::is_dicom(file.bytes)) {  // before images, since a TIFF header may lie before its mark
+    parts.kind = VolumeParts::Kind::dicom;
+    parts.segments = dicom_segments(path, file.bytes);
+    return parts;
+  }
   if (vdb::is_vdb(file.bytes)) parts.kind = VolumeParts::Kind::vdb;
   if (is_image(file.bytes)) parts.kind = VolumeParts::Kind::images;
   if (parts.kind != VolumeParts::Kind::numbers) return parts;
@@ -169,13 +227,15 @@ formats::VoxelVolume read_volume_parts(const std::string& path, const VolumePart
   switch (parts.kind) {
     case VolumeParts::Kind::dicom:
       check_no_channel(path, choice.channel);
-      return read_dicom(path, parts.files, choice.name, stop, warnings);
+      return read_dicom(path, parts.files, choice, stop, warnings);
     case VolumeParts::Kind::vdb:
+      check_no_phase(path, choice.phase);
       return read_vdb(path, choice, stop);
     case VolumeParts::Kind::images:
-      return read_images(path, parts.files, choice.channel, read, stop, warnings);
+      return read_images(path, parts.files, choice, read, stop, warnings);
     default:
-      return read_numbers(path, parts, choice, read);
+      check_no_phase(path, choice.phase);
+      return read_numbers(path, parts, choice, read, warnings);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -87,15 +88,22 @@ class Reading {
     if (!tiff_) fail();
   }
 
-  std::vector<Page> run() {
-    std::vector<Page> pages;
-    do {
+  Document run() {
+    Document document = about();
+    for (bool is_first = true; is_first || TIFFReadDirectory(tiff_.get()) != 0; is_first = false) {
       if (stop_ && stop_->requested()) throw Cancelled();
-      if (pages.size() == most_pages) fail("it has more than 100000 pages");
-      pages.push_back(page());
-    } while (TIFFReadDirectory(tiff_.get()) != 0);
+      if (document.pages.size() + document.reduced == most_pages) fail("it has more than 100000 pages");
+      if (is_reduced()) {
+        ++document.reduced;
+        continue;
+      }
+      document.pages.push_back(page());
+    }
     if (!file_.first_error.empty()) fail();
-    return pages;
+    if (document.pages.empty()) fail("all of its pages are thumbnails or masks");
+    const uint64_t images = imagej_images(document.description);
+    if (document.pages.size() == 1 && images > 1) add_following(document.pages, images);
+    return document;
   }
 
  private:
@@ -111,6 +119,52 @@ class Reading {
     return value;
   }
 
+  // Reads what the first page says about the others.
+  Document about() const {
+    Document document;
+    const char* text = nullptr;
+    if (TIFFGetField(tiff_.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 0 && text) document.description = text;
+    document.pixels_x = field<float>(TIFFTAG_XRESOLUTION);
+    document.pixels_y = field<float>(TIFFTAG_YRESOLUTION);
+    document.length_unit = field<uint16_t>(TIFFTAG_RESOLUTIONUNIT);
+    return document;
+  }
+
+  bool is_reduced() const {
+    const auto kind = field<uint32_t>(TIFFTAG_SUBFILETYPE);
+    return (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
+  }
+
+  // Returns the number of images in a description by ImageJ, or 0.
+  static uint64_t imagej_images(const std::string& description) {
+    constexpr std::string_view key = "\nimages=";
+    const size_t at = description.starts_with("ImageJ=") ? description.find(key) : std::string::npos;
+    uint64_t images = 0;
+    if (at == std::string::npos) return 0;
+    const char* begin = description.data() + at + key.size();
+    std::from_chars(begin, description.data() + description.size(), images);
+    return images;
+  }
+
+  // Adds the images that follow the first without directories, as ImageJ writes stacks of more than 4 GiB.
+  void add_following(std::vector<Page>& pages, uint64_t images) {
+    const Page first = pages.front();
+    if (wanted_ == Wanted::colours || is_scaled_ || field<uint16_t>(TIFFTAG_COMPRESSION) != COMPRESSION_NONE)
+      fail("its images follow each other without pages of their own; save it with less than 4 GiB");
+    const uint64_t size = first.bytes.size(), begin = TIFFGetStrileOffset(tiff_.get(), 0);
+    if (images > most_pages || begin > file_.bytes.size() || (file_.bytes.size() - begin) / size < images)
+      fail("it is cut off: its description gives " + std::to_string(images) + " images");
+    for (uint64_t n = 1; n < images; ++n) {
+      if (stop_ && stop_->requested()) throw Cancelled();
+      Page page = first;
+      page.bytes = std::string(file_.bytes.substr(begin + n * size, size));
+      if (TIFFIsByteSwapped(tiff_.get()) != 0 && value_bytes_ > 1)
+        for (size_t at = 0; at < size; at += value_bytes_)
+          std::reverse(page.bytes.data() + at, page.bytes.data() + at + value_bytes_);
+      pages.push_back(std::move(page));
+    }
+  }
+
   Page page() {
     Page result;
     result.width = field<uint32_t>(TIFFTAG_IMAGEWIDTH);
@@ -120,8 +174,9 @@ class Reading {
     const auto ink = field<uint16_t>(TIFFTAG_PHOTOMETRIC);
     const bool is_grey = ink == PHOTOMETRIC_MINISBLACK || ink == PHOTOMETRIC_MINISWHITE;
     result.type = type_of_values();
-    if (wanted_ == Wanted::colours || (!is_grey && ink != PHOTOMETRIC_RGB) || result.type.empty())
-      return colours(std::move(result));
+    const bool is_index = ink == PHOTOMETRIC_PALETTE && wanted_ == Wanted::indices;
+    is_scaled_ = wanted_ == Wanted::colours || (!is_grey && !is_index && ink != PHOTOMETRIC_RGB) || result.type.empty();
+    if (is_scaled_) return colours(std::move(result));
     return numbers(std::move(result), ink == PHOTOMETRIC_MINISWHITE);
   }
 
@@ -129,7 +184,12 @@ class Reading {
   std::string type_of_values() const {
     const auto bits = field<uint16_t>(TIFFTAG_BITSPERSAMPLE), form = field<uint16_t>(TIFFTAG_SAMPLEFORMAT);
     const std::string size = std::to_string(bits);
+    if (form == SAMPLEFORMAT_COMPLEXINT || form == SAMPLEFORMAT_COMPLEXIEEEFP) fail("its numbers are complex");
+    if (form == SAMPLEFORMAT_IEEEFP && bits != 32 && bits != 64)
+      fail("its numbers are floats of " + size + " bits; save it as floats of 32 bits");
     if (form == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64)) return "float" + size;
+    if (bits == 64 && form != SAMPLEFORMAT_IEEEFP)
+      fail("its numbers are integers of 64 bits; save it as integers of 8 to 32 bits");
     if (bits != 8 && bits != 16 && bits != 32) return "";
     return (form == SAMPLEFORMAT_INT ? "int" : "uint") + size;
   }
@@ -209,12 +269,13 @@ class Reading {
   std::unique_ptr<TIFF, Close> tiff_;
   size_t value_bytes_ = 1;
   bool is_apart_ = false;
+  bool is_scaled_ = false;  // true if the library turned the page's numbers into colours
 };
 
 }  // namespace
 }  // namespace ombre::tiff
 
 void ombre_read_tiff(const std::string* name, const std::string_view* bytes, ombre::tiff::Wanted wanted,
-                     const ombre::StopFlag* stop, std::vector<ombre::tiff::Page>* pages) {
-  *pages = ombre::tiff::Reading(*name, *bytes, wanted, stop).run();
+                     const ombre::StopFlag* stop, ombre::tiff::Document* document) {
+  *document = ombre::tiff::Reading(*name, *bytes, wanted, stop).run();
 }

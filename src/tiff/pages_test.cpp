@@ -15,11 +15,13 @@ namespace {
 
 // The tags of section 8, and the extensions of sections 15 and 19.
 enum Tag : uint16_t {
+  subfile_type = 254,
   image_width = 256,
   image_length = 257,
   bits_per_sample = 258,
   compression = 259,
   photometric = 262,
+  description = 270,
   strip_offsets = 273,
   orientation = 274,
   samples_per_pixel = 277,
@@ -98,16 +100,17 @@ class TiffWriter {
   void put(uint64_t value, size_t size) { bytes_ += number(value, size); }
   void set(size_t at, uint64_t value) { bytes_.replace(at, 4, number(value, 4)); }
 
-  // Puts an entry of numbers of 32 bits, or of 16 bits for tags that allow no others.
+  // Puts an entry of numbers of 32 bits, or of 16 bits for tags that allow no others; a description is letters.
   void put_entry(uint16_t tag, const std::vector<uint32_t>& numbers, size_t values, std::string& lists) {
     const bool is_short = tag == color_map || tag == bits_per_sample || tag == sample_format || tag == compression ||
                           tag == photometric || tag == orientation || tag == samples_per_pixel ||
                           tag == planar_configuration;
     put(tag, 2);
-    put(is_short ? 3 : 4, 2);
+    const bool is_text = tag == description;
+    put(is_text ? 2 : is_short ? 3 : 4, 2);
     put(numbers.size(), 4);
     std::string text;
-    for (const uint32_t value : numbers) text += number(value, is_short ? 2 : 4);
+    for (const uint32_t value : numbers) text += number(value, is_text ? 1 : is_short ? 2 : 4);
     if (text.size() <= 4) {
       bytes_ += text;
       bytes_.append(4 - text.size(), '\0');
@@ -352,6 +355,57 @@ TEST_F(Tiff, ReadingStopsOnRequest) {
   EXPECT_EQ(read_pages("scan.tif", file_of(grey(2, 1, 8, "ab")), Wanted::numbers, &stop).size(), 1U);
   stop.request();
   EXPECT_THROW(read_pages("scan.tif", file_of(grey(2, 1, 8, "ab")), Wanted::numbers, &stop), Cancelled);
+}
+
+namespace {
+
+std::vector<uint32_t> letters(const std::string& text) {
+  std::vector<uint32_t> list(text.begin(), text.end());
+  list.push_back(0);
+  return list;
+}
+
+}  // namespace
+
+// Bits 0 and 2 of NewSubfileType: a smaller copy, a mask.
+TEST_F(Tiff, ThumbnailsAndMasksAreLeftOut) {
+  TiffWriter writer;
+  for (const uint32_t kind : {0U, 1U, 2U, 4U}) {
+    PlainPage page = grey(2, 1, 8, std::string(2, static_cast<char>('a' + kind)));
+    page.tags[subfile_type] = {kind};
+    writer.add(page);
+  }
+  const Document document = read_document("scan.tif", writer.bytes(), Wanted::numbers, nullptr);
+  ASSERT_EQ(document.pages.size(), 2U);
+  EXPECT_EQ(document.pages[1].bytes, "cc");
+  EXPECT_EQ(document.reduced, 2U);
+}
+
+// ImageJ's stacks of more than 4 GiB have one directory; their images follow each other.
+TEST_F(Tiff, LargeStacksOfImageJHaveOneDirectory) {
+  for (const bool is_big_endian : {false, true}) {
+    const std::string first = is_big_endian ? std::string("\0\1\0\2", 4) : std::string("\1\0\2\0", 4),
+                      second = is_big_endian ? std::string("\0\3\0\4", 4) : std::string("\3\0\4\0", 4);
+    PlainPage page = grey(2, 1, 16, first);
+    page.tags[description] = letters("ImageJ=1.53t\nimages=2\nslices=2\n");
+    const std::string file = file_of(page, is_big_endian);
+    const std::vector<Page> pages = read(file + second);
+    ASSERT_EQ(pages.size(), 2U);
+    EXPECT_EQ(pages[0].bytes, bytes_of<uint16_t>({1, 2}));
+    EXPECT_EQ(pages[1].bytes, bytes_of<uint16_t>({3, 4}));
+    EXPECT_NE(failure(file).find("cut off: its description gives 2 images"), std::string::npos) << failure(file);
+  }
+}
+
+TEST_F(Tiff, NumbersThatAreNotReadAreErrors) {
+  const auto of = [](uint32_t bits, uint32_t format) {
+    PlainPage page = grey(2, 1, bits, std::string(bits / 4, 'a'));
+    page.tags[sample_format] = {format};
+    return failure(file_of(page));
+  };
+  EXPECT_NE(of(16, 3).find("floats of 16 bits"), std::string::npos);
+  EXPECT_NE(of(64, 1).find("integers of 64 bits"), std::string::npos);
+  EXPECT_NE(of(64, 6).find("complex"), std::string::npos);
 }
 
 }  // namespace ombre::tiff

@@ -12,7 +12,16 @@ constexpr Module libtiff{"ombre_libtiff", "libtiff",    "TIFF images",
 
 }  // namespace
 
-FileFormat file_format() { return {"TIFF", {".tif", ".tiff"}, Content::image, true, false, &libtiff}; }
+FileFormat file_format() {
+  return {"TIFF",
+          {".tif", ".tiff"},
+          Content::image,
+          true,
+          false,
+          &libtiff,
+          "half floats; complex numbers; several channels or frames without a choice; planes in several OME files",
+          "thumbnails; smaller copies; masks; OME images after the first"};
+}
 
 bool is_tiff(std::string_view bytes) {
   using namespace std::string_view_literals;
@@ -20,11 +29,15 @@ bool is_tiff(std::string_view bytes) {
          bytes.starts_with("MM\0+"sv);
 }
 
-std::vector<Page> read_pages(const std::string& name, std::string_view bytes, Wanted wanted, const StopFlag* stop) {
+Document read_document(const std::string& name, std::string_view bytes, Wanted wanted, const StopFlag* stop) {
   static const auto read = load_function<decltype(ombre_read_tiff)>(libtiff, "ombre_read_tiff");
-  std::vector<Page> pages;
-  read(&name, &bytes, wanted, stop, &pages);
-  return pages;
+  Document document;
+  read(&name, &bytes, wanted, stop, &document);
+  return document;
+}
+
+std::vector<Page> read_pages(const std::string& name, std::string_view bytes, Wanted wanted, const StopFlag* stop) {
+  return read_document(name, bytes, wanted, stop).pages;
 }
 
 }  // namespace ombre::tiff

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "base/text/error.h"
+#include "formats/volumes/page_axes.h"
 #include "import/fields/volume_source.h"
 
 namespace {
@@ -27,12 +28,23 @@ void exercise(const std::string& bytes, const std::string* companion, bool may_r
   }
 }
 
+// Any text as the description of a TIFF file's pages.
+void describe_pages(const std::string& text) {
+  try {
+    const auto axes = ombre::formats::page_axes("fuzz.tif", text);
+    if (axes && axes->plane(axes->slices - 1, axes->channels - 1, axes->frames - 1) != axes->count() - 1) std::abort();
+  } catch (const ombre::Error&) {
+    return;
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   exercise(bytes, nullptr, false);
   exercise(bytes, nullptr, true);
+  describe_pages(bytes);
   // What follows an empty line is the companion, and the other way round.
   const size_t gap = bytes.find("\n\n");
   if (gap == std::string::npos) return 0;

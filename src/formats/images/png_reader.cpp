@@ -87,6 +87,11 @@ bool read_header(PngReader& reader) {
 bool read_gray_header(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
   read_stored_layout(reader);
+  if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE)
+    png_error(
+        reader.png,
+        "it has a palette; read the indices of its pixels as labels, by label=1 for example, or one of the values "
+        "of its colours by channel=0, up to 3");
   if ((png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_COLOR) != 0)
     png_error(reader.png,
               "it is in colour; choose one of its values by channel=0, up to 3, or save it in shades of grey");

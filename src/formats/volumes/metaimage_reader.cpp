@@ -93,9 +93,9 @@ class MetaImage : TextHeader {
 
   std::string type() const {
     static const std::map<std::string, const char*> names{
-        {"MET_CHAR", "int8"},     {"MET_UCHAR", "uint8"},   {"MET_SHORT", "int16"}, {"MET_USHORT", "uint16"},
-        {"MET_INT", "int32"},     {"MET_UINT", "uint32"},   {"MET_LONG", "int32"},  {"MET_ULONG", "uint32"},
-        {"MET_FLOAT", "float32"}, {"MET_DOUBLE", "float64"}};
+        {"MET_CHAR", "int8"},     {"MET_UCHAR", "uint8"},    {"MET_SHORT", "int16"},     {"MET_USHORT", "uint16"},
+        {"MET_INT", "int32"},     {"MET_UINT", "uint32"},    {"MET_LONG", "int32"},      {"MET_ULONG", "uint32"},
+        {"MET_FLOAT", "float32"}, {"MET_DOUBLE", "float64"}, {"MET_LONG_LONG", "int64"}, {"MET_ULONG_LONG", "uint64"}};
     const std::string given = field("elementtype");
     const auto found = names.find(given);
     if (found == names.end())

@@ -79,9 +79,13 @@ std::string type_of(const std::string& path, int code) {
       return "uint16";
     case 768:
       return "uint32";
+    case 1024:
+      return "int64";
+    case 1280:
+      return "uint64";
     default:
       fail_volume(path, "has numbers of the NIfTI type " + std::to_string(code) +
-                            "; whole numbers of 8, 16 or 32 bits and floats of 32 or 64 bits are read");
+                            "; integers of 8 to 64 bits and floats of 32 or 64 bits are read");
   }
 }
 
@@ -169,13 +173,13 @@ void place(const std::string& path, const NiftiHeader& header, VoxelVolume& volu
   if (has_rows || has_turn) volume.space = VolumeSpace::ras;
 }
 
-// Converts the numbers to slope * number + intercept.
+// Converts the numbers to slope * number + intercept. A slope that is zero or not finite means that there is none, as
+// in nibabel and ITK.
 void rescale(const std::string& path, const NiftiHeader& header, VoxelVolume& volume) {
   const double slope = header.real(header.layout().slope), intercept = header.real(header.layout().intercept);
-  if (slope == 0 || (slope == 1 && intercept == 0)) return;
-  if (!std::isfinite(slope) || !std::isfinite(intercept)) fail_volume(path, "has a scale that is not finite");
+  if (slope == 0 || !std::isfinite(slope) || (slope == 1 && intercept == 0)) return;
+  if (!std::isfinite(intercept)) fail_volume(path, "has a slope whose intercept is not finite");
   rescale_numbers(path, slope, intercept, volume);
-  check_finite(path, volume);
 }
 
 }  // namespace
@@ -224,7 +228,8 @@ VoxelVolume read_nifti(const VolumeFile& file) {
   };
   if (header.is_pair() && is_gzip(numbers)) {
     check_room(path, size);
-    std::string unpacked = unpacked_file(path, numbers, size + skip);
+    constexpr uint64_t most_behind = 1 << 20;
+    std::string unpacked = unpacked_file(path, numbers, size + skip + most_behind, volume.warnings);
     check_begin(unpacked);
     unpacked.erase(0, skip);
     take_own_numbers(file, std::move(unpacked), header.is_big_endian(), channel, volume);

@@ -75,11 +75,12 @@ std::string type_called(const std::string& path, const std::string& type) {
   if (word == "i2") return "int16";
   if (word == "u4") return "uint32";
   if (word == "i4") return "int32";
+  if (word == "u8") return "uint64";
+  if (word == "i8") return "int64";
   if (word == "f4") return "float32";
   if (word == "f8") return "float64";
   fail_volume(path, "has numbers of NumPy's type \"" + type +
-                        "\"; save it with astype(\"float32\"), or as integers of 8, "
-                        "16 or 32 bits");
+                        "\"; save it with astype(\"float32\"), or as integers of 8 to 64 bits");
 }
 
 // Reorders numbers from z fastest to x fastest.

@@ -57,7 +57,7 @@ class NrrdReader : TextHeader {
       if (segment.label < 0 || segment.label > most_label) fail("has a wrong \"" + prefix + "LabelValue\"");
       segment.layer = layer ? static_cast<int>(whole(prefix + "Layer", *layer)) : label ? 0 : n;
       if (segment.layer < 0 || segment.layer > most_layers) fail("has a wrong \"" + prefix + "Layer\"");
-      if (const auto colour = note(prefix + "Color")) segment.colour = read_colour(prefix + "Color", *colour);
+      if (const auto colour = note(prefix + "Color")) segment.colour = read_colour(*colour);
       segments.push_back(std::move(segment));
     }
   }
@@ -111,13 +111,15 @@ class NrrdReader : TextHeader {
     return found == notes_.end() ? std::nullopt : std::optional(found->second);
   }
 
-  std::array<double, 3> read_colour(const std::string& key, const std::string& text) const {
+  // Returns nothing for a text that is no colour, since colours of segments only show.
+  static std::optional<std::array<double, 3>> read_colour(const std::string& text) {
     const Words words = words_of(text);
-    if (words.size() != 3) fail("has a wrong \"" + key + "\": three numbers from 0 to 1 are a colour");
+    if (words.size() != 3) return std::nullopt;
     std::array<double, 3> colour{};
     for (size_t n = 0; n < 3; ++n) {
-      colour[n] = number(key, words[n]);
-      if (!(colour[n] >= 0 && colour[n] <= 1)) fail("has a wrong \"" + key + "\": its numbers lie from 0 to 1");
+      const auto value = parse_number(words[n]);
+      if (!value || !(*value >= 0 && *value <= 1)) return std::nullopt;
+      colour[n] = *value;
     }
     return colour;
   }
@@ -171,6 +173,18 @@ class NrrdReader : TextHeader {
                                                           {"unsigned int", "uint32"},
                                                           {"uint32", "uint32"},
                                                           {"uint32_t", "uint32"},
+                                                          {"longlong", "int64"},
+                                                          {"long long", "int64"},
+                                                          {"long long int", "int64"},
+                                                          {"signed long long", "int64"},
+                                                          {"signed long long int", "int64"},
+                                                          {"int64", "int64"},
+                                                          {"int64_t", "int64"},
+                                                          {"ulonglong", "uint64"},
+                                                          {"unsigned long long", "uint64"},
+                                                          {"unsigned long long int", "uint64"},
+                                                          {"uint64", "uint64"},
+                                                          {"uint64_t", "uint64"},
                                                           {"float", "float32"},
                                                           {"double", "float64"}};
     const std::string name = field("type");
@@ -178,7 +192,7 @@ class NrrdReader : TextHeader {
     return known == names.end() ? name : known->second;
   }
 
-  // Parses vectors such as "(1,0,0) none (0, 1, 0)", each of three numbers or none.
+  // Parses vectors such as "(1,0,0) none (0, 1, 0)", each of three numbers or none. Numbers that are NaN mean none.
   std::vector<std::optional<Vec3>> vectors(const std::string& name) const {
     std::vector<std::optional<Vec3>> result;
     std::string_view text = fields_.at(name);
@@ -194,7 +208,8 @@ class NrrdReader : TextHeader {
       if (numbers.size() != 3) fail("has vectors in \"" + name + "\" that have not three numbers");
       Vec3 vector;
       for (int axis = 0; axis < 3; ++axis) vector[axis] = number(name, numbers[static_cast<size_t>(axis)]);
-      result.emplace_back(vector);
+      const bool is_none = std::isnan(vector.x) && std::isnan(vector.y) && std::isnan(vector.z);
+      result.push_back(is_none ? std::nullopt : std::optional(vector));
       text.remove_prefix(end + 1);
     }
     return result;
@@ -204,9 +219,12 @@ class NrrdReader : TextHeader {
   // of space, contains the values of a voxel.
   Channel read_axes(const VolumeFile& file, VoxelVolume& volume) const {
     const Words sizes = words_of(field("sizes"));
-    const bool has_directions = fields_.contains("space directions");
-    const auto directions =
-        has_directions ? vectors("space directions") : std::vector<std::optional<Vec3>>(sizes.size(), Vec3{});
+    std::vector<std::optional<Vec3>> directions;
+    if (fields_.contains("space directions")) directions = vectors("space directions");
+    // Without any direction the orientation is unknown.
+    const bool has_directions = std::ranges::any_of(directions, [](const auto& one) { return one.has_value(); });
+    if (directions.empty()) directions.resize(sizes.size());
+    if (!has_directions) std::ranges::fill(directions, Vec3{});
     const Words spacings = words_of(field_or("spacings", ""));
     if (whole("dimension", field("dimension")) != static_cast<int64_t>(sizes.size()) ||
         directions.size() != sizes.size() || (!spacings.empty() && spacings.size() != sizes.size()))
@@ -235,9 +253,12 @@ class NrrdReader : TextHeader {
     std::copy(counts.begin(), counts.end(), volume.count.begin());
     read_space(volume);
     if (has_directions)
-      volume.space_from_index = placed(steps);
+      volume.space_from_index = placed(steps, volume);
     else if (!lengths.empty() && !std::isnan(lengths[0] + lengths[1] + lengths[2]))
-      volume.space_from_index = placed({{lengths[0], 0, 0}, {0, lengths[1], 0}, {0, 0, lengths[2]}});
+      volume.space_from_index = placed({{lengths[0], 0, 0}, {0, lengths[1], 0}, {0, 0, lengths[2]}}, volume);
+    if (!has_directions && (fields_.contains("axis mins") || fields_.contains("axismins")))
+      volume.warnings.push_back("the volume \"" + path_ +
+                                "\" has \"axis mins\", which are not read; write origin=(x, y, z) where they matter");
     if (channel.count == 1) chosen_channel(file, 1, false);
     return channel;
   }
@@ -256,13 +277,16 @@ class NrrdReader : TextHeader {
     volume.space = *space;
   }
 
-  Affine placed(const std::vector<Vec3>& steps) const {
+  Affine placed(const std::vector<Vec3>& steps, VoxelVolume& volume) const {
     const double mm = unit_mm();
     Vec3 origin;
     if (fields_.contains("space origin")) {
       const auto found = vectors("space origin");
-      if (found.size() != 1 || !found[0]) fail("has a wrong \"space origin\"");
-      origin = *found[0];
+      if (found.size() != 1) fail("has a wrong \"space origin\"");
+      if (!found[0])
+        volume.warnings.push_back("the volume \"" + path_ +
+                                  "\" has an unknown \"space origin\"; its first voxel is put at the origin");
+      origin = found[0].value_or(Vec3{});
     }
     Affine map;
     for (int row = 0; row < 3; ++row)
@@ -330,17 +354,12 @@ class NrrdReader : TextHeader {
             bytes.remove_prefix(begin);
             const size_t end = std::min(bytes.find_first_of(blanks), bytes.size());
             if (end == 0) fail("is cut off: its text has too few numbers");
-            const double value = number("number", bytes.substr(0, end));
-            if constexpr (std::is_integral_v<T>)
-              if (!(value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max()))
-                fail("has a number that its type cannot hold: \"" +
-                     std::string(bytes.substr(0, std::min<size_t>(end, 60))) + '"');
-            list.push_back(static_cast<T>(value));
+            list.push_back(number_of_text<T>(path_, volume.type, number("number", bytes.substr(0, end))));
             bytes.remove_prefix(end);
           }
         },
         volume.values);
-    check_finite(path_, volume);
+    if (volume.type.ends_with("int64")) narrow_integers(volume);
   }
 
   std::map<std::string, std::string> notes_;

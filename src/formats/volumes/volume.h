@@ -51,12 +51,13 @@ struct VoxelVolume {
   std::string_view in_file;                // if not empty: the little-endian numbers in the bytes of the file
   std::shared_ptr<const void> file;        // keeps these bytes alive
   bool stays_in_file = false;              // true if they do not use memory
-  std::string type;                        // such as "uint8"
+  std::string type;                        // that of the file, such as "uint8"; 64-bit integers become int32 or double
   std::optional<Affine> space_from_index;  // maps indices of voxels to their centres in mm; invertible
   VolumeSpace space = VolumeSpace::unknown;
   // Slope and intercept that were applied to the file's numbers, in formats that have them.
   double slope = 1, intercept = 0;
-  int64_t channels = 1;  // values per voxel in the file; this volume contains one of them
+  int64_t channels = 1;                    // values per voxel in the file; this volume contains one of them
+  std::vector<std::string> warnings = {};  // sentences about what was left out
 };
 
 // Calls visit with the numbers of the volume as Numbers<T>.
@@ -80,8 +81,15 @@ struct VolumeSegment {
 
 // The choice from a file with several grids or several values per voxel.
 struct VolumeChoice {
-  std::string name;  // name of one of several arrays; empty if there is only one
-  int channel = -1;  // counted from 0; -1 if there is only one
+  std::string name;                // name of one of several arrays; empty if there is only one
+  int channel = -1;                // counted from 0; -1 if there is only one
+  std::optional<double> nan = {};  // the number in place of NaN; without it, NaN is an error
+  int phase = -1;                  // one of several volumes at the same place, counted from 0; -1 if there is only one
+  bool are_labels = false;         // true where images with a palette give indices
+  int64_t label = -1;              // the only label that is wanted; -1 for all
+  bool is_regular = false;         // true where slices at uneven distances are resampled
+  std::optional<double> outside = {};  // the number of voxels that a scan marks as padding
+  bool is_outside_high = false;        // without `outside`: padding gets the scan's greatest number, not its least
 };
 
 // The bytes of a file. With `may_refer`, numbers are not copied if they can be used in place.
@@ -106,7 +114,10 @@ std::vector<VolumeSegment> segments_of(const std::string& path, std::string_view
 // Reads a volume. Throws Error, naming the path and what is wrong.
 VoxelVolume read_volume(const VolumeFile& file);
 
-// Throws Error, naming the path, if a value is not finite or the volume's placement is impossible.
-void check_volume(const std::string& path, const VoxelVolume& volume);
+// Puts `nan`, if given, in place of NaN. Throws Error, naming the path, if a value is still not finite.
+void settle_numbers(const std::string& path, std::optional<double> nan, VoxelVolume& volume);
+
+// Settles the numbers. Throws Error, naming the path, likewise, or if the volume's placement is impossible.
+void settle_volume(const std::string& path, std::optional<double> nan, VoxelVolume& volume);
 
 }  // namespace ombre::formats

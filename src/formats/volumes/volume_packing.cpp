@@ -20,10 +20,12 @@ Unpacker make_unpacker() { return {libdeflate_alloc_decompressor(), libdeflate_f
 }  // namespace
 
 uint64_t stated_gzip_size(std::string_view bytes) {
+  constexpr size_t digits = 4;
+  if (bytes.size() < digits) return 0;
   uint64_t size = 0;
-  for (size_t n = 0; n < 4 && n < bytes.size(); ++n)
-    size |= static_cast<uint64_t>(static_cast<unsigned char>(bytes[bytes.size() - 4 + n])) << 8 * n;
-  return size;
+  for (size_t n = 0; n < digits; ++n)
+    size |= static_cast<uint64_t>(static_cast<unsigned char>(bytes[bytes.size() - digits + n])) << 8 * n;
+  return std::min<uint64_t>(size, most_growth * bytes.size());
 }
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
@@ -47,13 +49,14 @@ std::string unpacked(const std::string& path, std::string_view bytes, Packing pa
   return result;
 }
 
-std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most) {
+std::string unpacked_file(const std::string& path, std::string_view bytes, uint64_t most,
+                          std::vector<std::string>& warnings) {
   constexpr uint64_t least_room = 1 << 16;
   const uint64_t possible = std::min(most, most_growth * bytes.size() + least_room);
   const Unpacker unpacker = make_unpacker();
   std::string result;
   uint64_t room = std::clamp(stated_gzip_size(bytes), least_room, possible);
-  while (!bytes.empty()) {
+  for (bool is_first = true; !bytes.empty() && (is_first || is_gzip(bytes));) {
     const size_t done = result.size();
     result.resize(done + room);
     size_t taken = 0, made = 0;
@@ -66,9 +69,13 @@ std::string unpacked_file(const std::string& path, std::string_view bytes, uint6
       continue;
     }
     if (status != LIBDEFLATE_SUCCESS) fail_volume(path, "is packed by gzip, and damaged or cut off");
+    is_first = false;
     bytes.remove_prefix(taken);
     room = std::min(std::max(least_room, room), possible - std::min(possible, static_cast<uint64_t>(result.size())));
   }
+  if (bytes.find_first_not_of('\0') != std::string_view::npos)
+    warnings.push_back("the volume \"" + path + "\" has " + format_count(bytes.size()) +
+                       " bytes behind its packed contents, which are not read");
   return result;
 }
 

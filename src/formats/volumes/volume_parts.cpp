@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "base/system/free_memory.h"
 #include "base/text/text.h"
@@ -55,9 +56,9 @@ VoxelValues values_of_type(const std::string& path, const std::string& type) {
   if (type == "uint32") return std::vector<uint32_t>();
   if (type == "int32") return std::vector<int32_t>();
   if (type == "float32") return std::vector<float>();
-  if (type == "float64") return std::vector<double>();
-  fail_volume(path, "has numbers of the type \"" + type +
-                        "\"; save it as uint8, int8, uint16, int16, uint32, int32, float32 or float64");
+  if (type == "float64" || type == "int64" || type == "uint64") return std::vector<double>();
+  fail_volume(
+      path, "has numbers of the type \"" + type + "\"; save it as integers of 8 to 64 bits, as float32 or as float64");
 }
 
 size_t bytes_per_value(const VoxelValues& values) {
@@ -124,7 +125,42 @@ void copy_numbers(std::string_view bytes, bool is_big_endian, const Channel& cha
     for (T& value : list) swap_bytes(value);
 }
 
+// Copies 64-bit integers as doubles. Throws Error if one is not below 2^53, from where on doubles have gaps.
+template <class T>
+void copy_long_integers(const VolumeFile& file, std::string_view bytes, bool is_big_endian, const Channel& channel,
+                        size_t count, VoxelVolume& volume) {
+  std::vector<T> stored;
+  copy_numbers(bytes, is_big_endian, channel, count, stored);
+  constexpr int64_t most_exact = int64_t{1} << 53;
+  std::vector<double> list(count);
+  for (size_t n = 0; n < count; ++n) {
+    if (std::cmp_greater(stored[n], most_exact) || std::cmp_less(stored[n], -most_exact))
+      fail_volume(file.path, "has the " + volume.type + " " + std::to_string(stored[n]) + " at voxel " +
+                                 voxel_text(volume, n) + ", which is beyond 2^53 and would be rounded");
+    list[n] = static_cast<double>(stored[n]);
+  }
+  volume.values = std::move(list);
+  narrow_integers(volume);
+}
+
+void copy_all_numbers(const VolumeFile& file, std::string_view bytes, bool is_big_endian, const Channel& channel,
+                      size_t count, VoxelVolume& volume) {
+  if (volume.type == "int64") return copy_long_integers<int64_t>(file, bytes, is_big_endian, channel, count, volume);
+  if (volume.type == "uint64") return copy_long_integers<uint64_t>(file, bytes, is_big_endian, channel, count, volume);
+  std::visit([&](auto& list) { copy_numbers(bytes, is_big_endian, channel, count, list); }, volume.values);
+}
+
 }  // namespace
+
+void narrow_integers(VoxelVolume& volume) {
+  const auto* list = std::get_if<std::vector<double>>(&volume.values);
+  using Limits = std::numeric_limits<int32_t>;
+  if (!list || !std::ranges::all_of(*list, [](double v) { return v >= Limits::min() && v <= Limits::max(); })) return;
+  std::vector<int32_t> narrow;
+  narrow.reserve(list->size());
+  for (const double value : *list) narrow.push_back(static_cast<int32_t>(value));
+  volume.values = std::move(narrow);
+}
 
 void take_numbers(const VolumeFile& file, std::string_view bytes, bool is_big_endian, const Channel& channel,
                   VoxelVolume& volume) {
@@ -134,16 +170,18 @@ void take_numbers(const VolumeFile& file, std::string_view bytes, bool is_big_en
     fail_volume(file.path, "is cut off: it has " + format_count(bytes.size()) + " of the " +
                                format_count(size * static_cast<uint64_t>(channel.count)) + " bytes of its numbers");
   volume.channels = channel.count;
+  if (const uint64_t rest = bytes.size() - size * static_cast<uint64_t>(channel.count); rest > 0)
+    volume.warnings.push_back("the volume \"" + file.path + "\" has " + format_count(rest) +
+                              " bytes behind its numbers, which are not read");
   const bool is_kept = lies_within(bytes, file.bytes) || (file.companion && lies_within(bytes, *file.companion)) ||
                        volume.file != nullptr;
-  if (file.may_refer && is_kept && lie_as_used(channel, is_big_endian, value_bytes)) {
+  const bool is_long = volume.type.ends_with("int64");
+  if (file.may_refer && is_kept && !is_long && lie_as_used(channel, is_big_endian, value_bytes)) {
     volume.in_file = bytes.substr(size * static_cast<uint64_t>(channel.chosen), size);
   } else {
     check_room(file.path, size);
-    std::visit([&](auto& list) { copy_numbers(bytes, is_big_endian, channel, size / value_bytes, list); },
-               volume.values);
+    copy_all_numbers(file, bytes, is_big_endian, channel, size / value_bytes, volume);
   }
-  check_finite(file.path, volume);
 }
 
 void take_own_numbers(const VolumeFile& file, std::string bytes, bool is_big_endian, const Channel& channel,
@@ -170,14 +208,59 @@ void rescale_numbers(const std::string& path, double slope, double intercept, Vo
   volume.intercept = intercept;
 }
 
-void check_finite(const std::string& path, const VoxelVolume& volume) {
+namespace {
+
+struct NotFinite {
+  uint64_t nans = 0, infinities = 0;
+  size_t first_nan = 0, first_infinity = 0;
+};
+
+NotFinite count_not_finite(const VoxelVolume& volume) {
+  NotFinite found;
   visit_numbers(volume, [&]<class T>(const Numbers<T>& numbers) {
     if constexpr (std::is_floating_point_v<T>)
-      for (size_t n = 0; n < numbers.size(); ++n)
-        if (!std::isfinite(numbers[n]))
-          fail_volume(path, "has a value that is not finite at voxel " + voxel_text(volume, n) +
-                                "; put numbers in the place of NaN and infinity");
+      for (size_t n = 0; n < numbers.size(); ++n) {
+        const T value = numbers[n];
+        if (std::isnan(value) && found.nans++ == 0) found.first_nan = n;
+        if (std::isinf(value) && found.infinities++ == 0) found.first_infinity = n;
+      }
   });
+  return found;
+}
+
+void replace_nans(const std::string& path, double nan, VoxelVolume& volume) {
+  std::visit(
+      [&]<class T>(std::vector<T>& list) {
+        if constexpr (std::is_floating_point_v<T>) {
+          if (!volume.in_file.empty()) {
+            check_room(path, volume.in_file.size());
+            list.resize(volume.in_file.size() / sizeof(T));
+            std::memcpy(list.data(), volume.in_file.data(), volume.in_file.size());
+          }
+          std::ranges::replace_if(
+              list, [](T value) { return std::isnan(value); }, static_cast<T>(nan));
+        }
+      },
+      volume.values);
+  volume.in_file = {};
+  volume.file = nullptr;
+}
+
+}  // namespace
+
+void settle_numbers(const std::string& path, std::optional<double> nan, VoxelVolume& volume) {
+  const NotFinite found = count_not_finite(volume);
+  if (found.infinities > 0)
+    fail_volume(path, "has " + format_count(found.infinities) +
+                          (found.infinities == 1 ? " value that is" : " values that are") +
+                          " infinite, the first at voxel " + voxel_text(volume, found.first_infinity) +
+                          "; put finite numbers in their place");
+  if (found.nans == 0) return;
+  if (!nan)
+    fail_volume(path, "has " + format_count(found.nans) + (found.nans == 1 ? " value that is" : " values that are") +
+                          " NaN, no number, the first at voxel " + voxel_text(volume, found.first_nan) +
+                          "; nan=0 puts another number in their place");
+  replace_nans(path, *nan, volume);
 }
 
 Affine placed_along_axes(const std::string& path, Vec3 spacing_mm, Vec3 origin_mm) {
@@ -208,10 +291,10 @@ void check_placement(const std::string& path, const Affine& map) {
       fail_volume(path, "has its origin more than 1000000 mm away; give it another by origin=(x, y, z)");
 }
 
-void check_volume(const std::string& path, const VoxelVolume& volume) {
+void settle_volume(const std::string& path, std::optional<double> nan, VoxelVolume& volume) {
   voxel_bytes(path, volume.count, bytes_per_value(volume.values));
   if (volume.space_from_index) check_placement(path, *volume.space_from_index);
-  check_finite(path, volume);
+  settle_numbers(path, nan, volume);
 }
 
 bool is_vti(std::string_view bytes) {

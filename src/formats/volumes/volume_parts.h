@@ -1,9 +1,12 @@
 // Common parts of the readers of grids.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "base/text/error.h"
+#include "base/text/text.h"
 #include "formats/volumes/volume.h"
 
 namespace ombre::formats {
@@ -32,7 +35,8 @@ class TextHeader {
   std::string_view rest_;
 };
 
-// Returns an empty list of that type ("uint8", "int16", "float", ...). Throws Error for other types.
+// Returns an empty list for a type ("uint8", "int16", "float", ...): the list has the size of its numbers, and those of
+// "int64" and "uint64" become doubles. Throws Error for other types.
 VoxelValues values_of_type(const std::string& path, const std::string& type);
 size_t bytes_per_value(const VoxelValues& values);
 
@@ -50,8 +54,8 @@ struct Channel {
 // Returns the chosen channel. Throws Error if there are several and none is chosen, or too few.
 Channel chosen_channel(const VolumeFile& file, int64_t count, bool is_apart);
 
-// Takes the numbers from the first bytes; their type is that of `values`. Throws Error if there are too few, or if some
-// are not finite.
+// Takes the numbers from the first bytes; their type is that of the volume. Warns of bytes behind them. Throws Error if
+// there are too few, or if a 64-bit integer is too large for a double.
 void take_numbers(const VolumeFile& file, std::string_view bytes, bool is_big_endian, const Channel& channel,
                   VoxelVolume& volume);
 // Takes the numbers from bytes that the caller no longer needs. Throws Error likewise.
@@ -61,7 +65,21 @@ void take_own_numbers(const VolumeFile& file, std::string bytes, bool is_big_end
 // Returns a map from voxels' size and the first voxel's position along the axes. Throws Error for impossible values.
 Affine placed_along_axes(const std::string& path, Vec3 spacing_mm, Vec3 origin_mm);
 void check_placement(const std::string& path, const Affine& space_from_index);
-void check_finite(const std::string& path, const VoxelVolume& volume);
+
+// Converts a number read from text. Throws Error if the type cannot hold it.
+template <class T>
+T number_of_text(const std::string& path, const std::string& type, double value) {
+  constexpr double most_exact = 9007199254740992;  // 2^53
+  const bool is_exact = !type.ends_with("int64") || (std::abs(value) <= most_exact && value == std::floor(value));
+  bool is_in_range = is_exact;
+  if constexpr (std::is_integral_v<T>)
+    is_in_range = value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max();
+  if (!is_in_range) fail_volume(path, "has a number that its type cannot hold: " + format_number(value));
+  return static_cast<T>(value);
+}
+
+// Converts 64-bit integers read as doubles to 32-bit integers if all of them fit.
+void narrow_integers(VoxelVolume& volume);
 
 // Replaces the numbers with slope * number + intercept as 32-bit floats.
 void rescale_numbers(const std::string& path, double slope, double intercept, VoxelVolume& volume);

@@ -77,7 +77,10 @@ class VtiReader {
   }
 
   void place(xml_node image, Vec3 first, VoxelVolume& volume) const {
-    const std::vector<double> spacing = three(image, "Spacing", 3), origin = three(image, "Origin", 3);
+    const auto given = [&](const char* name, double otherwise) {
+      return xml_.attribute(image, name) ? three(image, name, 3) : std::vector<double>(3, otherwise);
+    };
+    const std::vector<double> spacing = given("Spacing", 1), origin = given("Origin", 0);  // VTK's defaults
     Affine map;
     if (xml_.attribute(image, "Direction")) {
       const std::vector<double> rows = three(image, "Direction", 9);
@@ -120,15 +123,11 @@ class VtiReader {
         [&]<class T>(std::vector<T>& list) {
           for (auto n = static_cast<size_t>(channel.chosen); n < numbers.size();
                n += static_cast<size_t>(channel.count)) {
-            const double value = numbers[n];
-            if constexpr (std::is_integral_v<T>)
-              if (!(value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max()))
-                fail_volume(file_.path, "has a number that its type cannot hold: " + format_number(value));
-            list.push_back(static_cast<T>(value));
+            list.push_back(number_of_text<T>(file_.path, volume.type, numbers[n]));
           }
         },
         volume.values);
-    check_finite(file_.path, volume);
+    if (volume.type.ends_with("int64")) narrow_integers(volume);
   }
 
   const VolumeFile& file_;

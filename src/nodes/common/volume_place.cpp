@@ -19,9 +19,15 @@ std::optional<Affine> turn_of(PatientSpace from, std::string_view wanted) {
 
 }  // namespace
 
-bool VolumePlace::read_volume(const design::Reader& reader, const std::string& segment) {
+bool VolumePlace::read_volume(const design::Reader& reader, design::VolumeRequest request) {
   if (!reader.loader) return reader.refuse("volumes cannot be read here");
-  design::VolumeRequest request{path, series, voxel_channel, segment};
+  request.file = path;
+  request.series = series;
+  request.channel = voxel_channel;
+  request.phase = phase;
+  request.nan = nan;
+  request.is_regular = is_regular;
+  request.has_space = space != "file";
   grid = reader.loader->source(request, reader);
   if (!grid) return false;
   segment_label = request.label;

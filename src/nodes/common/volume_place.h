@@ -11,15 +11,17 @@ struct VolumePlace {
   std::optional<Vec3> spacing, origin;
   design::Choice space = "file";
   std::string series;
-  int voxel_channel = -1;
+  int voxel_channel = -1, phase = -1;
+  bool is_regular = false;
+  std::optional<double> nan;
   std::shared_ptr<const design::VolumeGrid> grid;  // read when the node is made
   int64_t segment_label = -1;                      // number of the chosen segment, read when the node is made
   Affine here_from_index, index_from_here;
 
  protected:
-  // Reads the file. Returns false and adds diagnostics if that fails or information is missing. `segment` is the name
-  // of a segment, or empty.
-  bool read_volume(const design::Reader& reader, const std::string& segment = "");
+  // Reads the file. Returns false and adds diagnostics if that fails or information is missing. `wanted` holds what the
+  // node asks for beyond the parameters here, such as a segment.
+  bool read_volume(const design::Reader& reader, design::VolumeRequest wanted);
   int channel(const char* name) const;
 
   // Returns the parameters of T, which must derive from this class.
@@ -48,6 +50,15 @@ struct VolumePlace {
         "channel", own(&VolumePlace::voxel_channel),
         "Index of one of several values per voxel, from 0; -1: the only one, or the length of vectors in a .vdb file",
         design::from_to(-1, 100000));
+    all.emplace_back("phase", own(&VolumePlace::phase),
+                     "Index, from 0, of one of several volumes at the same place, such as the times of a scan; -1: the "
+                     "only one",
+                     design::from_to(-1, 100000));
+    all.emplace_back("nan", own(&VolumePlace::nan),
+                     "Value in place of NaN (no number) in the file; none: NaN is an error");
+    all.emplace_back(
+        "regular", own(&VolumePlace::is_regular),
+        "Resamples slices of a scan at uneven distances, or with missing ones, linearly to even distances");
     return all;
   }
 

@@ -38,7 +38,7 @@ struct VolumeSolid : VolumePlace {
          {"by", &VolumeSolid::by, "Source of the level: level (as given), or otsu (Otsu's method)",
           one_of({"level", "otsu"})}});
     parameters.emplace_back("segment", &VolumeSolid::segment,
-                            "Name or ID of a segment of a .seg.nrrd file, in place of a label");
+                            "Name or ID of a segment of a segmentation (.seg.nrrd, DICOM), in place of a label");
     return {"volume_solid",
             "The region of a grid of numbers (a scan, say) where the numbers reach a level or equal a label.",
             std::move(parameters), no_inputs, "volume_solid(\"models/two_lobes.nrrd\", \"red\", level=100);"};
@@ -46,7 +46,12 @@ struct VolumeSolid : VolumePlace {
 
   bool complete(const Reader& reader) {
     if (!segment.empty() && !check_segment(reader)) return false;
-    if (!read_volume(reader, segment)) return false;
+    design::VolumeRequest wanted;
+    wanted.segment = segment;
+    wanted.label = label;
+    wanted.are_labels = label >= 0;
+    wanted.is_outside_high = !above;  // so padding lies outside the solid
+    if (!read_volume(reader, wanted)) return false;
     if (by == "otsu") level = grid->otsu_level;
     if (!upper || (above && *upper >= level)) return true;
     return reader.refuse(
@@ -123,7 +128,12 @@ struct Volume : VolumePlace {
               "over a voxel each way"}}};
   }
 
-  bool complete(const Reader& reader) { return read_volume(reader); }
+  bool complete(const Reader& reader) {
+    design::VolumeRequest wanted;
+    wanted.are_labels = between == "nearest";
+    wanted.outside = outside;
+    return read_volume(reader, wanted);
+  }
 
   Field value(const Ask& ask) const { return read(ask, channel_between(between)); }
   Field nearest(const Ask& ask) const { return read(ask, "nearest"); }
