@@ -82,6 +82,7 @@ struct MeshRequest {
   FilePath file;
   MeshUse use;
   double deform = 0;  // factor of the displacement that moves the points of simulation results
+  int step = 0;       // number of the step of simulation results, from 1; 0 for the last
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -254,6 +255,7 @@ struct ResultsRequest {
   double otherwise = 0;             // value outside, for "value"
   Choice between = "weights";       // interpolation between points without a mesh; or "nearest"
   double deform = 0;                // factor of the displacement that moves the mesh
+  int step = 0;                     // number of the step, from 1; 0 for the last
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 

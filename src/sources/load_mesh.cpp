@@ -119,8 +119,10 @@ MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const R
   auto mesh = sources::has_elements(path)
                   ? sources::result_border(path, files.bytes, files.beside, request.deform, reader.diagnostics)
                   : formats::read_mesh(path, files.bytes, reader.diagnostics);
-  const Hash content =
-      request.deform == 0 ? files.content : sources::Key("deformed").add(files.content).add(request.deform).hash();
+  const bool is_plain = request.deform == 0 && request.step == 0;
+  const Hash content = is_plain
+                           ? files.content
+                           : sources::Key("deformed").add(files.content).add(request.deform).add(request.step).hash();
   if (mesh) return parts_of(path, std::move(*mesh), content, request.use, reader);
   reader.diagnostics.note(reader.where, "the file is used here");
   return {};
@@ -172,18 +174,23 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
                                        "leave deform out, or take a .vtu, .xdmf or .frd file");
     return nullptr;
   }
+  if (step != 0 && !sources::has_elements(file.path)) {
+    loading.reader().diagnostics.error(loading.reader().where, "\"" + file.path + "\" has no results with steps",
+                                       "leave step out, or take an .xdmf, .frd or .pvd file");
+    return nullptr;
+  }
   FilePath numbers{sources::numbers_beside(file.path), {}};
   const bool has_numbers = !numbers.path.empty();
   if (!loading.read_content(file) || (has_numbers && !loading.read_content(numbers))) return nullptr;
   const sources::ResultFiles named = sources::result_files(file, loading);
   if (has_numbers) file.content = sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash();
   sources::Key key("mesh");
-  key.add(file.content).add(deform).add(ending_of(file.path)).add(use.inside.text());
+  key.add(file.content).add(deform).add(step).add(ending_of(file.path)).add(use.inside.text());
   sources::add_use(key, use, loading.reader());
   return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
     const auto bytes = loading.bytes(file);
     const auto beside = has_numbers ? loading.bytes(numbers) : nullptr;
-    MeshFiles files{*bytes, {{}, named.files()}, file.content};
+    MeshFiles files{*bytes, {{}, named.files(), static_cast<uint64_t>(step)}, file.content};
     if (beside) files.beside.values = formats::ResultsFile{numbers.path, *beside};
     return read_parts(*this, files, reader);
   });

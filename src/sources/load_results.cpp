@@ -54,7 +54,7 @@ struct LoadedResults {
 std::optional<formats::Results> read_files(const ResultsRequest& request, const sources::ResultFiles& named,
                                            Loading& loading, const Reader& reader) {
   const auto bytes = loading.bytes(request.file);
-  formats::ResultsBeside beside{{}, named.files()};
+  formats::ResultsBeside beside{{}, named.files(), static_cast<uint64_t>(request.step)};
   const auto values = request.values.path.empty() ? nullptr : loading.bytes(request.values);
   if (values) beside.values = formats::ResultsFile{request.values.path, *values};
   return formats::read_results(request.file.path, *bytes, beside, reader.diagnostics);
@@ -86,8 +86,12 @@ Loading::Made<LoadedResults> make_results(const ResultsRequest& request, const s
 
 std::shared_ptr<const LoadedResults> results_of(const ResultsRequest& request, const sources::ResultFiles& named,
                                                 Loading& loading) {
-  const Hash key =
-      sources::Key("result mesh").add(request.file.content).add(request.values.content).add(request.deform).hash();
+  const Hash key = sources::Key("result mesh")
+                       .add(request.file.content)
+                       .add(request.values.content)
+                       .add(request.deform)
+                       .add(request.step)
+                       .hash();
   return loading.cached<LoadedResults>(
       key, request.file.path, [&](const Reader& reader) { return make_results(request, named, loading, reader); });
 }
@@ -116,6 +120,7 @@ program::SourceField source_of(const ResultsRequest& request, const LoadedResult
                        .add(request.file.content)
                        .add(request.values.content)
                        .add(request.deform)
+                       .add(request.step)
                        .add(request.between.text())
                        .add(request.outside.text())
                        .add(rule.within_mm)

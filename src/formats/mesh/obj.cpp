@@ -90,13 +90,23 @@ class ObjReader {
     builder_.add_vertex(p);
   }
 
+  // Reads a texture coordinate. One that is no number counts as (0, 0), since the surface does not depend on it.
   void read_texture_coordinate() {
-    need_in_line("a texture coordinate");
-    const double u = scanner_.coordinate("a texture coordinate");
-    const double v = scanner_.at_line_end() ? 0 : scanner_.coordinate("a texture coordinate");
+    const auto u = texture_number(), v = texture_number();
     if (builder_.texture_coordinate_count() >= MeshBuilder::most_vertices)
       scanner_.fail_here("there are too many texture coordinates");
-    builder_.add_texture_coordinate(u, v);
+    if (u && v) return builder_.add_texture_coordinate(*u, *v);
+    warnings_.add("a texture coordinate is no number and becomes (0, 0)",
+                  "texture coordinates are no numbers and become (0, 0)");
+    builder_.add_texture_coordinate(0, 0);
+  }
+
+  // Returns the next number in the line, or 0 at its end; null if it is not usable.
+  std::optional<double> texture_number() {
+    const std::string_view word = scanner_.word_in_line();
+    if (word.empty()) return 0.0;
+    Diagnostics ignored;
+    return read_or_null(name_, word, ignored, [&] { return TextScanner(name_, word, ignored).coordinate(""); });
   }
 
   void need_in_line(std::string_view what) {

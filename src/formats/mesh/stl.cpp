@@ -32,13 +32,15 @@ bool has_binary_size(std::string_view bytes) {
          bytes.size() == bytes_before_triangles + bytes_of_triangle * promised_triangles(bytes);
 }
 
-// Returns true for text. Binary files may begin with "solid" too, but text has no zero bytes. Some writers omit the
-// first line.
+// Returns true for text. Binary files may begin with "solid" too, but text has no zero bytes, except where a program
+// fills up the name of the solid with them; then a corner follows. Some writers omit the first line.
 bool is_like_text(std::string_view bytes) {
   const size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == std::string_view::npos) return false;
   const std::string word = to_lower(bytes.substr(first, 5));
-  return (word == "solid" || word == "facet") && !has_zeros(bytes.substr(0, sniffed_bytes));
+  if (word != "solid" && word != "facet") return false;
+  const std::string_view begin = bytes.substr(0, sniffed_bytes);
+  return !has_zeros(begin) || to_lower(begin).find("vertex") != std::string::npos;
 }
 
 [[noreturn]] void fail_not_stl(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {

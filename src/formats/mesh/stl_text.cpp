@@ -32,7 +32,9 @@ class StlTextReader {
     return ahead.word().find_first_not_of(std::string_view("\x1A\0", 2)) == std::string_view::npos && ahead.at_end();
   }
 
-  std::string next() { return to_lower(scanner_.word()); }
+  // Returns the next word in small letters, without the zero bytes that may fill it up.
+  std::string next() { return to_lower(before_zeros(scanner_.word())); }
+  static std::string_view before_zeros(std::string_view text) { return text.substr(0, text.find('\0')); }
 
   void expect(std::string_view keyword, std::string_view where) { expect(keyword, where, next()); }
 
@@ -75,7 +77,7 @@ class StlTextReader {
     const std::string_view line = scanner_.rest_of_line();
     const std::string lower = ' ' + to_lower(line) + ' ';
     const size_t facet = lower.find(" facet normal ");
-    if (facet == std::string::npos) return std::string(line);
+    if (facet == std::string::npos) return std::string(trim(before_zeros(line)));
     scanner_.go_to(begin + facet);
     return std::string(trim(line.substr(0, facet)));
   }
@@ -84,7 +86,8 @@ class StlTextReader {
   bool read_facet() {
     const size_t before = scanner_.position();
     const std::string found = next();
-    if (is_pair(found, "end", "solid")) {
+    // Some programs write the name of the solid without a blank.
+    if (found.starts_with("endsolid") || is_pair(found, "end", "solid")) {
       scanner_.rest_of_line();
       return false;
     }

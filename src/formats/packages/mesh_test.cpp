@@ -280,6 +280,8 @@ TEST(Stl, TextsOfManyProgramsAreRead) {
                                        replaced(text, "endloop", "end loop"),
                                        replaced(text, "endfacet", "END FACET"),
                                        replaced(text, "endsolid", "end solid"),
+                                       replaced(text, "endsolid t", "endsolidt"),
+                                       replaced(text, "solid t\n", std::string("solid t\0\0\n", 10)),
                                        replaced(text, "outer loop", "outerloop"),
                                        replaced(text, "facet normal nan nan nan", "facet"),
                                        replaced(text, "nan nan nan", ""),
@@ -372,6 +374,15 @@ TEST(Obj, FacesWithoutTextureCoordinatesGetOne) {
   EXPECT_EQ(mesh->texture_triangles, (Triangles{{1, 1, 1}, {0, 0, 0}, {1, 1, 1}}));
   EXPECT_EQ(mesh->texture_coordinates.back(), (std::array<double, 2>{0, 0}));
   EXPECT_NE(to_text(diagnostics).find("warning: a.obj: 2 triangles have no texture coordinates"), std::string::npos);
+}
+
+TEST(Obj, TextureCoordinatesThatAreNoNumbersBecomeZero) {
+  Diagnostics diagnostics;
+  const auto mesh =
+      read_obj("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt nan nan\nvt a b\nvt 0.5D0 1,5\nf 1/1 2/2 3/3\n", diagnostics);
+  ASSERT_TRUE(mesh) << to_text(diagnostics);
+  EXPECT_EQ(mesh->texture_coordinates, (std::vector<std::array<double, 2>>{{0, 0}, {0, 0}, {0.5, 1.5}}));
+  EXPECT_EQ(to_text(diagnostics), "warning: a.obj: 2 texture coordinates are no numbers and become (0, 0)\n");
 }
 
 TEST(Obj, MistakesPointAtTheWord) {

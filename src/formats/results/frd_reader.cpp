@@ -1,4 +1,4 @@
-// Reads results of CalculiX (.frd) as text: nodes, elements, and the last step's values at nodes. Sources: G. Dhondt,
+// Reads results of CalculiX (.frd) as text: nodes, elements, and the values of one step at nodes. Sources: G. Dhondt,
 // CalculiX CrunchiX User's Manual and the manual of CalculiX GraphiX, "Result Format".
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "base/text/text.h"
 #include "formats/containers/text_scanner.h"
+#include "formats/results/result_steps.h"
 #include "formats/results/results_readers.h"
 
 namespace ombre::formats {
@@ -33,8 +34,8 @@ std::string plain_name(const std::string& name) {
 
 class FrdReader {
  public:
-  FrdReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
-      : name_(name), bytes_(bytes), scanner_(name, bytes, diagnostics), diagnostics_(diagnostics) {}
+  FrdReader(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics)
+      : name_(name), bytes_(bytes), scanner_(name, bytes, diagnostics), diagnostics_(diagnostics), wanted_(step) {}
 
   Results run() {
     while (next()) {
@@ -47,6 +48,7 @@ class FrdReader {
       else if (trim(line_) == "9999")
         break;
     }
+    if (wanted_ > 0) step_index(name_, times_, wanted_, diagnostics_);
     if (flat_ > 0)
       diagnostics_.warning({make_source(name_, ""), 0, 0},
                            format_count(flat_) + " elements of kinds that are not read are left out");
@@ -148,8 +150,18 @@ class FrdReader {
     if (!wrong.empty()) fail_line(wrong);
   }
 
+  // Returns the number, from 1, of the step to which the block of this line belongs. All blocks of a step have its
+  // number and its time.
+  size_t step_of_block() {
+    const std::string time(word(12, 12)), key = std::string(word(58, 5)) + ' ' + time;
+    const auto [found, is_new] = steps_.emplace(key, steps_.size() + 1);
+    if (is_new) times_.push_back(time);
+    return found->second;
+  }
+
   void read_field() {
     read_format();
+    const bool is_wanted = wanted_ == 0 || step_of_block() == wanted_;
     ResultField field;
     size_t components = 0;
     next_value_ = values_end_ = 0;
@@ -166,7 +178,7 @@ class FrdReader {
         fail_line("expected a line that begins with -1, found " + formats::quoted(key));
       }
     }
-    if (field.name.empty() || field.values.empty()) return;
+    if (!is_wanted || field.name.empty() || field.values.empty()) return;
     // A field of a later step replaces the earlier one.
     std::erase_if(mesh_.results.fields, [&](const ResultField& known) { return known.name == field.name; });
     mesh_.results.fields.push_back(std::move(field));
@@ -199,13 +211,16 @@ class FrdReader {
   size_t id_size_ = 10;
   size_t next_value_ = 0, values_end_ = 0;
   uint64_t flat_ = 0;
+  uint64_t wanted_ = 0;                  // number of the step, or 0
+  std::map<std::string, size_t> steps_;  // by number and time in the file
+  std::vector<std::string> times_;       // by step
   NumberedResults mesh_;
 };
 
 }  // namespace
 
-Results read_frd(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  return FrdReader(name, bytes, diagnostics).run();
+Results read_frd(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics) {
+  return FrdReader(name, bytes, step, diagnostics).run();
 }
 
 }  // namespace ombre::formats

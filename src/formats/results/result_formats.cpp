@@ -5,6 +5,7 @@
 #include "base/text/file_ending.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/results/deck.h"
+#include "formats/results/result_steps.h"
 #include "formats/results/results_readers.h"
 
 namespace ombre::formats {
@@ -20,22 +21,35 @@ bool is_deck(std::string_view text) {
 }
 bool is_anything(std::string_view) { return true; }
 
-// A format of one file.
+void refuse_values(const std::string& name, const ResultsBeside& beside, Diagnostics& diagnostics) {
+  if (beside.values)
+    fail(diagnostics, name, "a table of values belongs to a mesh in an .inp file", "leave \"values\" out");
+}
+
+// Formats without steps have one.
+void refuse_steps(const std::string& name, const ResultsBeside& beside, Diagnostics& diagnostics) {
+  const std::string only;
+  step_index(name, {&only, 1}, beside.step, diagnostics);
+}
+
+// A format of one file with one step.
 template <Results read(const std::string&, std::string_view, Diagnostics&)>
 Results read_alone(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                    Diagnostics& diagnostics) {
-  if (beside.values)
-    fail(diagnostics, name, "a table of values belongs to a mesh in an .inp file", "leave \"values\" out");
+  refuse_values(name, beside, diagnostics);
+  refuse_steps(name, beside, diagnostics);
   return read(name, bytes, diagnostics);
 }
 
-Results read_with_numbers(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
-                          Diagnostics& diagnostics) {
-  return read_xdmf(name, bytes, beside.values, diagnostics);
+Results read_frd_step(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                      Diagnostics& diagnostics) {
+  refuse_values(name, beside, diagnostics);
+  return read_frd(name, bytes, beside.step, diagnostics);
 }
 
 Results read_deck(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics) {
+  refuse_steps(name, beside, diagnostics);
   NumberedResults mesh = read_inp(name, bytes, beside.named, diagnostics);
   if (mesh.results.kinds.empty()) fail(diagnostics, name, "the deck has no solid elements");
   if (beside.values) add_csv_values(beside.values->name, beside.values->bytes, mesh, diagnostics);
@@ -46,12 +60,12 @@ Results read_deck(const std::string& name, std::string_view bytes, const Results
 
 std::span<const ResultFormat> result_formats() {
   static const std::vector<ResultFormat> rows{
-      {{"XDMF", {".xdmf"}, Content::results, true, true}, true, is_xdmf, read_with_numbers},
+      {{"XDMF", {".xdmf"}, Content::results, true, true}, true, is_xdmf, read_xdmf},
       {{"VTK unstructured grid", {".vtu"}, Content::results, true, true}, true, is_xml, read_alone<read_vtu>},
       {{"CalculiX results", {".frd"}, Content::results, true, false, nullptr, "", "beams and shells"},
        true,
        is_frd,
-       read_alone<read_frd>},
+       read_frd_step},
       {{"Abaqus and CalculiX deck",
         {".inp"},
         Content::elements,

@@ -62,11 +62,12 @@ struct ResultsFile {
   std::string written = {};  // its name as the other file has it
 };
 
-// The files beside a file of results.
+// What is known beside a file of results: other files, and which of its steps is wanted.
 struct ResultsBeside {
   // The .csv file with the fields of an .inp mesh, or the HDF5 file with the numbers of an .xdmf file.
   std::optional<ResultsFile> values = {};
   std::vector<ResultsFile> named = {};  // those that files_named_in() returns, and those that they name
+  uint64_t step = 0;                    // number of the step, counted from 1; 0 for the last
 };
 
 // Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. Returns null, with diagnostics, if a file is invalid.

@@ -11,12 +11,12 @@ namespace ombre::formats {
 // Reads VTK's unstructured grids: text, base64 or raw, optionally compressed by zlib.
 Results read_vtu(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
-// Reads uniform grids of XDMF 3. `numbers` is the HDF5 file beside it, if there is one.
-Results read_xdmf(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& numbers,
+// Reads a uniform grid of XDMF 3, or one of a temporal collection. `beside` has the HDF5 file, if there is one.
+Results read_xdmf(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics);
 
-// Reads results of CalculiX as text; of several steps the last.
-Results read_frd(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
+// Reads results of CalculiX as text. `step` counts from 1; for 0, each field is that of the last step that has it.
+Results read_frd(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics);
 
 // A mesh whose nodes and elements have arbitrary numbers.
 struct NumberedResults {

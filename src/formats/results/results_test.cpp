@@ -196,6 +196,31 @@ TEST(Results, FrdOfCalculix) {
   for (size_t size = 0; size < bar.size(); size += 101) read_results("a.frd", bar.substr(0, size), {}, diagnostics);
 }
 
+TEST(Results, StepsOfCalculix) {
+  const auto block = [](const std::string& time, int step, const std::string& value) {
+    std::string number = std::to_string(step);
+    number.insert(0, 5 - number.size(), ' ');
+    return "  100CL  101" + time + "           1                     0" + number +
+           "           1\n -4  NDTEMP      1    1\n -5  T           1    1    0    0\n -1         1" + value +
+           "\n -3\n";
+  };
+  const std::string frd =
+      "    1C\n    2C                             1                                     1\n"
+      " -1         1 0.00000E+00 0.00000E+00 0.00000E+00\n -3\n" +
+      block(" 2.50000E-01", 1, " 3.00000E+00") + block(" 1.00000E+00", 2, " 4.00000E+00") + " 9999\n";
+  for (const auto& [step, value] : std::vector<std::pair<uint64_t, double>>{{0, 4}, {1, 3}, {2, 4}}) {
+    Diagnostics diagnostics;
+    const auto results = read_results("a.frd", frd, {{}, {}, step}, diagnostics);
+    ASSERT_TRUE(results) << to_text(diagnostics);
+    EXPECT_EQ(find_field(*results, "temperature")->values, std::vector<double>{value});
+  }
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_results("a.frd", frd, {{}, {}, 3}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("2 steps: 1 (time 2.50000E-01), 2 (time 1.00000E+00)"), std::string::npos);
+  EXPECT_FALSE(read_results("a.csv", "x,y,z,t\n0,0,0,1\n", {{}, {}, 2}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("there is no step 2; the file has one step"), std::string::npos);
+}
+
 TEST(Results, DecksWithTables) {
   std::string said;
   const auto results = read_with(deck,

@@ -11,8 +11,7 @@ Results read_vtu(const std::string& name, std::string_view, Diagnostics& diagnos
   fail(diagnostics, name, std::string("VTU files cannot be read: ") + xml_missing, xml_remedy);
 }
 
-Results read_xdmf(const std::string& name, std::string_view, const std::optional<ResultsFile>&,
-                  Diagnostics& diagnostics) {
+Results read_xdmf(const std::string& name, std::string_view, const ResultsBeside&, Diagnostics& diagnostics) {
   fail(diagnostics, name, std::string("XDMF files cannot be read: ") + xml_missing, xml_remedy);
 }
 

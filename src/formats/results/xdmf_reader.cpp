@@ -1,4 +1,4 @@
-// Reads uniform grids of XDMF 3, whose numbers are in the text or in an HDF5 file.
+// Reads uniform grids of XDMF 3, alone or as steps, whose numbers are in the text or in an HDF5 file.
 #ifdef OMBRE_3MF
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "formats/containers/text_scanner.h"
 #include "formats/containers/xml_file.h"
 #include "formats/mesh/mesh.h"
+#include "formats/results/result_steps.h"
 #include "formats/results/results_readers.h"
 
 namespace ombre::formats {
@@ -56,21 +57,18 @@ std::optional<MixedKind> mixed_kind(double code) {
 
 class XdmfReader {
  public:
-  XdmfReader(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& numbers,
-             Diagnostics& diagnostics)
-      : file_(name, bytes, diagnostics), numbers_(numbers) {}
+  XdmfReader(const std::string& name, std::string_view bytes, const ResultsBeside& beside, Diagnostics& diagnostics)
+      : file_(name, bytes, diagnostics), numbers_(beside.values), step_(beside.step) {}
 
   Results run() {
-    const xml_node domain = file_.root("Xdmf").child("Domain");
-    const xml_node grid = domain.child("Grid");
-    if (!grid) file_.fail_at(file_.root("Xdmf"), "expected a grid in a domain");
-    if (grid.next_sibling("Grid")) file_.fail_at(grid.next_sibling("Grid"), "several grids are not read");
+    const xml_node grid = grid_of_step(grid_of_domain());
     const std::string_view type = file_.attribute(grid, "GridType").value_or("Uniform");
     if (type != "Uniform")
-      file_.fail_at(grid, "a grid of the type " + formats::quoted(type) + " is not read, as of several steps or pieces",
-                    "save one step as one grid, GridType=\"Uniform\"");
-    add_points(child_of(grid, "Geometry"));
-    add_elements(child_of(grid, "Topology"));
+      file_.fail_at(grid, "a grid of the type " + formats::quoted(type) + " is not read, as of several pieces",
+                    "save each step as one grid, GridType=\"Uniform\"");
+    const xml_node mesh = mesh_of(grid);
+    add_points(child_of(mesh, "Geometry"));
+    add_elements(child_of(mesh, "Topology"));
     for (const xml_node attribute : grid.children("Attribute")) add_field(attribute);
     if (const auto flat = std::ranges::count(is_kept_, false); flat > 0)
       file_.diagnostics().warning(
@@ -84,6 +82,66 @@ class XdmfReader {
     const xml_node child = parent.child(name);
     if (!child) file_.fail_at(parent, "expected " + formats::quoted(name) + " in the grid");
     return child;
+  }
+
+  static bool is_series(xml_node grid) {
+    return grid.attribute("GridType").value() == std::string_view("Collection") &&
+           grid.attribute("CollectionType").value() == std::string_view("Temporal");
+  }
+
+  // Returns the grid of the domain. Beside a series may stand a grid that has only the mesh of its steps.
+  xml_node grid_of_domain() const {
+    const xml_node domain = file_.root("Xdmf").child("Domain");
+    const xml_node first = domain.child("Grid");
+    if (!first) file_.fail_at(file_.root("Xdmf"), "expected a grid in a domain");
+    xml_node chosen = first;
+    for (xml_node grid = first.next_sibling("Grid"); grid; grid = grid.next_sibling("Grid")) {
+      const bool is_mesh_before = !is_series(chosen) && !chosen.child("Attribute") && is_series(grid);
+      const bool is_mesh_behind = is_series(chosen) && !is_series(grid) && !grid.child("Attribute");
+      if (!is_mesh_before && !is_mesh_behind) file_.fail_at(grid, "several grids are not read");
+      if (is_mesh_before) chosen = grid;
+    }
+    return chosen;
+  }
+
+  // Returns the wanted step of a series; a grid that is none is its own only step.
+  xml_node grid_of_step(xml_node grid) const {
+    std::vector<xml_node> steps;
+    std::vector<std::string> times;
+    if (!is_series(grid)) {
+      steps.push_back(grid);
+    } else {
+      for (const xml_node step : grid.children("Grid")) steps.push_back(step);
+    }
+    if (steps.empty()) file_.fail_at(grid, "the collection has no grids");
+    for (const xml_node step : steps) times.emplace_back(step.child("Time").attribute("Value").value());
+    return steps[step_index(file_.name(), times, step_, file_.diagnostics())];
+  }
+
+  // Returns the grid that has the mesh of a step: its own, or that which an XInclude names, as meshio and FEniCS write
+  // it: xpointer(//Grid[@Name="mesh"]/*[self::Topology or self::Geometry]).
+  xml_node mesh_of(xml_node grid) const {
+    xml_node include;
+    for (const xml_node child : grid.children())
+      if (local_name(child) == "include") include = child;
+    if (!include || grid.child("Geometry")) return grid;
+    const std::string_view pointer = file_.required(include, "xpointer");
+    constexpr std::string_view head = "xpointer(//Grid[@Name=", all = "/*[self::Topology or self::Geometry])";
+    constexpr std::string_view first = "/Grid[1]";
+    if (include.attribute("href") || !pointer.starts_with(head) || !pointer.ends_with(all)) fail_include(include);
+    std::string_view name = pointer.substr(head.size(), pointer.size() - head.size() - all.size());
+    const bool is_of_series = name.ends_with(first);
+    if (is_of_series) name.remove_suffix(first.size());
+    if (name.size() < 3 || !name.ends_with(']') || name[0] != name[name.size() - 2]) fail_include(include);
+    name = name.substr(1, name.size() - 3);
+    for (const xml_node other : file_.root("Xdmf").child("Domain").children("Grid"))
+      if (other.attribute("Name").value() == name) return is_of_series ? other.child("Grid") : other;
+    fail_include(include);
+  }
+
+  [[noreturn]] void fail_include(xml_node include) const {
+    file_.fail_at(include, "the mesh that this include names is not found",
+                  "write Topology and Geometry into each grid, or include them as meshio and FEniCS do");
   }
 
   std::vector<double> numbers_of(xml_node parent) const {
@@ -223,15 +281,16 @@ class XdmfReader {
 
   XmlFile file_;
   const std::optional<ResultsFile>& numbers_;
+  uint64_t step_ = 0;  // number of the step, or 0
   Results results_;
   std::vector<bool> is_kept_;  // by element of the file: false if it has no volume
 };
 
 }  // namespace
 
-Results read_xdmf(const std::string& name, std::string_view bytes, const std::optional<ResultsFile>& numbers,
+Results read_xdmf(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics) {
-  return XdmfReader(name, bytes, numbers, diagnostics).run();
+  return XdmfReader(name, bytes, beside, diagnostics).run();
 }
 
 }  // namespace ombre::formats

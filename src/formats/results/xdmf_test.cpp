@@ -64,6 +64,59 @@ TEST(Xdmf, MixedElementsWithoutVolumeAreLeftOut) {
   EXPECT_NE(to_text(diagnostics).find("2 points, lines or faces of the grid are left out"), std::string::npos);
 }
 
+// A grid with its mesh, the value of a field at its first node and a time.
+std::string step_of(const std::string& mesh, int value, const std::string& time) {
+  return "<Grid Name=\"s\" GridType=\"Uniform\">" + mesh + "<Time Value=\"" + time +
+         "\"/><Attribute Name=\"t\" Center=\"Node\">" + item(std::to_string(value) + " 0 0 0") + "</Attribute></Grid>";
+}
+
+std::string series_of(const std::string& before, const std::string& steps) {
+  return "<Xdmf xmlns:xi=\"http://www.w3.org/2001/XInclude\"><Domain>" + before +
+         "<Grid Name=\"series\" GridType=\"Collection\" CollectionType=\"Temporal\">" + steps +
+         "</Grid></Domain></Xdmf>";
+}
+
+const std::string tetrahedron = "<Topology TopologyType=\"Tetrahedron\">" + item("0 1 2 3") +
+                                "</Topology><Geometry GeometryType=\"XYZ\">" + item("0 0 0 1 0 0 0 2 0 0 0 3") +
+                                "</Geometry>";
+
+TEST(Xdmf, StepsOfACollection) {
+  const std::string series =
+      series_of("", step_of(tetrahedron, 5, "0") + step_of(tetrahedron, 6, "0.5") + step_of(tetrahedron, 7, "2"));
+  for (const auto& [step, value] : std::vector<std::pair<uint64_t, double>>{{0, 7}, {1, 5}, {2, 6}, {3, 7}}) {
+    Diagnostics diagnostics;
+    const auto results = read_results("a.xdmf", series, {{}, {}, step}, diagnostics);
+    ASSERT_TRUE(results) << to_text(diagnostics);
+    EXPECT_EQ(find_field(*results, "t")->values[0], value);
+    EXPECT_EQ(results->kinds.size(), 1U);
+  }
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_results("a.xdmf", series, {{}, {}, 4}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("no step 4; the file has 3 steps: 1 (time 0), 2 (time 0.5), 3 (time 2)"),
+            std::string::npos)
+      << to_text(diagnostics);
+}
+
+// As meshio writes series, with the mesh as a grid of its own, and as FEniCS does, with the mesh in the first step.
+TEST(Xdmf, StepsThatIncludeTheirMesh) {
+  const auto include = [](const std::string& grid) {
+    return "<xi:include xpointer=\"xpointer(//Grid[@Name=&quot;" + grid + "/*[self::Topology or self::Geometry])\"/>";
+  };
+  const std::string own = include("mesh&quot;]"), of_first = include("series&quot;]/Grid[1]");
+  for (const std::string& series : {series_of("<Grid Name=\"mesh\" GridType=\"Uniform\">" + tetrahedron + "</Grid>",
+                                              step_of(own, 1, "0") + step_of(own, 2, "1")),
+                                    series_of("", step_of(tetrahedron, 1, "0") + step_of(of_first, 2, "1"))}) {
+    Diagnostics diagnostics;
+    const auto results = read_results("a.xdmf", series, {}, diagnostics);
+    ASSERT_TRUE(results) << to_text(diagnostics);
+    EXPECT_EQ(results->points.size(), 4U);
+    EXPECT_EQ(find_field(*results, "t")->values[0], 2);
+  }
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_results("a.xdmf", series_of("", step_of(include("other&quot;]"), 1, "0")), {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("the mesh that this include names is not found"), std::string::npos);
+}
+
 TEST(Xdmf, WhatIsWrongIsSaid) {
   GridText wedge, short_nodes, far, series, short_field, without, odd;
   wedge.topology = "Wedge_15";
@@ -78,8 +131,8 @@ TEST(Xdmf, WhatIsWrongIsSaid) {
   EXPECT_NE(grid_error(short_nodes).find("expected 4 nodes for each element, found 3"), std::string::npos);
   far.nodes = item("0 1 2 4");
   EXPECT_NE(grid_error(far).find("names point 4; there are 4"), std::string::npos);
-  series.grid = "GridType=\"Collection\" CollectionType=\"Temporal\"";
-  EXPECT_NE(grid_error(series).find("save one step"), std::string::npos);
+  series.grid = "GridType=\"Collection\" CollectionType=\"Spatial\"";
+  EXPECT_NE(grid_error(series).find("save each step"), std::string::npos);
   short_field.move = item("1 2 3");
   EXPECT_NE(grid_error(short_field).find("3 numbers for 4 nodes"), std::string::npos);
   without.points = "<DataItem Format=\"HDF\">a.h5:/Mesh/geometry</DataItem>";

@@ -132,6 +132,7 @@ struct Mesh : SolidOfParts {
   Choice materials = "one";
   std::vector<MaterialForName> material_map;
   double deform = 0;
+  int step = 0;
   std::shared_ptr<const std::vector<MeshPart>> loaded;  // set when the node is made
 
   static Spec<Mesh> spec() {
@@ -152,7 +153,8 @@ struct Mesh : SolidOfParts {
           one_of({"one", "names", "colours"})},
          {"material_map", &Mesh::material_map,
           "Materials for names in the file, which come before all others: [[\"PLA\", \"red\"], [\"TPU\", \"blue\"]]"},
-         {"deform", &Mesh::deform, "Factor of the displacement by which a mesh of results is deformed"}},
+         {"deform", &Mesh::deform, "Factor of the displacement by which a mesh of results is deformed"},
+         {"step", &Mesh::step, "Number of a step of results, counted from 1; 0: the last", from_to(0, 1e9)}},
         no_inputs,
         "mesh(\"models/gear.stl\", \"red\");"};
   }
@@ -161,7 +163,7 @@ struct Mesh : SolidOfParts {
     if (!reader.loader) return reader.refuse("meshes cannot be read here");
     if (!check_map(material_map, materials, reader) || !check_mixture(material, materials, reader)) return false;
     const MaterialName named = material_for_request(material, reader);
-    MeshRequest request{path, {object, inside_rule, materials, named, material_map}, deform};
+    MeshRequest request{path, {object, inside_rule, materials, named, material_map}, deform, step};
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;

@@ -27,6 +27,7 @@ struct Results {
   Choice outside = "none", between = "weights";
   std::optional<double> within;
   double otherwise = 0, deform = 0;
+  int step = 0;
   std::shared_ptr<const ResultNumbers> loaded;  // set when the node is made
   size_t chosen = 0;                            // number of the chosen component
 
@@ -56,7 +57,8 @@ struct Results {
           "inverse squared distances), or nearest (the nearest point's value)",
           one_of({"weights", "nearest"})},
          {"deform", &Results::deform,
-          "Factor of the displacement by which the mesh is deformed, as in mesh(path, deform=5)"}},
+          "Factor of the displacement by which the mesh is deformed, as in mesh(path, deform=5)"},
+         {"step", &Results::step, "Number of a step, counted from 1; 0: the last", from_to(0, 1e9)}},
         no_inputs,
         "sphere(8, mix(\"red\", \"blue\", results(\"models/bent_beam.vtu\", \"von_mises\", "
         "outside=\"nearest\").value / 20));",
@@ -78,6 +80,7 @@ struct Results {
     request.otherwise = otherwise;
     request.between = between;
     request.deform = deform;
+    request.step = step;
     loaded = reader.loader->source(request, reader);
     if (!loaded) return false;
     path.path = request.file.path;

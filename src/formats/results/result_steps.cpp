@@ -1,0 +1,32 @@
+#include "formats/results/result_steps.h"
+
+#include <algorithm>
+
+#include "base/text/text.h"
+#include "formats/containers/text_scanner.h"
+
+namespace ombre::formats {
+namespace {
+
+constexpr size_t most_listed = 20;
+
+std::string list_of(std::span<const std::string> times) {
+  std::vector<std::string> steps;
+  for (size_t n = 0; n < std::min(times.size(), most_listed); ++n)
+    steps.push_back(std::to_string(n + 1) + (times[n].empty() ? "" : " (time " + times[n] + ")"));
+  return join(steps, ", ") + (times.size() > most_listed ? ", ..." : "");
+}
+
+}  // namespace
+
+size_t step_index(const std::string& name, std::span<const std::string> times, uint64_t wanted,
+                  Diagnostics& diagnostics) {
+  if (times.empty()) fail(diagnostics, name, "the file has no steps");
+  if (wanted <= times.size()) return (wanted == 0 ? times.size() : wanted) - 1;
+  const std::string message = "there is no step " + std::to_string(wanted);
+  if (times.size() == 1) fail(diagnostics, name, message + "; the file has one step", "leave step out");
+  fail(diagnostics, name, message + "; the file has " + std::to_string(times.size()) + " steps: " + list_of(times),
+       "write a step from 1 to " + std::to_string(times.size()) + ", or leave step out for the last");
+}
+
+}  // namespace ombre::formats

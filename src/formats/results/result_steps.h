@@ -1,0 +1,18 @@
+// The steps of a file of results.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "base/text/diagnostic.h"
+
+namespace ombre::formats {
+
+// Returns the index of the step that is wanted by its number from 1, or of the last for 0. `times` has the time of each
+// step, empty if the file does not say it. Reports an error that lists the steps, and throws DesignError, if there is
+// no such step.
+size_t step_index(const std::string& name, std::span<const std::string> times, uint64_t wanted,
+                  Diagnostics& diagnostics);
+
+}  // namespace ombre::formats
