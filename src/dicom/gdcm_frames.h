@@ -10,7 +10,7 @@
 
 namespace ombre::dicom {
 
-// What tells volumes at the same places apart, in the order in which it sorts them.
+// The values that distinguish volumes at the same places, in the order in which they sort them.
 enum PhaseKey : uint8_t { temporal_position, trigger_time, echo_time, b_value, acquisition, phase_keys };
 
 struct Frame {

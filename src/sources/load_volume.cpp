@@ -99,8 +99,8 @@ const formats::VolumeSegment* find_segment(const VolumeParts& parts, const Volum
         file + " has " + std::to_string(count) + " segments " + name,
         "write the ID of the one that is meant, such as " + spelled::parameter("segment", '"' + found->id + '"'));
   if (segments.empty())
-    return fail(file + " names no segments",
-                "write its number: " + spelled::parameter("label", "1") + "; names are read from .seg.nrrd files");
+    return fail(file + " names no segments", "write its number: " + spelled::parameter("label", "1") +
+                                                 "; names are read from .seg.nrrd and DICOM files");
   return fail(file + " has no segment " + name, sources::hint_of_names(request.segment, segment_names(segments), ""));
 }
 

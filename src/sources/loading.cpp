@@ -24,8 +24,8 @@ std::string Loader::first_with_other_axes(const std::string& path, design::Patie
   if (!is_patient) return "";
   const std::scoped_lock lock(mutex_);
   first_in_space_.try_emplace(space, path);
-  if (has_told_axes_ || first_in_space_.size() < 2) return "";
-  has_told_axes_ = true;
+  if (has_reported_axes_ || first_in_space_.size() < 2) return "";
+  has_reported_axes_ = true;
   const bool is_ras = space == design::PatientSpace::ras;
   return first_in_space_.at(is_ras ? design::PatientSpace::lps : design::PatientSpace::ras);
 }

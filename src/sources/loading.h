@@ -40,7 +40,7 @@ class Loader : public design::SourceLoader {
   std::mutex mutex_;
   std::set<Hash> reported_;
   std::map<design::PatientSpace, std::string> first_in_space_;
-  bool has_told_axes_ = false;
+  bool has_reported_axes_ = false;
 };
 
 // Returns what to write instead of a name that a file does not have: the one that may have been meant, or its names;

@@ -221,7 +221,7 @@ class NrrdReader : TextHeader {
     const Words sizes = words_of(field("sizes"));
     std::vector<std::optional<Vec3>> directions;
     if (fields_.contains("space directions")) directions = vectors("space directions");
-    // Without any direction the orientation is unknown.
+    // The orientation is unknown if no axis has a direction.
     const bool has_directions = std::ranges::any_of(directions, [](const auto& one) { return one.has_value(); });
     if (directions.empty()) directions.resize(sizes.size());
     if (!has_directions) std::ranges::fill(directions, Vec3{});
