@@ -31,6 +31,7 @@ struct ScadChoices {
   std::vector<std::string> outputs, definitions, libraries;
   std::string parameter_file, parameter_set, dependencies, format, materials;
   bool stops_at_warnings = false, no_overlap = false;
+  formats::SlicerFlavour flavour = formats::SlicerFlavour::generic;
 
   static const options::Spec<ScadChoices>& options() {
     using namespace options;
@@ -52,6 +53,11 @@ struct ScadChoices {
         option("--materials", &ScadChoices::materials, kind::file, "A materials file, for scripts that say use <ombre>",
                "FILE"),
         flag("--no-overlap", &ScadChoices::no_overlap, "Where solids overlap, the first one keeps the space"),
+        choice(
+            "--flavour,--flavor", &ScadChoices::flavour, {"generic", "prusa", "bambu"},
+            "Program that a .3mf is for: generic (default), prusa or bambu: one object, with a volume and an extruder "
+            "for each part and colour",
+            "SLICER"),
         flag("--hardwarnings", &ScadChoices::stops_at_warnings, "Stop at the first warning")};
     return spec;
   }
@@ -187,7 +193,8 @@ class ScadRun {
   // endings, so output with another name, or to stdout, is written to a temporary file first.
   bool write_geometry(const openscad::Outcome& outcome) {
     const TemporaryFolder beside;
-    std::vector<std::string> paths;
+    SolidsOutput solids{{}, arguments_.no_overlap, arguments_.flavour};
+    std::vector<std::string>& paths = solids.paths;
     std::map<std::string, std::string> wanted;  // paths by the file that is written
     for (const std::string& output : arguments_.outputs) {
       const std::string format = format_of(output, arguments_);
@@ -196,8 +203,8 @@ class ScadRun {
       wanted[paths.back()] = output;
     }
     if (paths.empty() || (!design_ && !outcome.tree)) return true;
-    const auto files = design_ ? write_design(design_, paths, arguments_.no_overlap, session_)
-                               : write_solids(outcome.tree, paths, arguments_.no_overlap, messages_, session_);
+    const auto files =
+        design_ ? write_design(design_, solids, session_) : write_solids(outcome.tree, solids, messages_, session_);
     if (!files) return false;
     for (const std::string& file : *files) {
       const auto known = wanted.find(file);

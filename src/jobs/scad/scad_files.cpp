@@ -32,18 +32,17 @@ bool writes_solids(const std::string& format) {
   return std::ranges::find(endings, "." + format) != endings.end();
 }
 
-std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& loaded,
-                                                     const std::vector<std::string>& paths, bool no_overlap,
+std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& loaded, const SolidsOutput& output,
                                                      Session& session) {
   Diagnostics messages;
   auto quits = session.quit_at_once();
   auto pieces = compile::meshed_parts(loaded, messages, &session.stop);
   const solids::EvaluateOptions options{0, false, &session.stop, nullptr};
-  if (pieces && no_overlap) pieces = compile::without_overlaps(*pieces, options);
+  if (pieces && output.no_overlap) pieces = compile::without_overlaps(*pieces, options);
   std::vector<compile::SolidsFile> files;
-  for (const std::string& path : paths) {
+  for (const std::string& path : output.paths) {
     if (!pieces || messages.has_errors()) break;
-    for (compile::SolidsFile& file : compile::solids_files(*pieces, {path}, options, messages))
+    for (compile::SolidsFile& file : compile::solids_files(*pieces, {path, "", output.flavour}, options, messages))
       files.push_back(std::move(file));
   }
   quits.reset();
@@ -78,13 +77,12 @@ Diagnostics without_warnings(const Diagnostics& found, lang::openscad::Messages&
 
 }  // namespace
 
-std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths,
-                                                     bool no_overlap, lang::openscad::Messages& said,
-                                                     Session& session) {
+std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree, const SolidsOutput& output,
+                                                     lang::openscad::Messages& said, Session& session) {
   compile::ScadRequest request;
   request.tree = tree;
-  for (const std::string& path : paths) request.outputs.push_back({path});
-  request.no_overlap = no_overlap;
+  for (const std::string& path : output.paths) request.outputs.push_back({path, "", output.flavour});
+  request.no_overlap = output.no_overlap;
   request.stop = &session.stop;
   Diagnostics messages;
   auto quits = session.quit_at_once();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/packages/package_writers.h"
 #include "jobs/common/session.h"
 #include "lang/openscad/script_messages.h"
 #include "solids/tree.h"
@@ -15,15 +16,19 @@ namespace ombre::jobs {
 std::vector<std::string> scad_formats();
 // True if the format is one of solids or areas: a mesh, or a drawing.
 bool writes_solids(const std::string& format);
-// Writes the tree's solids or areas to all paths, each in the format of its ending; "{part}" in a path makes a file for
-// each part. Returns the files, or nothing, with diagnostics among the events, if they do not fit the format. Warnings
-// of the geometry go to `said`.
-std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree, const std::vector<std::string>& paths,
-                                                     bool no_overlap, lang::openscad::Messages& said, Session& session);
+struct SolidsOutput {
+  std::vector<std::string> paths;  // the ending of each says its format; "{part}" makes a file for each part
+  bool no_overlap = false;         // the first solid keeps the space
+  formats::SlicerFlavour flavour = formats::SlicerFlavour::generic;
+};
+
+// Writes the tree's solids or areas to all paths. Returns the files, or nothing, with diagnostics among the events, if
+// they do not fit the format. Warnings of the geometry go to `said`.
+std::optional<std::vector<std::string>> write_solids(const solids::TreePtr& tree, const SolidsOutput& output,
+                                                     lang::openscad::Messages& said, Session& session);
 
 // Writes the solids of a script that is a design; its surfaces are meshed within the usual tolerance of `ombre mesh`.
-std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& loaded,
-                                                     const std::vector<std::string>& paths, bool no_overlap,
+std::optional<std::vector<std::string>> write_design(const compile::LoadedPtr& loaded, const SolidsOutput& output,
                                                      Session& session);
 
 }  // namespace ombre::jobs

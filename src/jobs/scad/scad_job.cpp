@@ -10,6 +10,7 @@
 #include "base/text/text.h"
 #include "export/mesh_file.h"
 #include "export/output_file.h"
+#include "formats/containers/xml_text.h"
 #include "formats/drawings/plane_writers.h"
 #include "formats/images/uncoloured.h"
 #include "solids/booleans.h"
@@ -199,14 +200,27 @@ std::vector<SolidsFile> solids_files(const Pieces& pieces, const SolidsExport& t
   return files;
 }
 
+namespace {
+
+// Gives bodies without a part the name of their material or colour, since slicers list them by their names.
+void name_bodies(MeshDocument& document) {
+  for (MeshBody& body : document.bodies) {
+    if (!body.name.empty() || !body.material) continue;
+    const formats::MeshMaterial& material = document.materials[*body.material];
+    body.name = material.name.empty() ? formats::hex_colour({material.colour.data(), 3}) : material.name;
+  }
+}
+
+}  // namespace
+
 void write_solids_file(const SolidsFile& file) {
   const std::string& path = file.to.path;
   const std::string title = file.to.title.empty() ? fs::path(path).stem().string() : file.to.title;
   if (const auto drawing = drawing_of(file.pieces, title, fs::path(path).extension().string()))
-    exporting::write_file(path, *drawing);
-  else
-    exporting::write_mesh_file(path, document_of(file.pieces, title), *formats::find_mesh_format(path),
-                               file.to.flavour);
+    return exporting::write_file(path, *drawing);
+  MeshDocument document = document_of(file.pieces, title);
+  if (file.to.flavour != formats::SlicerFlavour::generic) name_bodies(document);
+  exporting::write_mesh_file(path, document, *formats::find_mesh_format(path), file.to.flavour);
 }
 
 ScadResult run_scad(const ScadRequest& request, Diagnostics& messages) {

@@ -174,12 +174,9 @@ TEST_F(ScadJob, Surfaces) {
   Surface surface;
   surface.path = path("h.dat");
   // The numbers are those of OpenSCAD 2021.01.
-  const std::map<std::string, double> volumes{{"# heights\n1 2 3\n4 5 6\n", 7},
-                                              {"5 6\n7 8\n", 6.5},
-                                              {"6 6 6\n6 6 6\n6 6 6\n", 24},
-                                              {"0.5 1\n2 3\n", 2.125},
-                                              {"0 0\n0 0\n", 1},
-                                              {"-5 -6\n-7 -8\n", 2.5}};
+  const std::map<std::string, double> volumes{
+      {"# heights\n1 2 3\n4 5 6\n", 7}, {"5 6\n7 8\n", 6.5}, {"6 6 6\n6 6 6\n6 6 6\n", 24},
+      {"0.5 1\n2 3\n", 2.125},          {"0 0\n0 0\n", 1},   {"-5 -6\n-7 -8\n", 2.5}};
   for (const auto& [heights, volume] : volumes) {
     std::ofstream(path("h.dat")) << heights;
     EXPECT_NEAR(size_of(node(surface)), volume, 1e-9) << heights;
