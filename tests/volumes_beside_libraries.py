@@ -10,6 +10,7 @@ import collections
 import importlib
 import itertools
 import pathlib
+import re
 import sys
 import tempfile
 import warnings
@@ -65,7 +66,7 @@ class Comparison:
 
     def refuse(self, message):
         self.counts["refused"] += 1
-        self.reasons[message.splitlines()[0].split('" ', 1)[-1][:90]] += 1
+        self.reasons[re.sub(r'"[^"]*/[^"]*"', "FILE", message.splitlines()[0]).split(" FILE ", 1)[-1][:100]] += 1
 
     def report(self):
         total = sum(self.counts.values())
