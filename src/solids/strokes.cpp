@@ -29,12 +29,11 @@ class StrokePieces {
       if (!line.empty()) add_dot(line[0]);
       return;
     }
-    const bool is_ring = is_closed && line.size() > 2;
-    const size_t segments = line.size() - (is_ring ? 0 : 1);
+    const size_t segments = line.size() - (is_closed ? 0 : 1);
     for (size_t n = 0; n < segments; ++n) add_segment(line[n], line[(n + 1) % line.size()]);
-    for (size_t n = is_ring ? 0 : 1; n < segments; ++n)
+    for (size_t n = is_closed ? 0 : 1; n < segments; ++n)
       add_join(line[(n + line.size() - 1) % line.size()], line[n], line[(n + 1) % line.size()]);
-    if (is_ring) return;
+    if (is_closed) return;
     add_cap(line[1], line[0]);
     add_cap(line[line.size() - 2], line.back());
   }
