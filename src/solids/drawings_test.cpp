@@ -109,6 +109,15 @@ TEST_F(Drawings, OpenLinesAreStrokes) {
   EXPECT_AREA(svg_area(R"(<line x1="10" y1="10" x2="30" y2="10" stroke="red" stroke-width="2"/>)"), 40);
   const std::string thick = R"(<path d="M10 10H30" style="fill:none;stroke:red;stroke-width:2)";
   EXPECT_AREA(svg_area(thick + R"(;stroke-linecap:square"/>)"), 44);
+  // A closed path without a length shows its caps, one of two points its joins.
+  EXPECT_AREA(svg_area(R"(<path d="M10 10z" fill="none" stroke="red" stroke-linecap="square" stroke-width="3"/>)"), 9);
+  EXPECT_NEAR(svg_area(R"(<path d="M10 10h9z" fill="none" stroke="red" stroke-linejoin="round" stroke-width="2"/>)"),
+              18 + pi, 0.02);
+  // A right angle has a tip of 2 x 2 mm, or half of it if its length of 1.414 widths is beyond the limit.
+  const std::string corner = R"(<path d="M10 10H30V30" style="fill:none;stroke:red;stroke-width:4)";
+  EXPECT_AREA(svg_area(corner + R"("/>)"), 160);
+  EXPECT_AREA(svg_area(corner + R"(;stroke-linejoin:bevel"/>)"), 158);
+  EXPECT_AREA(svg_area(corner + R"(;stroke-miterlimit:1.4"/>)"), 158);
   const double round = svg_area(thick + R"(;stroke-linecap:round"/>)");
   EXPECT_GT(round, 40 + 0.8 * pi);
   EXPECT_LT(round, 40 + pi);

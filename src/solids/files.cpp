@@ -15,6 +15,7 @@
 #include "solids/fragments.h"
 #include "solids/mended_solid.h"
 #include "solids/regions.h"
+#include "solids/strokes.h"
 
 namespace ombre::solids {
 namespace {

@@ -7,7 +7,6 @@
 #include <polyclipping/clipper.hpp>
 
 #include "base/text/error.h"
-#include "formats/drawings/plane_files.h"
 #include "solids/fragments.h"
 
 namespace ombre::solids {
@@ -191,27 +190,6 @@ Region offset(const Region& region, const Offset& by) {
   Paths result;
   offsetter.Execute(result, distance);
   return grid.region(result);
-}
-
-Region stroked(const formats::PlaneStroke& stroke, const Fragments& fragments) {
-  const formats::PlaneMap& map = stroke.map;
-  const double half = stroke.width / 2, scale = std::sqrt(std::abs(map.a * map.d - map.b * map.c));
-  if (!(half > 0) || !(scale > 0)) return {};
-  const Grid grid(std::max(reach_of(stroke.open), reach_of(stroke.closed)) + 2 * half * (1 + stroke.miter_limit));
-  const double distance = half * grid.steps();
-  clip::ClipperOffset offsetter(stroke.miter_limit,
-                                distance * (1 - cosine(180.0 / edges_of_circle(half * scale, fragments))));
-  const clip::JoinType join = stroke.join == formats::StrokeJoin::round   ? clip::jtRound
-                              : stroke.join == formats::StrokeJoin::bevel ? clip::jtSquare
-                                                                          : clip::jtMiter;
-  const clip::EndType end = stroke.cap == formats::StrokeCap::round    ? clip::etOpenRound
-                            : stroke.cap == formats::StrokeCap::square ? clip::etOpenSquare
-                                                                       : clip::etOpenButt;
-  offsetter.AddPaths(grid.paths(stroke.open), join, end);
-  offsetter.AddPaths(grid.paths(stroke.closed), join, clip::etClosedLine);
-  Paths result;
-  offsetter.Execute(result, distance);
-  return moved(grid.region(result), Affine{{Vec3{map.a, map.c, 0}, {map.b, map.d, 0}, {0, 0, 1}}, {map.e, map.f, 0}});
 }
 
 Region cleaned(const Region& region, double distance_mm) {

@@ -6,10 +6,6 @@
 
 #include "solids/solid.h"
 
-namespace ombre::formats {
-struct PlaneStroke;
-}
-
 namespace ombre::solids {
 
 // Returns the points enclosed by an odd number of rings; rings may cross, and have either orientation.
@@ -22,8 +18,6 @@ Region intersect(const Region& a, const Region& b);
 Region subtract(const Region& a, const Region& b);
 Region moved(const Region& region, const Affine& map);  // by the map's effect in the plane
 Region offset(const Region& region, const Offset& by);
-// Returns the area of lines with a width, in the coordinates that the lines' map leads to.
-Region stroked(const formats::PlaneStroke& stroke, const Fragments& fragments);
 // Removes details narrower than the distance: points that lie closer together, slits, slivers, and corners of nearly
 // straight lines.
 Region cleaned(const Region& region, double distance_mm);

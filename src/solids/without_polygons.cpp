@@ -21,7 +21,6 @@ Region unite(std::span<const Region>) { report(); }
 Region intersect(const Region&, const Region&) { report(); }
 Region subtract(const Region&, const Region&) { report(); }
 Region moved(const Region&, const Affine&) { report(); }
-Region stroked(const formats::PlaneStroke&, const Fragments&) { report(); }
 Region offset(const Region&, const Offset&) { report(); }
 Region cleaned(const Region&, double) { report(); }
 Region fill(const Region&) { report(); }

@@ -446,7 +446,7 @@ void SvgReader::draw(pugi::xml_node node, const Outlines& outlines, const SvgVal
       if (encloses) area.rings.push_back(ring);
       if (encloses && !is_filled) ++unfilled_;
       if (encloses && is_stroked && !options_.is_painted) ++borders_;
-      if (ring.size() > 1 && is_stroked && (!encloses || options_.is_painted))
+      if ((ring.size() > 1 || is_closed) && is_stroked && (!encloses || options_.is_painted))
         (is_closed ? lines.closed : lines.open).push_back(ring);
       else if (!encloses && ring.size() > 1)
         ++open;
