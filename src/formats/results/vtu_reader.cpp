@@ -98,6 +98,19 @@ class VtuReader {
     file_.fail_at(parent, "expected an array " + formats::quoted(name) + " among the cells");
   }
 
+  // Returns which cells belong to another piece, or are hidden, by the bits of vtkDataSetAttributes::CellGhostTypes.
+  std::vector<bool> ghosts_of(xml_node piece, uint64_t count) const {
+    constexpr unsigned duplicate = 1, hidden = 32;
+    std::vector<bool> is_ghost(count, false);
+    for (const xml_node array : piece.child("CellData").children("DataArray")) {
+      if (array.attribute("Name").value() != std::string_view("vtkGhostType")) continue;
+      const std::vector<double> bits = numbers_of(array, count);
+      for (size_t n = 0; n < count; ++n)
+        is_ghost[n] = bits[n] > 0 && bits[n] < 256 && (static_cast<unsigned>(bits[n]) & (duplicate | hidden)) != 0;
+    }
+    return is_ghost;
+  }
+
   // Adds the cells of a piece; returns which of them became elements.
   std::vector<bool> add_cells(xml_node piece, size_t first_point, uint64_t point_count, uint64_t count) {
     std::vector<bool> is_kept(count, false);
@@ -110,7 +123,12 @@ class VtuReader {
       file_.fail_at(list, "the offsets of cells go beyond the file");
     const std::vector<double> corners = numbers_of(list, static_cast<uint64_t>(ends.back()));
     std::array<uint32_t, 20> nodes{};
+    const std::vector<bool> is_ghost = ghosts_of(piece, count);
     for (size_t n = 0; n < count; ++n) {
+      if (is_ghost[n]) {
+        ++ghost_cells_;
+        continue;
+      }
       const double begin = n == 0 ? 0 : ends[n - 1];
       const CellKind* const kind = cell_kind(types[n], ends[n] - begin);
       if (!kind && is_flat_cell(types[n])) {
@@ -192,6 +210,7 @@ class VtuReader {
       file_.diagnostics().warning({make_source(file_.name(), ""), 0, 0}, what + " are left out");
     };
     if (flat_cells_ > 0) warn(format_count(flat_cells_) + " points, lines or faces of the grid");
+    if (ghost_cells_ > 0) warn(format_count(ghost_cells_) + " cells that are hidden, or belong to another piece,");
     if (!wide_fields_.empty())
       warn("fields of more than " + std::to_string(most_components) + " numbers (" +
            join(std::vector<std::string>(wide_fields_.begin(), wide_fields_.end()), ", ") + ")");
@@ -203,7 +222,7 @@ class VtuReader {
   const XmlFile& file_;
   std::string_view bytes_;
   Results results_;
-  uint64_t flat_cells_ = 0;
+  uint64_t flat_cells_ = 0, ghost_cells_ = 0;
   std::set<std::string> wide_fields_;  // names
 };
 
