@@ -24,8 +24,8 @@ struct FileFormat {
   Content content = Content::mesh;
   bool is_read = false, is_written = false;
   const Module* module = nullptr;  // an optional module that reading or writing needs
-  std::string_view refused;        // what a file may hold that is an error: "complex numbers; colours"
-  std::string_view left_out;       // what a file may hold that is not read, with a warning where it could matter
+  std::string_view refused = {};   // what a file may hold that is an error: "complex numbers; colours"
+  std::string_view left_out = {};  // what a file may hold that is not read, with a warning where it could matter
 };
 
 // True if the name ends like that of a file of the format, in capital or small letters.

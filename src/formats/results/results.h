@@ -62,7 +62,7 @@ struct ResultsFile {
   std::string written = {};  // its name as the other file has it
 };
 
-// What is known beside a file of results: other files, and which of its steps is wanted.
+// The other files that belong to a file of results, and the step of it that is wanted.
 struct ResultsBeside {
   // The .csv file with the fields of an .inp mesh, or the HDF5 file with the numbers of an .xdmf file.
   std::optional<ResultsFile> values = {};
