@@ -18,11 +18,11 @@ constexpr size_t most_files = 1000;
 
 ResultFiles::ResultFiles(const std::string& path, std::string_view bytes, const Read& read)
     : folder_(fs::path(path).parent_path().string()) {
-  add(path, bytes, read);
+  add(path, bytes, "", read);
 }
 
-void ResultFiles::add(const std::string& path, std::string_view bytes, const Read& read) {
-  for (const std::string& written : formats::files_named_in(path, bytes)) {
+void ResultFiles::add(const std::string& path, std::string_view bytes, const std::string& own_name, const Read& read) {
+  for (const std::string& written : formats::files_named_in(path, bytes, own_name)) {
     const bool is_known = std::ranges::find(files_, written, &formats::ResultsFile::written) != files_.end();
     if (is_known || files_.size() >= most_files) continue;
     const std::string named = (fs::path(folder_) / written).lexically_normal().string();
@@ -30,7 +30,7 @@ void ResultFiles::add(const std::string& path, std::string_view bytes, const Rea
     if (!own) continue;
     bytes_.push_back(own);
     files_.push_back({named, *own, written});
-    add(named, *own, read);
+    add(named, *own, written, read);
   }
 }
 

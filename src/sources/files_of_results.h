@@ -25,7 +25,8 @@ class ResultFiles {
   const std::vector<formats::ResultsFile>& files() const { return files_; }
 
  private:
-  void add(const std::string& path, std::string_view bytes, const Read& read);
+  // `own_name` is the name of this file in the one that names it; empty for the first.
+  void add(const std::string& path, std::string_view bytes, const std::string& own_name, const Read& read);
 
   std::string folder_;
   std::vector<std::shared_ptr<const std::string>> bytes_;

@@ -5,6 +5,7 @@
 #include "base/text/file_ending.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/results/deck.h"
+#include "formats/results/named_grids.h"
 #include "formats/results/result_steps.h"
 #include "formats/results/results_readers.h"
 
@@ -41,6 +42,19 @@ Results read_alone(const std::string& name, std::string_view bytes, const Result
   return read(name, bytes, diagnostics);
 }
 
+Results read_collection(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                        Diagnostics& diagnostics) {
+  refuse_values(name, beside, diagnostics);
+  return read_pvd(name, bytes, beside, diagnostics);
+}
+
+Results read_pieces(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                    Diagnostics& diagnostics) {
+  refuse_values(name, beside, diagnostics);
+  refuse_steps(name, beside, diagnostics);
+  return read_pvtu(name, bytes, beside, diagnostics);
+}
+
 Results read_frd_step(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                       Diagnostics& diagnostics) {
   refuse_values(name, beside, diagnostics);
@@ -60,9 +74,48 @@ Results read_deck(const std::string& name, std::string_view bytes, const Results
 
 std::span<const ResultFormat> result_formats() {
   static const std::vector<ResultFormat> rows{
-      {{"XDMF", {".xdmf"}, Content::results, true, true}, true, is_xdmf, read_xdmf},
-      {{"VTK unstructured grid", {".vtu"}, Content::results, true, true}, true, is_xml, read_alone<read_vtu>},
-      {{"CalculiX results", {".frd"}, Content::results, true, false, nullptr, "", "beams and shells"},
+      {{"XDMF",
+        {".xdmf"},
+        Content::results,
+        true,
+        true,
+        nullptr,
+        "several grids or spatial collections; elements of other types; references between items",
+        "points, lines and faces; fields of other places than nodes and cells"},
+       true,
+       is_xdmf,
+       read_xdmf},
+      {{"VTK collection", {".pvd"}, Content::results, true, false, nullptr, "files other than .vtu and .pvtu"},
+       true,
+       is_pvd,
+       read_collection,
+       files_named_in_pvd,
+       true},
+      {{"VTK unstructured grid in pieces", {".pvtu"}, Content::results, true},
+       true,
+       is_pvtu,
+       read_pieces,
+       files_named_in_pvtu,
+       true},
+      {{"VTK unstructured grid",
+        {".vtu"},
+        Content::results,
+        true,
+        true,
+        nullptr,
+        "cells of other types; numbers packed by LZ4 or LZMA",
+        "points, lines and faces; hidden cells and those of other pieces; fields of more than nine numbers"},
+       true,
+       is_xml,
+       read_alone<read_vtu>},
+      {{"CalculiX results",
+        {".frd"},
+        Content::results,
+        true,
+        false,
+        nullptr,
+        "binary files",
+        "beams, shells and other elements"},
        true,
        is_frd,
        read_frd_step},
@@ -88,9 +141,14 @@ bool may_name_files(const std::string& path) {
                              [&](const ResultFormat& row) { return row.named && has_ending(path, row.file); });
 }
 
-std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes) {
-  for (const ResultFormat& row : result_formats())
-    if (row.named && (has_ending(path, row.file) || row.recognises(bytes))) return row.named(bytes);
+std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes, const std::string& written) {
+  for (const ResultFormat& row : result_formats()) {
+    if (!row.named || !(has_ending(path, row.file) || row.recognises(bytes))) continue;
+    std::vector<std::string> names = row.named(bytes);
+    if (row.names_beside_itself)
+      for (std::string& name : names) name = name_beside(written, name);
+    return names;
+  }
   return {};
 }
 

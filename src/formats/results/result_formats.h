@@ -18,6 +18,7 @@ struct ResultFormat {
                   Diagnostics& diagnostics) = nullptr;
   // Returns the names of other files, for formats that have them.
   std::vector<std::string> (*named)(std::string_view bytes) = nullptr;
+  bool names_beside_itself = false;  // names begin in the folder of the file that has them; else in that of the first
 };
 
 // A file that no other row recognises is read as the last one, a table of points.

@@ -62,7 +62,7 @@ struct ResultsFile {
   std::string written = {};  // its name as the other file has it
 };
 
-// What is known beside a file of results: other files, and which of its steps is wanted.
+// The other files that belong to a file of results, and the step of it that is wanted.
 struct ResultsBeside {
   // The .csv file with the fields of an .inp mesh, or the HDF5 file with the numbers of an .xdmf file.
   std::optional<ResultsFile> values = {};
@@ -70,13 +70,16 @@ struct ResultsBeside {
   uint64_t step = 0;                    // number of the step, counted from 1; 0 for the last
 };
 
-// Reads .vtu, .xdmf, .frd, .inp and .csv files by their content. Returns null, with diagnostics, if a file is invalid.
+// Reads .vtu, .pvd, .pvtu, .xdmf, .frd, .inp and .csv files by their content. Returns null, with diagnostics, if a file
+// is invalid.
 std::optional<Results> read_results(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                                     Diagnostics& diagnostics);
 
 // Returns false if the ending of the path says that such a file names no others.
 bool may_name_files(const std::string& path);
-// Returns the names of other files in a file of results, as they are written there.
-std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes);
+// Returns the names of other files in a file of results, as the first file would write them. `written` is the name of
+// this file in the one that names it; empty for the first.
+std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes,
+                                        const std::string& written = "");
 
 }  // namespace ombre::formats

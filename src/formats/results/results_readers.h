@@ -11,6 +11,13 @@ namespace ombre::formats {
 // Reads VTK's unstructured grids: text, base64 or raw, optionally compressed by zlib.
 Results read_vtu(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
+// Reads a step of a collection of VTK's unstructured grids, whose parts are joined, or a grid in pieces. `beside` has
+// the files that they name.
+Results read_pvd(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                 Diagnostics& diagnostics);
+Results read_pvtu(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                  Diagnostics& diagnostics);
+
 // Reads a uniform grid of XDMF 3, or one of a temporal collection. `beside` has the HDF5 file, if there is one.
 Results read_xdmf(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics);

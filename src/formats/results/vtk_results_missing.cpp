@@ -11,6 +11,14 @@ Results read_vtu(const std::string& name, std::string_view, Diagnostics& diagnos
   fail(diagnostics, name, std::string("VTU files cannot be read: ") + xml_missing, xml_remedy);
 }
 
+Results read_pvd(const std::string& name, std::string_view, const ResultsBeside&, Diagnostics& diagnostics) {
+  return read_vtu(name, "", diagnostics);
+}
+
+Results read_pvtu(const std::string& name, std::string_view, const ResultsBeside&, Diagnostics& diagnostics) {
+  return read_vtu(name, "", diagnostics);
+}
+
 Results read_xdmf(const std::string& name, std::string_view, const ResultsBeside&, Diagnostics& diagnostics) {
   fail(diagnostics, name, std::string("XDMF files cannot be read: ") + xml_missing, xml_remedy);
 }

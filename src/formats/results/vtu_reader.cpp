@@ -8,6 +8,7 @@
 #include "base/text/text.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/mesh/mesh.h"
+#include "formats/results/polyhedra.h"
 #include "formats/results/results_readers.h"
 #include "formats/volumes/vtk_arrays.h"
 
@@ -17,6 +18,7 @@ namespace {
 using pugi::xml_node;
 
 constexpr size_t most_fields = 1000, most_components = 9;
+constexpr double polyhedron_type = 42;
 
 // The supported elements, by VTK's numbers.
 struct CellKind {
@@ -74,9 +76,13 @@ class VtuReader {
       file_.fail_at(piece, "the piece states more points or cells than the file can hold");
     if (point_count == 0) return;
     add_points(piece, point_count);
-    const std::vector<bool> is_kept = add_cells(piece, points, point_count, cell_count);
-    add_fields(piece.child("PointData"), false, points, std::vector<bool>(point_count, true));
-    add_fields(piece.child("CellData"), true, before, is_kept);
+    PolyhedronCutter cutter(results_);
+    const std::vector<uint32_t> elements = add_cells(piece, points, point_count, cell_count, cutter);
+    add_fields(piece.child("PointData"), false, points, std::vector<uint32_t>(point_count, 1));
+    add_fields(piece.child("CellData"), true, before, elements);
+    for (ResultField& field : results_.fields)
+      if (!field.is_of_elements) cutter.fill(field);
+    folded_ += cutter.folded();
   }
 
   void add_points(xml_node piece, uint64_t count) {
@@ -98,11 +104,124 @@ class VtuReader {
     file_.fail_at(parent, "expected an array " + formats::quoted(name) + " among the cells");
   }
 
-  // Adds the cells of a piece; returns which of them became elements.
-  std::vector<bool> add_cells(xml_node piece, size_t first_point, uint64_t point_count, uint64_t count) {
-    std::vector<bool> is_kept(count, false);
+  // Returns which cells belong to another piece, or are hidden, by the bits of vtkDataSetAttributes::CellGhostTypes.
+  std::vector<bool> ghosts_of(xml_node piece, uint64_t count) const {
+    constexpr unsigned duplicate = 1, hidden = 32;
+    std::vector<bool> is_ghost(count, false);
+    for (const xml_node array : piece.child("CellData").children("DataArray")) {
+      if (array.attribute("Name").value() != std::string_view("vtkGhostType")) continue;
+      const std::vector<double> bits = numbers_of(array, count);
+      for (size_t n = 0; n < count; ++n)
+        is_ghost[n] = bits[n] > 0 && bits[n] < 256 && (static_cast<unsigned>(bits[n]) & (duplicate | hidden)) != 0;
+    }
+    return is_ghost;
+  }
+
+  // The lists of faces of a piece's polyhedra, as numbers in the file.
+  struct FaceLists {
+    xml_node place;                                  // for messages
+    std::vector<std::vector<double>> faces_of_cell;  // by cell: the number of faces, then of each its size and points
+  };
+
+  // Reads the lists of faces, by cell: each end lies in "faceoffsets", which is -1 for other cells.
+  FaceLists faces_of(xml_node cells, const std::vector<double>& types) const {
+    FaceLists lists;
+    if (std::ranges::find(types, polyhedron_type) == types.end()) return lists;
+    if (has_array(cells, "polyhedron_offsets")) return faces_by_number(cells, types);
+    lists.place = array_called(cells, "faces");
+    const std::vector<double> ends = numbers_of(array_called(cells, "faceoffsets"), types.size());
+    const double last = *std::ranges::max_element(ends);
+    const std::vector<double> all = numbers_of(lists.place, checked_size(lists.place, last));
+    size_t begin = 0;
+    lists.faces_of_cell.resize(types.size());
+    for (size_t n = 0; n < types.size(); ++n) {
+      if (types[n] != polyhedron_type) continue;
+      const size_t end = checked_end(lists.place, ends[n], begin, all.size());
+      lists.faces_of_cell[n].assign(all.begin() + static_cast<ptrdiff_t>(begin),
+                                    all.begin() + static_cast<ptrdiff_t>(end));
+      begin = end;
+    }
+    return lists;
+  }
+
+  // Reads the lists as VTK has written them since 9.4: cells have numbers of faces, and faces have points.
+  FaceLists faces_by_number(xml_node cells, const std::vector<double>& types) const {
+    FaceLists lists;
+    lists.place = array_called(cells, "polyhedron_to_faces");
+    const xml_node face_places = array_called(cells, "face_offsets"), points = array_called(cells, "face_connectivity");
+    const std::vector<double> ends = numbers_of(array_called(cells, "polyhedron_offsets"), types.size());
+    const std::vector<double> faces = numbers_of(lists.place, checked_size(lists.place, ends.back()));
+    const double most_face = faces.empty() ? -1 : *std::ranges::max_element(faces);
+    const std::vector<double> face_ends = numbers_of(face_places, checked_size(face_places, most_face + 1));
+    const std::vector<double> corners =
+        numbers_of(points, face_ends.empty() ? 0 : checked_size(points, face_ends.back()));
+    // A face belongs to one polyhedron or to two, so that the lists cannot grow without bound.
+    size_t begin = 0, listed = 0;
+    lists.faces_of_cell.resize(types.size());
+    for (size_t n = 0; n < types.size(); ++n) {
+      const size_t end = checked_end(lists.place, ends[n], begin, faces.size());
+      std::vector<double>& list = lists.faces_of_cell[n];
+      list.push_back(static_cast<double>(end - begin));
+      for (size_t f = begin; f < end; ++f) {
+        const size_t face = checked_end(lists.place, faces[f], 0, face_ends.size() - 1);
+        const size_t first = face == 0 ? 0 : checked_end(points, face_ends[face - 1], 0, corners.size());
+        const size_t last = checked_end(points, face_ends[face], first, corners.size());
+        listed += last - first;
+        if (listed > 2 * corners.size()) file_.fail_at(lists.place, "a face belongs to more than two polyhedra");
+        list.push_back(static_cast<double>(last - first));
+        list.insert(list.end(), corners.begin() + static_cast<ptrdiff_t>(first),
+                    corners.begin() + static_cast<ptrdiff_t>(last));
+      }
+      begin = end;
+    }
+    return lists;
+  }
+
+  static bool has_array(xml_node parent, std::string_view name) {
+    return std::ranges::any_of(parent.children("DataArray"),
+                               [&](xml_node array) { return array.attribute("Name").value() == name; });
+  }
+  uint64_t checked_size(xml_node array, double size) const {
+    if (!(size >= 0 && size <= static_cast<double>(bytes_.size()) * 1032))
+      file_.fail_at(array, "the offsets of faces go beyond the file");
+    return static_cast<uint64_t>(size);
+  }
+  size_t checked_end(xml_node array, double end, size_t begin, size_t size) const {
+    if (!(end >= static_cast<double>(begin) && end <= static_cast<double>(size)))
+      file_.fail_at(array, "the faces of a polyhedron lie beyond those of the file");
+    return static_cast<size_t>(end);
+  }
+
+  // Adds a polyhedron from its list of faces; returns the number of its elements.
+  uint32_t add_polyhedron(const FaceLists& lists, size_t cell, size_t first_point, uint64_t point_count,
+                          PolyhedronCutter& cutter) {
+    const std::vector<double>& list = lists.faces_of_cell[cell];
+    std::vector<PolyhedronCutter::Face> faces;
+    for (size_t at = 1; at < list.size();) {
+      const double size = list[at++];
+      if (!(size >= 3 && size <= static_cast<double>(list.size() - at))) break;
+      PolyhedronCutter::Face& face = faces.emplace_back();
+      for (const size_t end = at + static_cast<size_t>(size); at < end; ++at) {
+        if (!(list[at] >= 0 && list[at] < static_cast<double>(point_count)))
+          file_.fail_at(lists.place, "polyhedron " + std::to_string(cell) + " names point " + format_number(list[at]) +
+                                         "; there are " + std::to_string(point_count));
+        face.push_back(static_cast<uint32_t>(first_point + static_cast<size_t>(list[at])));
+      }
+    }
+    if (list.empty() || faces.size() < 4 || static_cast<double>(faces.size()) != list.front())
+      file_.fail_at(lists.place, "polyhedron " + std::to_string(cell) +
+                                     " has not the faces that its list promises: four or more, of three corners or "
+                                     "more");
+    if (results_.points.size() + faces.size() >= UINT32_MAX) file_.fail_at(lists.place, "there are too many faces");
+    return static_cast<uint32_t>(cutter.add(faces));
+  }
+
+  // Adds the cells of a piece; returns how many elements each of them became.
+  std::vector<uint32_t> add_cells(xml_node piece, size_t first_point, uint64_t point_count, uint64_t count,
+                                  PolyhedronCutter& cutter) {
+    std::vector<uint32_t> elements(count, 0);
     const xml_node cells = piece.child("Cells");
-    if (count == 0) return is_kept;
+    if (count == 0) return elements;
     const std::vector<double> types = numbers_of(array_called(cells, "types"), count),
                               ends = numbers_of(array_called(cells, "offsets"), count);
     const xml_node list = array_called(cells, "connectivity");
@@ -110,8 +229,18 @@ class VtuReader {
       file_.fail_at(list, "the offsets of cells go beyond the file");
     const std::vector<double> corners = numbers_of(list, static_cast<uint64_t>(ends.back()));
     std::array<uint32_t, 20> nodes{};
+    const std::vector<bool> is_ghost = ghosts_of(piece, count);
+    const FaceLists faces = faces_of(cells, types);
     for (size_t n = 0; n < count; ++n) {
+      if (is_ghost[n]) {
+        ++ghost_cells_;
+        continue;
+      }
       const double begin = n == 0 ? 0 : ends[n - 1];
+      if (types[n] == polyhedron_type) {
+        elements[n] = add_polyhedron(faces, n, first_point, point_count, cutter);
+        continue;
+      }
       const CellKind* const kind = cell_kind(types[n], ends[n] - begin);
       if (!kind && is_flat_cell(types[n])) {
         ++flat_cells_;
@@ -120,7 +249,7 @@ class VtuReader {
       if (!kind)
         file_.fail_at(list, "cell " + std::to_string(n) + " is of VTK's type " + format_number(types[n]) +
                                 "; read are tetrahedra (10, 24, 71), hexahedra (12, 25, 72), voxels (11), wedges (13, "
-                                "73) and pyramids (14, 74)");
+                                "73), pyramids (14, 74) and polyhedra (42)");
       const size_t size = node_count(kind->kind);
       if (!(begin >= 0) || begin + static_cast<double>(size) != ends[n] || ends[n] > ends.back())
         file_.fail_at(list,
@@ -137,13 +266,14 @@ class VtuReader {
         std::swap(nodes[6], nodes[7]);
       }
       results_.add_element(kind->kind, nodes.data());
-      is_kept[n] = true;
+      elements[n] = 1;
     }
-    return is_kept;
+    return elements;
   }
 
   // Adds the fields of a piece; `before` is the number of nodes or elements of earlier pieces.
-  void add_fields(xml_node parent, bool is_of_elements, size_t before, const std::vector<bool>& is_kept) {
+  // `copies` says how many of them each node or cell of the piece became.
+  void add_fields(xml_node parent, bool is_of_elements, size_t before, const std::vector<uint32_t>& copies) {
     for (const xml_node array : parent.children("DataArray")) {
       if (file_.attribute(array, "type") == "String") continue;
       ResultField field;
@@ -155,10 +285,10 @@ class VtuReader {
         wide_fields_.insert(field.name);
         continue;
       }
-      const std::vector<double> numbers = numbers_of(array, field.components * is_kept.size());
+      const std::vector<double> numbers = numbers_of(array, field.components * copies.size());
       ResultField& all = field_of(field, before);
-      for (size_t n = 0; n < is_kept.size(); ++n)
-        if (is_kept[n])
+      for (size_t n = 0; n < copies.size(); ++n)
+        for (uint32_t copy = 0; copy < copies[n]; ++copy)
           all.values.insert(all.values.end(), numbers.begin() + static_cast<ptrdiff_t>(n * field.components),
                             numbers.begin() + static_cast<ptrdiff_t>((n + 1) * field.components));
     }
@@ -192,6 +322,12 @@ class VtuReader {
       file_.diagnostics().warning({make_source(file_.name(), ""), 0, 0}, what + " are left out");
     };
     if (flat_cells_ > 0) warn(format_count(flat_cells_) + " points, lines or faces of the grid");
+    if (folded_ > 0)
+      file_.diagnostics().warning({make_source(file_.name(), ""), 0, 0},
+                                  format_count(folded_) +
+                                      " polyhedra are not seen whole from their middle; the tetrahedra into which "
+                                      "they are cut may overlap");
+    if (ghost_cells_ > 0) warn(format_count(ghost_cells_) + " cells that are hidden, or belong to another piece,");
     if (!wide_fields_.empty())
       warn("fields of more than " + std::to_string(most_components) + " numbers (" +
            join(std::vector<std::string>(wide_fields_.begin(), wide_fields_.end()), ", ") + ")");
@@ -203,7 +339,7 @@ class VtuReader {
   const XmlFile& file_;
   std::string_view bytes_;
   Results results_;
-  uint64_t flat_cells_ = 0;
+  uint64_t flat_cells_ = 0, ghost_cells_ = 0, folded_ = 0;
   std::set<std::string> wide_fields_;  // names
 };
 

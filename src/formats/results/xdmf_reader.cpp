@@ -74,6 +74,10 @@ class XdmfReader {
       file_.diagnostics().warning(
           {make_source(file_.name(), ""), 0, 0},
           format_count(static_cast<uint64_t>(flat)) + " points, lines or faces of the grid are left out");
+    if (fields_elsewhere_ > 0)
+      file_.diagnostics().warning(
+          {make_source(file_.name(), ""), 0, 0},
+          format_count(fields_elsewhere_) + " fields that are neither of nodes nor of cells are left out");
     return std::move(results_);
   }
 
@@ -250,7 +254,10 @@ class XdmfReader {
     ResultField field;
     set_name(field, file_.attribute(attribute, "Name").value_or("values"));
     const std::string_view centre = file_.attribute(attribute, "Center").value_or("Node");
-    if (centre != "Node" && centre != "Cell") return;
+    if (centre != "Node" && centre != "Cell") {
+      ++fields_elsewhere_;
+      return;
+    }
     field.is_of_elements = centre == "Cell";
     field.values = numbers_of(attribute);
     const size_t count = field.is_of_elements ? is_kept_.size() : results_.points.size();
@@ -283,7 +290,8 @@ class XdmfReader {
   const std::optional<ResultsFile>& numbers_;
   uint64_t step_ = 0;  // number of the step, or 0
   Results results_;
-  std::vector<bool> is_kept_;  // by element of the file: false if it has no volume
+  uint64_t fields_elsewhere_ = 0;  // with values at edges, faces or the whole grid
+  std::vector<bool> is_kept_;      // by element of the file: false if it has no volume
 };
 
 }  // namespace

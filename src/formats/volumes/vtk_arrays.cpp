@@ -78,9 +78,7 @@ void VtkArrays::read_settings(xml_node root) {
   has_long_headers_ = file_.attribute(root, "header_type").value_or("UInt32") == "UInt64";
   const std::string_view compressor = file_.attribute(root, "compressor").value_or("");
   is_packed_ = !compressor.empty();
-  if (is_packed_ && compressor != "vtkZLibDataCompressor")
-    file_.fail_at(root, "numbers packed by " + formats::quoted(compressor) + " are not read",
-                  "save with zlib or without packing");
+  if (is_packed_ && compressor != "vtkZLibDataCompressor") foreign_compressor_ = compressor;
 }
 
 VtkArrays::Kind VtkArrays::kind_of(xml_node array) const {
@@ -201,6 +199,9 @@ std::string VtkArrays::array_bytes(xml_node array, std::string_view text, bool i
 // Decompresses blocks of equal size, except the last. The header contains their number, their size, the size of the
 // last one, and the compressed size of each.
 std::string VtkArrays::unpacked_blocks(xml_node array, std::string_view text, bool is_base64, uint64_t size) const {
+  if (!foreign_compressor_.empty())
+    file_.fail_at(array, "numbers packed by " + formats::quoted(foreign_compressor_) + " are not read",
+                  "save with zlib (vtkZLibDataCompressor) or without packing");
   std::string_view ahead = text;
   const uint64_t blocks = header(take(array, ahead, is_base64, header_bytes()), 0);
   if (blocks > text.size()) file_.fail_at(array, "the array is cut off");

@@ -56,6 +56,7 @@ class VtkArrays {
 
   Parts parts_;
   XmlFile file_;
+  std::string foreign_compressor_;  // one that is not read; it does not matter for numbers as text
   bool is_swapped_ = false, has_long_headers_ = false, is_packed_ = false;
 };
 
