@@ -246,10 +246,10 @@ def phases_are_chosen(folder):
             one = change(write_series(folder / f"{name}{phase}", phantom() + 100 * phase), **{name: lambda k: phase + 1})
             for file in one.iterdir():
                 (both / f"{phase}{file.name}").write_bytes(file.read_bytes())
-        fails(both, "holds 2 volumes at the same places", "phase=0:", "phase=1:", "choose one by phase=0, up to 1")
-        fails(both, "has no phase 2", options=", phase=2")
+        fails(both, "holds 2 volumes at the same places", "phase=1:", "phase=2:", "choose one by phase=1, up to 2")
+        fails(both, "has no phase 3", options=", phase=3")
         for phase in range(2):
-            compare(both, lps_affine(), f", phase={phase}", phantom() + 100 * phase)
+            compare(both, lps_affine(), f", phase={phase + 1}", phantom() + 100 * phase)
 
 
 def steps_may_be_rounded(folder):

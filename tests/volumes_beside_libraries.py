@@ -182,7 +182,7 @@ def with_tifffile(tifffile, comparison, folder):
             "axes": "TZCYX", "spacing": 3, "unit": "mm"})
         for frame, channel in itertools.product(range(2), range(2)):
             comparison.compare(path, upwards(stack[frame, :, channel]), [0.5, 0.25, 3],
-                               f", channel={channel}, phase={frame}")
+                               f", channel={channel}, phase={frame + 1}")
     for axes, shape in (("TCZYX", (2, 3, 4, 4, 5)), ("TZCYX", (2, 4, 3, 4, 5)), ("CTZYX", (3, 2, 4, 4, 5)),
                         ("ZCTYX", (4, 3, 2, 4, 5)), ("CZTYX", (3, 4, 2, 4, 5)), ("ZTCYX", (4, 2, 3, 4, 5))):
         stack = made_array("u2", shape)
@@ -193,7 +193,7 @@ def with_tifffile(tifffile, comparison, folder):
         ordered = np.moveaxis(stack, [axes.index("T"), axes.index("C"), axes.index("Z")], [0, 1, 2])
         for frame, channel in itertools.product(range(2), range(3)):
             comparison.compare(path, upwards(ordered[frame, channel]), [0.5, 0.25, 3],
-                               f", channel={channel}, phase={frame}")
+                               f", channel={channel}, phase={frame + 1}")
     for kind, compression in itertools.product(("u1", "i1", "u2", "i2", "u4", "i4", "f2", "f4", "f8", "u8", "i8"),
                                                (None, "zlib")):
         stack = made_array(kind, (3, 4, 5))

@@ -212,7 +212,7 @@ struct VolumeRequest {
   int channel = -1;          // number, from 0, of one of several values per voxel; -1 if there is only one
   std::string segment = {};  // name of a segment of a segmentation, which determines the channel; empty for none
   int64_t label = -1;        // number of the wanted label, if there is one; `load` sets that of a segment
-  int phase = -1;            // number, from 0, of one of several volumes at the same place; -1 if there is only one
+  int phase = 0;             // number, from 1, of one of several volumes at the same place; 0 if there is only one
   bool are_labels = false;   // true where images with a palette give indices
   bool is_regular = false;   // true where slices at uneven distances are resampled
   std::optional<double> nan = {};      // the number in place of NaN, which is an error without it

@@ -80,10 +80,10 @@ TEST_F(Dicom, PhasesAreChosen) {
       put(file);
     }
   EXPECT_EQ(failure(),
-            "the scan \"scan\" holds 2 volumes at the same places: phase=0: temporal position 1; phase=1: "
-            "temporal position 2; choose one by phase=0, up to 1");
-  EXPECT_EQ(read({.phase = 1}).whole, (std::vector<int16_t>{2, 0, 2, 0, 2, 0}));
-  EXPECT_NE(failure({.phase = 2}).find("has no phase 2; 0 to 1 are there"), std::string::npos);
+            "the scan \"scan\" holds 2 volumes at the same places: phase=1: temporal position 1; phase=2: "
+            "temporal position 2; choose one by phase=1, up to 2");
+  EXPECT_EQ(read({.phase = 2}).whole, (std::vector<int16_t>{2, 0, 2, 0, 2, 0}));
+  EXPECT_NE(failure({.phase = 3}).find("has no phase 3; 1 to 2 are there"), std::string::npos);
 }
 
 TEST_F(Dicom, PlacesWithOtherPhasesAreAnError) {

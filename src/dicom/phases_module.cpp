@@ -78,7 +78,7 @@ std::string list_of_phases(const Place& place, const std::vector<size_t>& keys) 
   constexpr size_t most_listed = 20;
   std::string text;
   for (size_t n = 0; n < std::min(place.size(), most_listed); ++n)
-    text += (n > 0 ? "; " : "") + std::string("phase=") + std::to_string(n) + ": " + text_of_phase(place[n], keys);
+    text += (n > 0 ? "; " : "") + std::string("phase=") + std::to_string(n + 1) + ": " + text_of_phase(place[n], keys);
   return text + (place.size() > most_listed ? " and more" : "");
 }
 
@@ -100,17 +100,17 @@ PhaseResult frames_of_phase(const std::string& name, std::vector<Frame> frames, 
     fail("holds " + std::to_string(count) + " volumes at some places and " + std::to_string(least->size()) +
          " at others: " + list_of_phases(*most, keys) + "; put the files of one volume into a folder of their own");
   const bool has_phases = count > 1 && !is_repeated;
-  if (has_phases && phase < 0)
+  if (has_phases && phase == 0)
     fail("holds " + std::to_string(count) + " volumes at the same places: " + list_of_phases(*most, keys) +
-         "; choose one by phase=0, up to " + std::to_string(count - 1));
+         "; choose one by phase=1, up to " + std::to_string(count));
   const size_t phases = has_phases ? count : 1;
-  if (phase >= static_cast<int>(phases))
-    fail("has no phase " + std::to_string(phase) + "; 0 " +
-         (has_phases ? "to " + std::to_string(phases - 1) + " are" : "is") + " there");
+  if (phase > static_cast<int>(phases))
+    fail("has no phase " + std::to_string(phase) + "; 1 " +
+         (has_phases ? "to " + std::to_string(phases) + " are" : "is") + " there");
   for (Place& place : places) {
     if (is_repeated && place.size() > 1 && result.doubles == 0) result.first_double = place[1].path;
     if (is_repeated) result.doubles += place.size() - 1;
-    result.frames.push_back(std::move(place[static_cast<size_t>(std::max(phase, 0))]));
+    result.frames.push_back(std::move(place[static_cast<size_t>(std::max(phase, 1) - 1)]));
   }
   return result;
 }

@@ -28,7 +28,7 @@ struct Series {
 
 struct SeriesChoice {
   std::string series = {};             // number or UID of one of several series; empty for the only one
-  int phase = -1;                      // one of several volumes at the same places, from 0; -1 for the only one
+  int phase = 0;                       // one of several volumes at the same places, from 1; 0 for the only one
   int64_t label = -1;                  // the only label of a segmentation that is wanted; -1 for all
   bool is_regular = false;             // resamples slices at uneven distances linearly
   std::optional<double> outside = {};  // the value of padding; else the least of the others

@@ -22,16 +22,25 @@ std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "" : text + ")";
 }
 
+// A parameter that chooses one of several. Its numbers begin with `first`; a smaller one chooses nothing.
+struct Choice {
+  const char *what, *parameter;
+  int first;
+};
+constexpr Choice of_channels{"channels", "channel", 0}, of_frames{"frames in time", "phase", 1};
+
 // Returns the chosen one of several, from 0.
-int64_t chosen(const std::string& path, const char* what, const char* parameter, int64_t count, int wanted,
+int64_t chosen(const std::string& path, const Choice& choice, int64_t count, int wanted,
                const std::string& names = "") {
-  if (count > 1 && wanted < 0)
-    fail(path, "has " + std::to_string(count) + ' ' + what + names + "; choose one by " + parameter + "=0, up to " +
-                   std::to_string(count - 1));
-  if (wanted >= count)
-    fail(path, std::string("has no ") + parameter + ' ' + std::to_string(wanted) + "; 0 " +
-                   (count > 1 ? "to " + std::to_string(count - 1) + " are" : "is") + " there");
-  return std::max(wanted, 0);
+  const auto [what, parameter, first] = choice;
+  const int64_t last = first + count - 1;
+  if (count > 1 && wanted < first)
+    fail(path, "has " + std::to_string(count) + ' ' + what + names + "; choose one by " + parameter + '=' +
+                   std::to_string(first) + ", up to " + std::to_string(last));
+  if (wanted > last)
+    fail(path, std::string("has no ") + parameter + ' ' + std::to_string(wanted) + "; " + std::to_string(first) + ' ' +
+                   (count > 1 ? "to " + std::to_string(last) + " are" : "is") + " there");
+  return std::max(wanted - first, 0);
 }
 
 // ImageJ's unit of length is also that of the pages' resolution.
@@ -66,7 +75,7 @@ ChosenPages chosen_pages(const std::string& path, const tiff::Document& document
                                                      : " pages that are thumbnails or masks; they are left out"));
   const auto axes = formats::page_axes(path, document.description);
   if (!axes) {
-    chosen(path, "frames", "phase", 1, choice.phase);
+    chosen(path, of_frames, 1, choice.phase);
     result.pages.resize(document.pages.size());
     std::iota(result.pages.begin(), result.pages.end(), size_t{0});
     return result;
@@ -74,11 +83,11 @@ ChosenPages chosen_pages(const std::string& path, const tiff::Document& document
   check_pages(path, *axes, document.pages.size());
   const auto values = static_cast<int>(document.pages.front().channels);
   const bool has_channels = axes->channels > 1;
-  const int64_t channel = !has_channels ? 0
-                                        : chosen(path, "channels", "channel", axes->channels * values, choice.channel,
-                                                 listed(axes->channel_names)) /
-                                              values;
-  const int64_t frame = chosen(path, "frames in time", "phase", axes->frames, choice.phase);
+  const int64_t channel =
+      !has_channels
+          ? 0
+          : chosen(path, of_channels, axes->channels * values, choice.channel, listed(axes->channel_names)) / values;
+  const int64_t frame = chosen(path, of_frames, axes->frames, choice.phase);
   if (has_channels) result.channel = values > 1 ? choice.channel % values : -1;
   for (int64_t slice = 0; slice < axes->slices; ++slice) {
     const auto plane = static_cast<size_t>(axes->plane(slice, channel, frame));

@@ -16,7 +16,7 @@ tiff::Document imagej_stack(size_t pages, const std::string& axes, double pixels
   return document;
 }
 
-formats::VolumeChoice choice_of(int channel, int phase = -1) {
+formats::VolumeChoice choice_of(int channel, int phase = 0) {
   formats::VolumeChoice choice;
   choice.channel = channel;
   choice.phase = phase;
@@ -41,12 +41,12 @@ TEST(TiffStack, PagesWithoutADescriptionAreSlices) {
 
 TEST(TiffStack, OneChannelOfAHyperstackIsChosen) {
   const tiff::Document document = imagej_stack(12, "channels=2\nslices=3\nframes=2\n");
-  EXPECT_EQ(chosen_pages("v.tif", document, choice_of(1, 0)).pages, (std::vector<size_t>{1, 3, 5}));
-  EXPECT_EQ(chosen_pages("v.tif", document, choice_of(0, 1)).pages, (std::vector<size_t>{6, 8, 10}));
+  EXPECT_EQ(chosen_pages("v.tif", document, choice_of(1, 1)).pages, (std::vector<size_t>{1, 3, 5}));
+  EXPECT_EQ(chosen_pages("v.tif", document, choice_of(0, 2)).pages, (std::vector<size_t>{6, 8, 10}));
   EXPECT_EQ(stack_problem(document), "the volume \"v.tif\" has 2 channels; choose one by channel=0, up to 1");
   EXPECT_EQ(stack_problem(document, choice_of(0)),
-            "the volume \"v.tif\" has 2 frames in time; choose one by phase=0, up to 1");
-  EXPECT_EQ(stack_problem(document, choice_of(2, 0)), "the volume \"v.tif\" has no channel 2; 0 to 1 are there");
+            "the volume \"v.tif\" has 2 frames in time; choose one by phase=1, up to 2");
+  EXPECT_EQ(stack_problem(document, choice_of(2, 1)), "the volume \"v.tif\" has no channel 2; 0 to 1 are there");
 }
 
 // ImageJ writes pixels for each unit of length, and the distance between slices in that unit.
@@ -60,7 +60,7 @@ TEST(TiffStack, LengthsHaveTheUnitOfTheDescription) {
 TEST(TiffStack, MissingPagesAreAnError) {
   tiff::Document document = imagej_stack(12, "channels=2\nslices=3\nframes=2\n");
   document.pages.pop_back();
-  EXPECT_NE(stack_problem(document, choice_of(0, 0)).find("has 11 pages, where its description gives 12"),
+  EXPECT_NE(stack_problem(document, choice_of(0, 1)).find("has 11 pages, where its description gives 12"),
             std::string::npos);
 }
 

@@ -188,7 +188,7 @@ void check_no_channel(const std::string& path, int channel) {
 }
 
 void check_no_phase(const std::string& path, int phase) {
-  if (phase > 0)
+  if (phase > 1)
     throw Error(Code::file_content,
                 "the volume \"" + path + "\" has no phase " + std::to_string(phase) +
                     "; volumes in time are chosen by channel=0 in files other than DICOM and TIFF",

@@ -84,7 +84,7 @@ struct VolumeChoice {
   std::string name;                // name of one of several arrays; empty if there is only one
   int channel = -1;                // counted from 0; -1 if there is only one
   std::optional<double> nan = {};  // the number in place of NaN; without it, NaN is an error
-  int phase = -1;                  // one of several volumes at the same place, counted from 0; -1 if there is only one
+  int phase = 0;                   // one of several volumes at the same place, counted from 1; 0 if there is only one
   bool are_labels = false;         // true where images with a palette give indices
   int64_t label = -1;              // the only label that is wanted; -1 for all
   bool is_regular = false;         // true where slices at uneven distances are resampled

@@ -11,7 +11,7 @@ struct VolumePlace {
   std::optional<Vec3> spacing, origin;
   design::Choice space = "file";
   std::string series;
-  int voxel_channel = -1, phase = -1;
+  int voxel_channel = -1, phase = 0;
   bool is_regular = false;
   std::optional<double> nan;
   std::shared_ptr<const design::VolumeGrid> grid;  // read when the node is made
@@ -51,9 +51,9 @@ struct VolumePlace {
         "Index of one of several values per voxel, from 0; -1: the only one, or the length of vectors in a .vdb file",
         design::from_to(-1, 100000));
     all.emplace_back("phase", own(&VolumePlace::phase),
-                     "Index, from 0, of one of several volumes at the same place, such as the times of a scan; -1: the "
+                     "Number, from 1, of one of several volumes at the same place, such as the times of a scan; 0: the "
                      "only one",
-                     design::from_to(-1, 100000));
+                     design::from_to(0, 100000));
     all.emplace_back("nan", own(&VolumePlace::nan),
                      "Value in place of NaN (no number) in the file; none: NaN is an error");
     all.emplace_back(
