@@ -53,8 +53,10 @@ void list_formats(const Session& session) {
 // A table of what the readers refuse and leave out.
 std::string limits_of_readers() {
   std::string text =
-      "\n## What is not read\n\nWhat could change shape, place, number or material and is not understood is an error. "
-      "What is left out is warned\nof once, with its count, where it could matter.\n\n| format | an error | left out "
+      "\n## Contents that are not read\n\nContent that could change shape, place, number or material and is not "
+      "understood "
+      "is an error. Readers warn once\nof content that they leave out and that could matter, with its count.\n\n| "
+      "format | an error | left out "
       "|\n| --- | --- | --- |\n";
   for (const FileFormat& format : sources::file_formats()) {
     if (format.refused.empty() && format.left_out.empty()) continue;

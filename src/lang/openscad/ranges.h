@@ -23,7 +23,7 @@ inline double element_count(const Range& range) {
   return count > endless ? endless : count;
 }
 
-// What decides how ranges compare: empty ones are equal, and less than others.
+// Returns the numbers by which ranges compare: empty ranges are equal, and less than others.
 inline std::array<double, 3> order_key(const Range& range) {
   const double count = element_count(range);
   if (count == 0) return {-std::numeric_limits<double>::infinity(), 0, 0};

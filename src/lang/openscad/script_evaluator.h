@@ -129,7 +129,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   [[noreturn]] void stop(std::string text, const ast::Span& where, Code code = Code::script);
   void trace(const std::string& name, const ast::Span& where);
   void trace(const EnteredCalls& entered);
-  // At a limit of what values may hold: throws Stopped if a recursion that does not end has led to it.
+  // Throws Stopped if a recursion that does not end has led to a limit of what values may hold.
   void stop_if_recursive(const EnteredCalls& entered);
   void say_recursion(const ast::Call& call);
   void trace(const ast::Statement& statement);
