@@ -16,13 +16,13 @@ constexpr size_t most_files = 1000;
 
 }  // namespace
 
-ResultFiles::ResultFiles(const std::string& path, std::string_view bytes, const Read& read)
-    : folder_(fs::path(path).parent_path().string()) {
+ResultFiles::ResultFiles(const std::string& path, std::string_view bytes, uint64_t step, const Read& read)
+    : folder_(fs::path(path).parent_path().string()), step_(step) {
   add(path, bytes, "", read);
 }
 
 void ResultFiles::add(const std::string& path, std::string_view bytes, const std::string& own_name, const Read& read) {
-  for (const std::string& written : formats::files_named_in(path, bytes, own_name)) {
+  for (const std::string& written : formats::files_named_in(path, bytes, step_, own_name)) {
     const bool is_known = std::ranges::find(files_, written, &formats::ResultsFile::written) != files_.end();
     if (is_known || files_.size() >= most_files) continue;
     const std::string named = (fs::path(folder_) / written).lexically_normal().string();
@@ -41,18 +41,18 @@ std::optional<formats::Results> read_results(const std::string& path, Diagnostic
     return std::make_shared<const std::string>(formats::read_file(file));
   };
   const std::string bytes = formats::read_file(path), numbers = numbers_beside(path);
-  const ResultFiles named(path, bytes, bytes_of);
+  const ResultFiles named(path, bytes, 0, bytes_of);
   const auto values = numbers.empty() ? nullptr : bytes_of(numbers);
   formats::ResultsBeside beside{{}, named.files()};
   if (values) beside.values = formats::ResultsFile{numbers, *values};
   return formats::read_results(path, bytes, beside, diagnostics);
 }
 
-ResultFiles result_files(design::FilePath& file, Loading& loading) {
-  if (!formats::may_name_files(file.path)) return {file.path, "", nullptr};
+ResultFiles result_files(design::FilePath& file, uint64_t step, Loading& loading) {
+  if (!formats::may_name_files(file.path)) return {file.path, "", step, nullptr};
   Key content("file and those that it names");
   content.add(file.content);
-  ResultFiles files(file.path, *loading.bytes(file),
+  ResultFiles files(file.path, *loading.bytes(file), step,
                     [&](const std::string& named) -> std::shared_ptr<const std::string> {
                       design::FilePath other{named, {}};
                       std::error_code ignored;

@@ -20,7 +20,7 @@ class ResultFiles {
 
   // Reads the files that this one names, and those that they name. Paths begin in the folder of the first one. The
   // reader of the format reports those that are missing.
-  ResultFiles(const std::string& path, std::string_view bytes, const Read& read);
+  ResultFiles(const std::string& path, std::string_view bytes, uint64_t step, const Read& read);
 
   const std::vector<formats::ResultsFile>& files() const { return files_; }
 
@@ -29,6 +29,7 @@ class ResultFiles {
   void add(const std::string& path, std::string_view bytes, const std::string& own_name, const Read& read);
 
   std::string folder_;
+  uint64_t step_;
   std::vector<std::shared_ptr<const std::string>> bytes_;
   std::vector<formats::ResultsFile> files_;
 };
@@ -37,6 +38,6 @@ class ResultFiles {
 // invalid. Throws Error if it cannot be read.
 std::optional<formats::Results> read_results(const std::string& path, Diagnostics& diagnostics);
 // Reads the files for a design. The content of `file`, which must be known, becomes that of all of them.
-ResultFiles result_files(design::FilePath& file, Loading& loading);
+ResultFiles result_files(design::FilePath& file, uint64_t step, Loading& loading);
 
 }  // namespace ombre::sources

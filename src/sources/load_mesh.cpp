@@ -182,7 +182,7 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   FilePath numbers{sources::numbers_beside(file.path), {}};
   const bool has_numbers = !numbers.path.empty();
   if (!loading.read_content(file) || (has_numbers && !loading.read_content(numbers))) return nullptr;
-  const sources::ResultFiles named = sources::result_files(file, loading);
+  const sources::ResultFiles named = sources::result_files(file, static_cast<uint64_t>(step), loading);
   if (has_numbers) file.content = sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash();
   sources::Key key("mesh");
   key.add(file.content).add(deform).add(step).add(ending_of(file.path)).add(use.inside.text());

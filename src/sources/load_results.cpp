@@ -142,7 +142,7 @@ std::shared_ptr<const ResultNumbers> ResultsRequest::load(Loading& loading) {
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   if (values.path.empty()) values.path = sources::numbers_beside(file.path);
   if (!values.path.empty() && (!loading.find(values) || !loading.read_content(values))) return nullptr;
-  const sources::ResultFiles named = sources::result_files(file, loading);
+  const sources::ResultFiles named = sources::result_files(file, static_cast<uint64_t>(step), loading);
   const auto loaded = results_of(*this, named, loading);
   const formats::ResultField* wanted = loaded ? field_of(loaded->results(), *this, loading.reader()) : nullptr;
   if (!wanted || !fits_rule(*this, *loaded, loading.reader())) return nullptr;

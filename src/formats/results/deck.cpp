@@ -187,7 +187,7 @@ void read_cards(const std::string& name, std::string_view bytes, const std::vect
   listener.end();
 }
 
-std::vector<std::string> files_named_in_deck(std::string_view bytes) {
+std::vector<std::string> files_named_in_deck(std::string_view bytes, uint64_t) {
   std::vector<std::string> names;
   Cards cards(
       [&](const Keyword& keyword) {

@@ -57,6 +57,6 @@ void read_cards(const std::string& name, std::string_view bytes, const std::vect
                 DeckListener& listener, Diagnostics& diagnostics);
 
 // Returns the names of files in a deck, as they are written there.
-std::vector<std::string> files_named_in_deck(std::string_view bytes);
+std::vector<std::string> files_named_in_deck(std::string_view bytes, uint64_t step = 0);
 
 }  // namespace ombre::formats

@@ -1,6 +1,7 @@
 #include "formats/results/named_grids.h"
 
 #include <filesystem>
+#include <map>
 
 #include "base/text/text.h"
 
@@ -22,16 +23,13 @@ std::string attribute_in(std::string_view tag, std::string_view name) {
   return "";
 }
 
-// The files are searched without building a tree of elements: the names are needed in builds without XML, too, where
-// bundles contain them.
-std::vector<std::string> names_in(std::string_view bytes, std::string_view element, std::string_view attribute) {
-  std::vector<std::string> names;
-  for (size_t at = bytes.find(element); at != std::string_view::npos; at = bytes.find(element, at + 1)) {
-    const std::string_view tag = bytes.substr(at, bytes.find('>', at) - at);
-    const std::string name = attribute_in(tag, attribute);
-    if (!name.empty()) names.push_back(name);
-  }
-  return names;
+// Returns the tags of an element. The files are searched without building a tree of elements: the names are needed in
+// builds without XML, too, where bundles contain them.
+std::vector<std::string_view> tags_of(std::string_view bytes, std::string_view element) {
+  std::vector<std::string_view> tags;
+  for (size_t at = bytes.find(element); at != std::string_view::npos; at = bytes.find(element, at + 1))
+    tags.push_back(bytes.substr(at, bytes.find('>', at) - at));
+  return tags;
 }
 
 bool begins_with(std::string_view bytes, std::string_view type) {
@@ -47,8 +45,21 @@ bool begins_with(std::string_view bytes, std::string_view type) {
 bool is_pvd(std::string_view bytes) { return begins_with(bytes, "Collection"); }
 bool is_pvtu(std::string_view bytes) { return begins_with(bytes, "PUnstructuredGrid"); }
 
-std::vector<std::string> files_named_in_pvd(std::string_view bytes) { return names_in(bytes, "<DataSet", "file"); }
-std::vector<std::string> files_named_in_pvtu(std::string_view bytes) { return names_in(bytes, "<Piece", "Source"); }
+std::vector<std::string> files_named_in_pvd(std::string_view bytes, uint64_t step) {
+  std::map<double, std::vector<std::string>> steps;
+  for (const std::string_view tag : tags_of(bytes, "<DataSet"))
+    if (std::string name = attribute_in(tag, "file"); !name.empty())
+      steps[parse_number(attribute_in(tag, "timestep")).value_or(0)].push_back(std::move(name));
+  if (steps.empty() || step > steps.size()) return {};
+  return std::next(steps.begin(), static_cast<ptrdiff_t>(step == 0 ? steps.size() - 1 : step - 1))->second;
+}
+
+std::vector<std::string> files_named_in_pvtu(std::string_view bytes, uint64_t) {
+  std::vector<std::string> names;
+  for (const std::string_view tag : tags_of(bytes, "<Piece"))
+    if (std::string name = attribute_in(tag, "Source"); !name.empty()) names.push_back(std::move(name));
+  return names;
+}
 
 std::string name_beside(const std::string& written, const std::string& name) {
   if (written.empty()) return name;

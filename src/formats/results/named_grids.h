@@ -1,6 +1,7 @@
 // Files of VTK that name grids in other files.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +13,8 @@ bool is_pvd(std::string_view bytes);
 bool is_pvtu(std::string_view bytes);
 
 // Returns the names of the files, as they are written there.
-std::vector<std::string> files_named_in_pvd(std::string_view bytes);
-std::vector<std::string> files_named_in_pvtu(std::string_view bytes);
+std::vector<std::string> files_named_in_pvd(std::string_view bytes, uint64_t step);
+std::vector<std::string> files_named_in_pvtu(std::string_view bytes, uint64_t step);
 
 // Returns the name of a file that `written`, itself named by another file, names beside itself, as that other file
 // would write it. Returns the name itself if `written` is empty.

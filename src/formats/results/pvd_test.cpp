@@ -8,7 +8,7 @@
 namespace ombre::formats {
 namespace {
 
-std::string array(const std::string& type, const std::string& name, const std::string& numbers) {
+std::string typed_array(const std::string& type, const std::string& name, const std::string& numbers) {
   return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
          (name == "Points" ? "3" : "1") + "\" format=\"ascii\">" + numbers + "</DataArray>";
 }
@@ -18,10 +18,10 @@ std::string grid_at(int x, int value) {
   const std::string a = std::to_string(x), b = std::to_string(x + 1), v = ' ' + std::to_string(value);
   return "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid><Piece "
          "NumberOfPoints=\"4\" NumberOfCells=\"1\"><PointData>" +
-         array("Float64", "t", v + v + v + v) + "</PointData><Points>" +
-         array("Float64", "Points", a + " 0 0 " + b + " 0 0 " + a + " 1 0 " + a + " 0 1") + "</Points><Cells>" +
-         array("Int64", "connectivity", "0 1 2 3") + array("Int64", "offsets", "4") + array("UInt8", "types", "10") +
-         "</Cells></Piece></UnstructuredGrid></VTKFile>";
+         typed_array("Float64", "t", v + v + v + v) + "</PointData><Points>" +
+         typed_array("Float64", "Points", a + " 0 0 " + b + " 0 0 " + a + " 1 0 " + a + " 0 1") + "</Points><Cells>" +
+         typed_array("Int64", "connectivity", "0 1 2 3") + typed_array("Int64", "offsets", "4") +
+         typed_array("UInt8", "types", "10") + "</Cells></Piece></UnstructuredGrid></VTKFile>";
 }
 
 std::string collection_of(const std::string& sets) {
@@ -40,8 +40,11 @@ std::string pieces_of(const std::string& pieces) {
 TEST(Collections, StepsAndPartsAreJoined) {
   const std::string pvd = collection_of(set_of("10", "b.vtu") + set_of("2", "a.vtu") + set_of("10", "sub/c.pvtu"));
   const std::string pvtu = pieces_of("<Piece Source=\"d.vtu\"/><Piece Source='e.vtu'/>");
-  EXPECT_EQ(files_named_in("a.pvd", pvd), (std::vector<std::string>{"b.vtu", "a.vtu", "sub/c.pvtu"}));
-  EXPECT_EQ(files_named_in("x/sub/c.pvtu", pvtu, "sub/c.pvtu"), (std::vector<std::string>{"sub/d.vtu", "sub/e.vtu"}));
+  EXPECT_EQ(files_named_in("a.pvd", pvd), (std::vector<std::string>{"b.vtu", "sub/c.pvtu"}));
+  EXPECT_EQ(files_named_in("a.pvd", pvd, 1), (std::vector<std::string>{"a.vtu"}));
+  EXPECT_TRUE(files_named_in("a.pvd", pvd, 3).empty());
+  EXPECT_EQ(files_named_in("x/sub/c.pvtu", pvtu, 0, "sub/c.pvtu"),
+            (std::vector<std::string>{"sub/d.vtu", "sub/e.vtu"}));
   EXPECT_TRUE(may_name_files("a.pvd") && may_name_files("a.pvtu") && !may_name_files("a.vtu"));
   const std::string a = grid_at(0, 1), b = grid_at(0, 2), d = grid_at(1, 3), e = grid_at(2, 4);
   const std::vector<ResultsFile> files{{"b.vtu", b, "b.vtu"},
@@ -65,7 +68,7 @@ TEST(Collections, StepsAndPartsAreJoined) {
 
 TEST(Collections, CellsOfOtherPiecesAreLeftOut) {
   std::string ghost = grid_at(1, 1);
-  ghost.insert(ghost.find("<Points>"), "<CellData>" + array("UInt8", "vtkGhostType", "1") + "</CellData>");
+  ghost.insert(ghost.find("<Points>"), "<CellData>" + typed_array("UInt8", "vtkGhostType", "1") + "</CellData>");
   const std::string own = grid_at(0, 2), pvtu = pieces_of("<Piece Source=\"a.vtu\"/><Piece Source=\"b.vtu\"/>");
   Diagnostics diagnostics;
   const auto results =

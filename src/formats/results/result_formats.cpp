@@ -141,10 +141,11 @@ bool may_name_files(const std::string& path) {
                              [&](const ResultFormat& row) { return row.named && has_ending(path, row.file); });
 }
 
-std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes, const std::string& written) {
+std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes, uint64_t step,
+                                        const std::string& written) {
   for (const ResultFormat& row : result_formats()) {
     if (!row.named || !(has_ending(path, row.file) || row.recognises(bytes))) continue;
-    std::vector<std::string> names = row.named(bytes);
+    std::vector<std::string> names = row.named(bytes, step);
     if (row.names_beside_itself)
       for (std::string& name : names) name = name_beside(written, name);
     return names;

@@ -17,7 +17,7 @@ struct ResultFormat {
   Results (*read)(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics) = nullptr;
   // Returns the names of other files, for formats that have them.
-  std::vector<std::string> (*named)(std::string_view bytes) = nullptr;
+  std::vector<std::string> (*named)(std::string_view bytes, uint64_t step) = nullptr;
   bool names_beside_itself = false;  // names begin in the folder of the file that has them; else in that of the first
 };
 

@@ -77,9 +77,9 @@ std::optional<Results> read_results(const std::string& name, std::string_view by
 
 // Returns false if the ending of the path says that such a file names no others.
 bool may_name_files(const std::string& path);
-// Returns the names of other files in a file of results, as the first file would write them. `written` is the name of
-// this file in the one that names it; empty for the first.
-std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes,
+// Returns the names of other files that a step needs, as the first file would write them; step 0 is the last. `written`
+// is the name of this file in the one that names it; empty for the first.
+std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes, uint64_t step = 0,
                                         const std::string& written = "");
 
 }  // namespace ombre::formats
