@@ -1,7 +1,7 @@
 // What operators do with parts: a block cuts two parts, and a hole of one part spares the other.
 module two_parts() {
-  part("left") color("tomato") translate([-10, -5, 0]) cube([10, 10, 6]);
-  part("right") color("steelblue") translate([0, -5, 0]) cube([10, 10, 6]);
+  part("left") color("red") translate([-10, -5, 0]) cube([10, 10, 6]);
+  part("right") color("blue") translate([0, -5, 0]) cube([10, 10, 6]);
 }
 
 // A block without a part acts on both parts: half of each is left.
