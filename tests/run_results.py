@@ -155,6 +155,38 @@ def tables_are_read(folder):
     near(found["n"], 10, 0, "the nearest")
 
 
+def grid(side, value):
+    """A .vtu of one brick from the origin, with a value at its corners."""
+    array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}</DataArray>'.format
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    points = " ".join(str(side * x) for corner in corners for x in corner)
+    return (f'<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece NumberOfPoints="8" '
+            f'NumberOfCells="1"><PointData>{array("Float64", "heat", 1, f"{value} " * 8)}</PointData>'
+            f'<Points>{array("Float64", "Points", 3, points)}</Points>'
+            f'<Cells>{array("Int64", "connectivity", 1, "0 1 2 3 4 5 6 7")}{array("Int64", "offsets", 1, 8)}'
+            f'{array("UInt8", "types", 1, 12)}</Cells></Piece></UnstructuredGrid></VTKFile>')
+
+
+def steps_are_chosen(folder):
+    """Steps of a collection are sorted by time. A step is another mesh where its file has changed."""
+    folder.write("first.vtu", grid(2, 5))
+    folder.write("second.vtu", grid(3, 7))
+    sets = "".join(f'<DataSet timestep="{time}" file="{name}.vtu"/>' for time, name in ((9, "second"), (1, "first")))
+    folder.write("all.pvd", f'<VTKFile type="Collection"><Collection>{sets}</Collection></VTKFile>')
+    for step, heat in ((0, 7), (1, 5), (2, 7)):
+        found = folder.attributes(f'attribute("heat", results("all.pvd", step={step}).value) cube(2);', (0.5, 0.5, 0.5))
+        near(found[0]["heat"], heat, 1e-9, f"the value in step {step}")
+    for step, side in ((0, 3), (1, 2), (2, 3)):
+        folder.write("solid.vcad", f'mesh("all.pvd", red, step={step});')
+        expect(folder.voxels("solid.vcad", "0.5") == {"red": (2 * side)**3}, f"the voxels of step {step}")
+    folder.write("first.vtu", grid(1, 5))
+    folder.write("solid.vcad", 'mesh("all.pvd", red, step=1);')
+    expect(folder.voxels("solid.vcad", "0.5") == {"red": 8}, "the voxels of a step that has changed")
+    folder.write("solid.vcad", 'mesh("all.pvd", red, step=3);')
+    said = folder.run("slice", "solid.vcad", "--voxel", "0.5", "-o", "none", status=1).stderr
+    expect("there is no step 3; the file has 2 steps: 1 (time 1), 2 (time 9)" in said, said)
+
+
 def results_are_described(folder):
     folder.solve()
     text = folder.run("info", "cube.vtu").stdout
@@ -205,7 +237,8 @@ def wrong_use_is_reported(folder):
 
 
 CHECKS = [own_results_are_read_back, outside_is_as_requested, the_mesh_is_a_solid, coverage_is_reported,
-          bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, results_are_described, results_are_drawn, wrong_use_is_reported]
+          bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, steps_are_chosen, results_are_described,
+          results_are_drawn, wrong_use_is_reported]
 
 
 if __name__ == "__main__":
