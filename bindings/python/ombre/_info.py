@@ -21,6 +21,6 @@ def volume_info(path, series=None, channel=None, picture=None, force=False):
         picture: writes a picture of the three planes in the middle there.
         force: replaces a picture that is there.
     """
-    options = {"series": series, "channel": channel, "picture": picture, "force": force}
+    options = {"volume": True, "series": series, "channel": channel, "picture": picture, "force": force}
     report, _ = run("info", {"file": os.fspath(path)}, options)
     return dict(report)

@@ -9,10 +9,11 @@ namespace ombre::jobs {
 
 struct InfoChoices {
   std::string file;
-  std::string series;   // number or UID of one of several DICOM series, or name of one of several grids
-  int channel = -1;     // index of one of several values in each voxel; -1: there is one
-  std::string picture;  // file to write; empty: none
-  bool force = false;   // replaces an existing file
+  std::string series;      // number or UID of one of several DICOM series, or name of one of several grids
+  int channel = -1;        // index of one of several values in each voxel; -1: there is one
+  std::string picture;     // file to write; empty: none
+  bool as_volume = false;  // takes an image for a volume of one layer
+  bool force = false;      // replaces an existing file
 
   static const options::Spec<InfoChoices>& options() {
     using namespace options;
@@ -32,6 +33,7 @@ struct InfoChoices {
         option("--picture", &InfoChoices::picture, kind::file,
                "Write a picture of a volume to this file: the planes in its middle along x and y, x and z, y and z",
                "FILE"),
+        flag("--volume", &InfoChoices::as_volume, "Describe an image as a volume of one layer"),
         flag("--force", &InfoChoices::force, "Replace an existing picture")};
     return spec;
   }

@@ -142,7 +142,8 @@ int show_file(const InfoChoices& a, Session& session) {
   const std::string& path = a.file;
   if (path.ends_with(".scad")) return show_script(path, session);
   if (is_results(path)) return show_results(path, session);
-  if (const auto content = summarised_content(path); content && a.picture.empty())
+  const bool is_volume = a.as_volume || !a.picture.empty() || !a.series.empty() || a.channel >= 0;
+  if (const auto content = summarised_content(path); content && !is_volume)
     return show_summary(path, *content, session);
   return is_design(path) ? show_design(path, session) : show_volume(a, session);
 }
