@@ -12,6 +12,7 @@ void put(std::string& bytes, const T* values, size_t count) {
 
 template <class T>
 void take(std::string_view& bytes, T* values, size_t count) {
+  if (count == 0) return;
   std::memcpy(values, bytes.data(), count * sizeof(T));
   bytes.remove_prefix(count * sizeof(T));
 }

@@ -91,15 +91,16 @@ TriangleMesh turned_outward(TriangleMesh mesh) {
 std::optional<Solid> mended_solid(TriangleMesh mesh, const std::string& what, const SourceRange& where,
                                   Diagnostics& messages) {
   Mender mender(mesh, what, where, messages);
+  const auto warn = [&](const std::string& remark) { messages.warning(where, what + ' ' + remark); };
   for (bool is_mended = false;; is_mended = true) {
     std::string remark;
     try {
       Solid solid(kernel().body(mesh, false, remark));
-      if (!remark.empty()) messages.warning(where, what + ' ' + remark);
+      if (!remark.empty()) warn(remark);
       return solid;
     } catch (const Error& error) {
       if (error.code() == Code::surface_crosses) {
-        messages.warning(where, what + " stays as it is, and cannot be combined with other solids: " + error.what());
+        warn(std::string("stays as it is, and cannot be combined with other solids: ") + error.what());
         return Solid(turned_outward(std::move(mesh)));
       }
       const bool is_open = error.code() == Code::surface_open;

@@ -299,14 +299,14 @@ class Applier {
 
   // Says so if pieces of several colours become one piece, which has the colour of the first.
   void warn_of_colours(const std::string& name) const {
-    for (const PieceGroup& group : grouped(all(), matching())) {
-      const auto is_other = [&](const Piece& piece) {
+    const auto joins_colours = [](const PieceGroup& group) {
+      return std::ranges::any_of(group.members, [&](const Piece& piece) {
         return piece.dimension() != 0 && piece.attributes.colour && piece.attributes.colour != group.attributes.colour;
-      };
-      if (std::ranges::any_of(group.members, is_other))
-        return warn(name + "() joins shapes of several colours, and the result has the colour of the first; write " +
-                    name + "() for each colour, or semantics = \"strict\"");
-    }
+      });
+    };
+    if (std::ranges::any_of(grouped(all(), matching()), joins_colours))
+      warn(name + "() joins shapes of several colours, and the result has the colour of the first; write " + name +
+           "() for each colour, or semantics = \"strict\"");
   }
 
   const Tree& tree_;
