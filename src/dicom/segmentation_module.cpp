@@ -53,7 +53,7 @@ std::array<double, 3> colour_of_lab(const std::array<double, 3>& stored) {
   const auto cube = [](double t) { return t > 6.0 / 29 ? t * t * t : 3 * (6.0 / 29) * (6.0 / 29) * (t - 4.0 / 29); };
   const double y = (l + 16) / 116;
   const double xyz[] = {0.96422 * cube(y + a / 500), cube(y), 0.82521 * cube(y - b / 200)};
-  // From D50 to linear sRGB, adapted by Bradford's method (B. Lindbloom).
+  // The matrix leads from XYZ at D50 to linear sRGB, adapted by Bradford's method (B. Lindbloom).
   constexpr double matrix[3][3] = {
       {3.1338561, -1.6168667, -0.4906146}, {-0.9787684, 1.9161415, 0.0334540}, {0.0719453, -0.2289914, 1.4052427}};
   std::array<double, 3> colour{};

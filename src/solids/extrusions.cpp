@@ -154,8 +154,8 @@ class Extruder {
     }
   }
 
-  // Where the last slice is a line along an axis, its edges lie on each other in part. Cuts the triangles below them at
-  // all points of the line, so that each edge has its counterparts.
+  // Cuts the triangles below a last slice that is a line along an axis at all points of that line. The edges of such a
+  // slice lie on each other in part; cut, each has its counterparts.
   void cut_at_ridge(int axis) {
     std::map<double, uint32_t> ridge;
     for (uint32_t n = 0; n < count(); ++n) ridge.emplace(at(slices_, n)[axis], number(slices_, n));

@@ -174,7 +174,7 @@ TEST_F(Operations, CuttersThatMeetInEdgesEnd) {
                    4);
 }
 
-// At a height of share s, a square of 2 mm is 2 (1 - s) mm wide; the slot takes half of that along half of the ridge.
+// A square of 2 mm is 2 (1 - s) mm wide at a height of share s; the slot takes half of that along half of the ridge.
 TEST_F(Operations, RoofsEndInARidge) {
   const auto roof = [](Vec2 scale, const TreePtr& region) {
     LinearExtrude by;

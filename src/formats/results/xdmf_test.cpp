@@ -97,7 +97,7 @@ TEST(Xdmf, StepsOfACollection) {
       << to_text(diagnostics);
 }
 
-// As meshio writes series, with the mesh as a grid of its own, and as FEniCS does, with the mesh in the first step.
+// meshio writes series with the mesh as a grid of its own, FEniCS with the mesh in the first step.
 TEST(Xdmf, StepsThatIncludeTheirMesh) {
   const auto include = [](const std::string& grid) {
     return "<xi:include xpointer=\"xpointer(//Grid[@Name=&quot;" + grid + "/*[self::Topology or self::Geometry])\"/>";
