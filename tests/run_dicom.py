@@ -90,40 +90,7 @@ def broken_files_are_errors(folder):
         fails(one, str(one))
 
 
-def files_of_many_frames_are_read(folder):
-    """An enhanced CT image: all slices in one file, their places in sequences."""
-    meta = pydicom.dataset.FileMetaDataset()
-    meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2.1"
-    meta.MediaStorageSOPInstanceUID = pydicom.uid.generate_uid()
-    meta.TransferSyntaxUID = pydicom.uid.ExplicitVRLittleEndian
-    data = pydicom.dataset.FileDataset("frames", {}, file_meta=meta, preamble=b"\0" * 128)
-    data.is_little_endian, data.is_implicit_VR = True, False
-    data.SOPClassUID, data.SOPInstanceUID = meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID
-    data.Modality, data.SeriesInstanceUID, data.StudyInstanceUID = "CT", "1.2.826.0.1.9", "1.2.3"
-    data.Rows, data.Columns, data.NumberOfFrames = SHAPE[1], SHAPE[0], SHAPE[2]
-    data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
-    data.BitsAllocated, data.BitsStored, data.HighBit, data.PixelRepresentation = 16, 16, 15, 1
-
-    def item(name, **members):
-        inner, outer = pydicom.Dataset(), pydicom.Dataset()
-        for key, value in members.items():
-            setattr(inner, key, value)
-        setattr(outer, name, [inner])
-        return outer
-
-    shared = item("PixelMeasuresSequence", PixelSpacing=[SPACING[1], SPACING[0]], SliceThickness=SPACING[2])
-    shared.update(item("PlaneOrientationSequence", ImageOrientationPatient=[1, 0, 0, 0, 1, 0]))
-    shared.update(item("PixelValueTransformationSequence", RescaleIntercept=0, RescaleSlope=1, RescaleType="HU"))
-    data.SharedFunctionalGroupsSequence = [shared]
-    data.PerFrameFunctionalGroupsSequence = [
-        item("PlanePositionSequence", ImagePositionPatient=[ORIGIN[0], ORIGIN[1], ORIGIN[2] + SPACING[2] * k])
-        for k in range(SHAPE[2])]
-    data.PixelData = phantom().transpose(2, 1, 0).astype("<i2").tobytes()
-    data.save_as(folder / "frames.dcm", write_like_original=False)
-    compare(folder / "frames.dcm", lps_affine())
-
-
 if __name__ == "__main__":
     run([series_are_read_in_their_places, packed_series_are_the_same, scales_are_applied, oblique_series_are_read,
          of_several_series_one_is_chosen, missing_slices_are_an_error, slices_that_come_twice_are_left_out,
-         what_is_no_image_is_passed_over, broken_files_are_errors, files_of_many_frames_are_read])
+         what_is_no_image_is_passed_over, broken_files_are_errors])

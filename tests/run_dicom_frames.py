@@ -76,6 +76,7 @@ def enhanced(path, order=range(SHAPE[2]), slopes=None, syntax=pydicom.uid.Explic
 
 
 def frames_lie_where_their_groups_say(folder):
+    compare(enhanced(folder / "plain.dcm"), lps_affine())
     compare(enhanced(folder / "shuffled.dcm", (3, 0, 5, 1, 4, 2)), lps_affine())
     compare(enhanced(folder / "back.dcm", range(SHAPE[2] - 1, -1, -1)), lps_affine())
     compare(enhanced(folder / "implicit.dcm", syntax=pydicom.uid.ImplicitVRLittleEndian), lps_affine())
