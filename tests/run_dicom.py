@@ -6,8 +6,6 @@
 import subprocess
 
 import numpy as np
-import pydicom
-import pydicom.uid
 
 from scans import ORIGIN, SERIES, SHAPE, SPACING, compare, fails, lps_affine, phantom, run, write_series, write_slice
 
