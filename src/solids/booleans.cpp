@@ -75,7 +75,7 @@ Solid gathered(const std::vector<Solid>& solids) {
     all.points.insert(all.points.end(), mesh.points.begin(), mesh.points.end());
     for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
   }
-  return Solid(std::move(all));
+  return Solid(std::move(all), std::ranges::any_of(solids, &Solid::crosses_itself));
 }
 
 Solid side_by_side(std::vector<Solid> solids) {
@@ -149,7 +149,7 @@ Solid subtract(const Solid& from, std::vector<Solid> others, const Work& work) {
 Solid moved(const Solid& solid, const Affine& map) {
   if (solid.is_empty() || map.is_identity()) return solid;
   if (solid.is_exact()) return Solid(kernel().moved(*solid.body(), map));
-  return Solid(moved(solid.mesh(), map));
+  return Solid(moved(solid.mesh(), map), solid.crosses_itself());
 }
 
 Solid hull(const std::vector<Solid>& solids) {

@@ -34,6 +34,8 @@ class Kernel {
   // Returns the body of a closed mesh without repeated points. An untrusted mesh is also checked for self-intersections
   // and turned outward; `remark` then says what was changed.
   virtual BodyPtr body(const TriangleMesh& mesh, bool is_trusted, std::string& remark) const = 0;
+  // Returns the body of all points with a winding number other than 0 in a closed mesh that may cross itself.
+  virtual BodyPtr wound(const TriangleMesh& mesh) const = 0;
   virtual BodyPtr moved(const Body& body, const Affine& map) const = 0;
   virtual BodyPtr combine(Boolean operation, const Body& a, const Body& b) const = 0;
   // Returns the union of bodies whose boxes do not meet.

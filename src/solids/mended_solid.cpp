@@ -100,8 +100,10 @@ std::optional<Solid> mended_solid(TriangleMesh mesh, const std::string& what, co
       return solid;
     } catch (const Error& error) {
       if (error.code() == Code::surface_crosses) {
-        warn(std::string("stays as it is, and cannot be combined with other solids: ") + error.what());
-        return Solid(turned_outward(std::move(mesh)));
+        warn(
+            "crosses itself; it stays as it is, and where it is combined with others, a point is inside if the surface "
+            "winds around it");
+        return Solid(turned_outward(std::move(mesh)), true);
       }
       const bool is_open = error.code() == Code::surface_open;
       if (is_open && !is_mended && (mender.join_corners() || mender.fill_holes())) continue;

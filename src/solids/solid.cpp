@@ -91,9 +91,11 @@ struct Solid::State {
   std::optional<TriangleMesh> mesh;
   BodyPtr body;
   Box bounds;
+  bool crosses_itself = false;
 };
 
-Solid::Solid(TriangleMesh mesh) : state_(std::make_shared<State>()) {
+Solid::Solid(TriangleMesh mesh, bool crosses_itself) : state_(std::make_shared<State>()) {
+  state_->crosses_itself = crosses_itself;
   state_->bounds = bounds_of(mesh);
   state_->mesh = std::move(mesh);
 }
@@ -114,9 +116,12 @@ const TriangleMesh& Solid::mesh() const {
 const BodyPtr& Solid::body() const {
   const std::lock_guard lock(state_->mutex);
   std::string remark;
+  if (!state_->body && state_->crosses_itself) state_->body = kernel().wound(*state_->mesh);
   if (!state_->body) state_->body = kernel().body(*state_->mesh, true, remark);
   return state_->body;
 }
+
+bool Solid::crosses_itself() const { return state_->crosses_itself; }
 
 bool Solid::is_exact() const {
   const std::lock_guard lock(state_->mutex);

@@ -19,16 +19,18 @@ namespace ombre::solids {
 // is constructed from a mesh or from a body of the kernel, and converted to the other on demand.
 class Solid {
  public:
-  explicit Solid(TriangleMesh mesh);
+  // The mesh is closed. If it crosses itself, its body is all points with a winding number other than 0.
+  explicit Solid(TriangleMesh mesh, bool crosses_itself = false);
   explicit Solid(BodyPtr body);
 
   bool is_empty() const { return bounds().is_empty(); }
   const Box& bounds() const;
   // Returns the mesh; a body's coordinates are rounded to doubles.
   const TriangleMesh& mesh() const;
-  // Returns the body. Throws Error if the mesh is not closed or crosses itself, and in builds without a kernel.
+  // Returns the body. Throws Error if the mesh is not closed, and in builds without a kernel.
   const BodyPtr& body() const;
   bool is_exact() const;  // true if there is already a body
+  bool crosses_itself() const;
 
  private:
   struct State;

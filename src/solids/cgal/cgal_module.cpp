@@ -218,6 +218,8 @@ class CgalKernel : public Kernel {
     return body_of(std::move(parts));
   }
 
+  BodyPtr wound(const TriangleMesh& mesh) const override { return body_of(wound_parts(mesh)); }
+
   BodyPtr moved(const Body& body, const Affine& map) const override {
     const auto& [x, y, z] = map.rows;
     const Vec3& t = map.offset;
