@@ -102,6 +102,46 @@ TEST_F(Operations, WrongPolyhedra) {
   EXPECT_EQ(message({points, {{0, 1, 2, 9}}}), "Point index 9 is out of bounds (from faces[0][3])");
 }
 
+// A prism with a base that crosses itself, 2 mm high.
+TreePtr crossing_prism(const std::vector<Vec2>& base) {
+  const size_t n = base.size();
+  Polyhedron prism;
+  for (const double z : {0.0, 2.0})
+    for (const Vec2& p : base) prism.points.push_back({p.x, p.y, z});
+  prism.faces.resize(2);
+  for (size_t k = 0; k < n; ++k) {
+    prism.faces[0].push_back(k);
+    prism.faces[1].push_back(2 * n - 1 - k);
+    prism.faces.push_back({k, n + k, n + (k + 1) % n, (k + 1) % n});
+  }
+  return node(std::move(prism));
+}
+
+TEST_F(Operations, SurfacesThatCrossThemselvesAreCombinedByWinding) {
+  std::vector<Vec2> star;
+  for (int n = 0; n < 5; ++n) star.push_back({std::cos(0.8 * pi * n), std::sin(0.8 * pi * n)});
+  // A pentagram has ten triangles between its centre, a tip and an inner corner.
+  const double inner = std::cos(0.4 * pi) / std::cos(0.2 * pi), area = 5 * inner * std::sin(0.2 * pi);
+  const TreePtr upper = moved(-5, -5, 1, {cube(10)}), half_and_more = moved(-5, -5, 1, {cube(10, 10, 3)});
+  Diagnostics messages;
+  const auto size = [&](const TreePtr& tree) {
+    double sum = 0;
+    for (const Piece& piece : evaluate(tree, {}, messages)) sum += size_of(piece);
+    return sum;
+  };
+  EXPECT_NEAR(size(difference({crossing_prism(star), upper})), area, 1e-12);
+  ASSERT_EQ(messages.list().size(), 1U);
+  EXPECT_EQ(messages.list()[0].message,
+            "the polyhedron crosses itself; it stays as it is, and where it is combined with others, a point is inside "
+            "if the surface winds around it");
+  EXPECT_NEAR(size(intersection({crossing_prism(star), upper})), area, 1e-12);
+  EXPECT_NEAR(size(unite({crossing_prism(star), half_and_more})), 300 + area, 1e-9);
+  // The lobes of a bow tie have opposite directions.
+  const TreePtr bow = crossing_prism({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
+  EXPECT_NEAR(size(difference({bow, upper})), 2, 1e-12);
+  EXPECT_NEAR(size(turned({0, 0, 1}, 30, {difference({turned({0, 0, 1}, -30, {bow}), upper})})), 2, 1e-9);
+}
+
 TEST_F(Operations, MissingFacesAreFilled) {
   const std::vector<Vec3> corners{{0, 0, 0},  {10, 0, 0},  {10, 10, 0},  {0, 10, 0},
                                   {0, 0, 10}, {10, 0, 10}, {10, 10, 10}, {0, 10, 10}};
