@@ -3,8 +3,11 @@
 #ifdef OMBRE_TEXT
 
 #include <fontconfig/fontconfig.h>
+// The next header needs the one above.
+#include <fontconfig/fcfreetype.h>
 
 #include <memory>
+#include <utility>
 
 #include "base/text/text.h"
 
@@ -49,7 +52,32 @@ int number_of(FcPattern* pattern, const char* what) {
   return FcPatternGetInteger(pattern, what, 0, &number) == FcResultMatch ? number : 0;
 }
 
+FoundFont described(FcPattern* pattern, std::string file, const std::string& family) {
+  FoundFont font;
+  font.file = std::move(file);
+  font.index = number_of(pattern, FC_INDEX);
+  font.family = family_of(pattern, family, font.has_name);
+  font.is_bold = number_of(pattern, FC_WEIGHT) > FC_WEIGHT_MEDIUM;
+  font.is_italic = number_of(pattern, FC_SLANT) != FC_SLANT_ROMAN;
+  return font;
+}
+
 }  // namespace
+
+std::optional<FoundFont> search_font_files(const std::vector<std::string>& files, const std::string& family, bool bold,
+                                           bool italic) {
+  std::optional<FoundFont> best;
+  for (const std::string& file : files) {
+    int count = 0;
+    const Pattern pattern(FcFreeTypeQuery(letters(file), 0, nullptr, &count));
+    if (!pattern) continue;
+    FoundFont font = described(pattern.get(), file, family);
+    if (!font.has_name) continue;
+    if (font.is_bold == bold && font.is_italic == italic) return font;
+    if (!best) best = std::move(font);
+  }
+  return best;
+}
 
 std::optional<FoundFont> search_font(const std::string& family, bool bold, bool italic) {
   const Pattern wanted = wanted_font(family, bold, italic);
@@ -58,13 +86,7 @@ std::optional<FoundFont> search_font(const std::string& family, bool bold, bool 
   const Pattern found(FcFontMatch(nullptr, wanted.get(), &result));
   FcChar8* file = nullptr;
   if (!found || FcPatternGetString(found.get(), FC_FILE, 0, &file) != FcResultMatch) return std::nullopt;
-  FoundFont font;
-  font.file = reinterpret_cast<const char*>(file);
-  font.index = number_of(found.get(), FC_INDEX);
-  font.family = family_of(found.get(), family, font.has_name);
-  font.is_bold = number_of(found.get(), FC_WEIGHT) > FC_WEIGHT_MEDIUM;
-  font.is_italic = number_of(found.get(), FC_SLANT) != FC_SLANT_ROMAN;
-  return font;
+  return described(found.get(), reinterpret_cast<const char*>(file), family);
 }
 
 }  // namespace ombre::draw
@@ -74,6 +96,9 @@ std::optional<FoundFont> search_font(const std::string& family, bool bold, bool 
 namespace ombre::draw {
 
 std::optional<FoundFont> search_font(const std::string&, bool, bool) { return std::nullopt; }
+std::optional<FoundFont> search_font_files(const std::vector<std::string>&, const std::string&, bool, bool) {
+  return std::nullopt;
+}
 
 }  // namespace ombre::draw
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ombre::draw {
 
@@ -17,5 +18,9 @@ struct FoundFont {
 // Returns the system's font that fontconfig finds most similar; null if there is no font, or if this build does not
 // support text.
 std::optional<FoundFont> search_font(const std::string& family, bool bold, bool italic);
+
+// Returns the font of one of these files that belongs to the family, preferably with this style; null if none does.
+std::optional<FoundFont> search_font_files(const std::vector<std::string>& files, const std::string& family, bool bold,
+                                           bool italic);
 
 }  // namespace ombre::draw

@@ -209,7 +209,7 @@ double left_end(TextSide side, double width) {
 }
 
 void note_missing(const std::string& text, size_t place, std::vector<std::string>& missing) {
-  const std::string letter = text.substr(place, std::max<size_t>(1, code_point_size(text, place)));
+  const std::string letter = text.substr(place, character_size(text, place));
   if (std::find(missing.begin(), missing.end(), letter) == missing.end()) missing.push_back(letter);
 }
 

@@ -69,13 +69,15 @@ BodyPtr united(std::vector<BodyPtr> bodies, const Work& work) {
 // Returns the meshes as one, side by side.
 Solid gathered(const std::vector<Solid>& solids) {
   TriangleMesh all;
+  Flaw flaw = Flaw::none;
   for (const Solid& solid : solids) {
+    flaw = std::max(flaw, solid.flaw());
     const TriangleMesh& mesh = solid.mesh();
     const auto first = static_cast<uint32_t>(all.points.size());
     all.points.insert(all.points.end(), mesh.points.begin(), mesh.points.end());
     for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
   }
-  return Solid(std::move(all), std::ranges::any_of(solids, &Solid::crosses_itself));
+  return Solid(std::move(all), flaw);
 }
 
 Solid side_by_side(std::vector<Solid> solids) {
@@ -149,7 +151,7 @@ Solid subtract(const Solid& from, std::vector<Solid> others, const Work& work) {
 Solid moved(const Solid& solid, const Affine& map) {
   if (solid.is_empty() || map.is_identity()) return solid;
   if (solid.is_exact()) return Solid(kernel().moved(*solid.body(), map));
-  return Solid(moved(solid.mesh(), map), solid.crosses_itself());
+  return Solid(moved(solid.mesh(), map), solid.flaw());
 }
 
 Solid hull(const std::vector<Solid>& solids) {

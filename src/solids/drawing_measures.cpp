@@ -8,15 +8,19 @@ namespace ombre::solids {
 namespace {
 
 // Returns the measures of a file, or null and a warning if it cannot be read.
-std::optional<formats::DxfMeasures> measures_of(const std::string& path, std::string& warning) {
+template <class Value>
+std::optional<formats::DxfMeasures> measures_of(const MeasureChoice& choice, Measure<Value>& result) {
   try {
     Diagnostics found;
-    auto measures = formats::read_dxf_measures(path, formats::read_file(path), found);
-    if (!measures)
-      warning = "Can't read DXF file '" + path + "'" + (found.list().empty() ? "" : ": " + found.list()[0].message);
+    auto measures = formats::read_dxf_measures(choice.path, formats::read_file(choice.path), found);
+    if (measures)
+      result.others = measures->others;
+    else
+      result.warning =
+          "Can't read DXF file '" + choice.shown + "'" + (found.list().empty() ? "" : ": " + found.list()[0].message);
     return measures;
   } catch (const Error&) {
-    warning = "Can't open DXF file '" + path + "'!";
+    result.warning = "Can't open DXF file '" + choice.shown + "'!";
     return std::nullopt;
   }
 }
@@ -27,25 +31,26 @@ bool fits(const std::string& wanted, const std::string& found) { return wanted.e
 
 Measure<double> dimension_of(const MeasureChoice& choice) {
   Measure<double> result;
-  const auto measures = measures_of(choice.path, result.warning);
+  const auto measures = measures_of(choice, result);
   if (!measures) return result;
   for (const formats::DxfDimension& dimension : measures->dimensions) {
     if (!fits(choice.name, dimension.name) || !fits(choice.layer, dimension.layer)) continue;
     result.value = dimension.value;
     if (!result.value)
-      result.warning = "Dimension '" + choice.name + "' in '" + choice.path + "', layer '" + choice.layer +
+      result.warning = "Dimension '" + choice.name + "' in '" + choice.shown + "', layer '" + choice.layer +
                        "' has unsupported type!";
     else if (!dimension.is_angle)
       *result.value *= choice.scale;
     return result;
   }
-  result.warning = "Can't find dimension '" + choice.name + "' in '" + choice.path + "', layer '" + choice.layer + "'!";
+  result.warning =
+      "Can't find dimension '" + choice.name + "' in '" + choice.shown + "', layer '" + choice.layer + "'!";
   return result;
 }
 
 Measure<Vec2> crossing_of(const MeasureChoice& choice) {
   Measure<Vec2> result;
-  const auto measures = measures_of(choice.path, result.warning);
+  const auto measures = measures_of(choice, result);
   if (!measures) return result;
   const formats::DxfLine* first = nullptr;
   for (const formats::DxfLine& line : measures->lines) {
@@ -61,7 +66,7 @@ Measure<Vec2> crossing_of(const MeasureChoice& choice) {
     result.value = choice.scale * (place - choice.origin);
     return result;
   }
-  result.warning = "Can't find cross in '" + choice.path + "', layer '" + choice.layer + "'!";
+  result.warning = "Can't find cross in '" + choice.shown + "', layer '" + choice.layer + "'!";
   return result;
 }
 

@@ -1,6 +1,7 @@
 // Numbers that scripts read from drawings.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,7 @@ namespace ombre::solids {
 // The choice of a drawing's measures. An empty layer or name matches any. Places are moved by -origin, then scaled.
 struct MeasureChoice {
   std::string path, layer, name;
+  std::string shown;  // the path in messages
   Vec2 origin;
   double scale = 1;
 };
@@ -20,6 +22,7 @@ template <class Value>
 struct Measure {
   std::optional<Value> value;
   std::string warning;
+  std::map<std::string, size_t> others;  // how many entities of each kind are neither dimensions nor lines
 };
 
 // Returns the first dimension of that name on that layer of a DXF file, in mm or degrees.

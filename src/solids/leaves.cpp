@@ -14,7 +14,7 @@ namespace ombre::solids {
 namespace {
 
 Pieces piece_of(TriangleMesh mesh) {
-  if (mesh.triangles.empty()) return {{}};
+  if (mesh.triangles.empty() || !is_finite(mesh)) return {{}};
   return {{{}, Solid(std::move(mesh))}};
 }
 
@@ -32,7 +32,7 @@ class Leaf {
   Pieces operator()(const Cylinder& cylinder) const { return piece_of(mesh_of(cylinder)); }
   Pieces operator()(const Polyhedron& polyhedron) const {
     TriangleMesh mesh = mesh_of(polyhedron, tree_.where, messages());
-    if (mesh.triangles.empty()) return {{}};
+    if (mesh.triangles.empty() || !is_finite(mesh)) return {{}};
     const auto solid = mended_solid(mesh, "the polyhedron", tree_.where, messages());
     return {{{}, solid ? std::variant<std::monostate, Solid, Region>(*solid) : std::monostate{}}};
   }

@@ -103,12 +103,18 @@ std::optional<Solid> mended_solid(TriangleMesh mesh, const std::string& what, co
         warn(
             "crosses itself; it stays as it is, and where it is combined with others, a point is inside if the surface "
             "winds around it");
-        return Solid(turned_outward(std::move(mesh)), true);
+        return Solid(turned_outward(std::move(mesh)), Flaw::crosses);
       }
       const bool is_open = error.code() == Code::surface_open;
       if (is_open && !is_mended && (mender.join_corners() || mender.fill_holes())) continue;
-      messages.error(where, what + " cannot be used: " + error.what(),
-                     "close its surface, and turn all faces so that they are clockwise when seen from outside");
+      if (is_open) {
+        warn(
+            "is open; it stays as it is, and cannot be combined with others: close its surface, and turn all faces so "
+            "that "
+            "they are clockwise when seen from outside");
+        return Solid(std::move(mesh), Flaw::open);
+      }
+      messages.error(where, what + " cannot be used: " + error.what());
       return std::nullopt;
     }
   }

@@ -194,7 +194,9 @@ class Applier {
 
   Piece summed(const Piece& a, const Piece& b) const {
     Attributes attributes = completed(a.attributes, b.attributes);
-    if (a.dimension() == 0 || b.dimension() == 0) return {std::move(attributes), {}};
+    // OpenSCAD passes over empty children.
+    if (a.dimension() == 0 || b.dimension() == 0)
+      return {std::move(attributes), a.dimension() == 0 ? b.shape : a.shape};
     if (a.solid()) return piece_of(std::move(attributes), minkowski(*a.solid(), *b.solid(), context_.work));
     return piece_of(std::move(attributes), minkowski(*a.region(), *b.region()));
   }
@@ -292,6 +294,7 @@ class Applier {
 
   // Returns the solid of a mesh, repaired by the kernel if the mesh may cross itself.
   Solid checked(TriangleMesh mesh, bool is_sound) const {
+    if (!is_finite(mesh)) return Solid(TriangleMesh{});
     if (is_sound || mesh.triangles.empty()) return Solid(std::move(mesh));
     const auto solid = mended_solid(std::move(mesh), "the extrusion", tree_.where, *context_.messages);
     return solid ? *solid : Solid(TriangleMesh{});

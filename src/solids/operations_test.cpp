@@ -95,8 +95,10 @@ TEST_F(Operations, WrongPolyhedra) {
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_EQ(message({points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}}}),
             "the surface of the polyhedron lacks a face, filled as flat as their edges allow");
-  EXPECT_EQ(message({points, {{0, 1, 2}, {0, 3, 1}, {0, 3, 1}}}),
-            "the polyhedron cannot be used: its surface is not closed");
+  EXPECT_EQ(
+      message({points, {{0, 1, 2}, {0, 3, 1}, {0, 3, 1}}}),
+      "the polyhedron is open; it stays as it is, and cannot be combined with others: close its surface, and turn "
+      "all faces so that they are clockwise when seen from outside");
   EXPECT_EQ(message({points, {{2, 1, 0}, {1, 3, 0}, {3, 2, 0}, {2, 3, 1}}}),
             "the polyhedron is inside out, in part or as a whole; it was turned");
   EXPECT_EQ(message({points, {{0, 1, 2, 9}}}), "Point index 9 is out of bounds (from faces[0][3])");

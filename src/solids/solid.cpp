@@ -1,6 +1,7 @@
 #include "solids/solid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -24,6 +25,11 @@ double volume_of(const TriangleMesh& mesh) {
   for (const auto& [a, b, c] : mesh.triangles)
     six += dot(mesh.points[a] - origin, cross(mesh.points[b] - origin, mesh.points[c] - origin));
   return six / 6;
+}
+
+bool is_finite(const TriangleMesh& mesh) {
+  return std::ranges::all_of(
+      mesh.points, [](const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
 }
 
 TriangleMesh moved(const TriangleMesh& mesh, const Affine& map) {
@@ -91,11 +97,11 @@ struct Solid::State {
   std::optional<TriangleMesh> mesh;
   BodyPtr body;
   Box bounds;
-  bool crosses_itself = false;
+  Flaw flaw = Flaw::none;
 };
 
-Solid::Solid(TriangleMesh mesh, bool crosses_itself) : state_(std::make_shared<State>()) {
-  state_->crosses_itself = crosses_itself;
+Solid::Solid(TriangleMesh mesh, Flaw flaw) : state_(std::make_shared<State>()) {
+  state_->flaw = flaw;
   state_->bounds = bounds_of(mesh);
   state_->mesh = std::move(mesh);
 }
@@ -116,12 +122,12 @@ const TriangleMesh& Solid::mesh() const {
 const BodyPtr& Solid::body() const {
   const std::lock_guard lock(state_->mutex);
   std::string remark;
-  if (!state_->body && state_->crosses_itself) state_->body = kernel().wound(*state_->mesh);
+  if (!state_->body && state_->flaw == Flaw::crosses) state_->body = kernel().wound(*state_->mesh);
   if (!state_->body) state_->body = kernel().body(*state_->mesh, true, remark);
   return state_->body;
 }
 
-bool Solid::crosses_itself() const { return state_->crosses_itself; }
+Flaw Solid::flaw() const { return state_->flaw; }
 
 bool Solid::is_exact() const {
   const std::lock_guard lock(state_->mutex);

@@ -2,6 +2,7 @@
 // millimetres.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,12 +16,15 @@
 
 namespace ombre::solids {
 
+// What is known to be wrong with a mesh that people gave.
+enum class Flaw : uint8_t { none, crosses, open };
+
 // A closed polyhedron, which may consist of several pieces and have cavities. Immutable, cheap to copy, thread-safe. It
 // is constructed from a mesh or from a body of the kernel, and converted to the other on demand.
 class Solid {
  public:
-  // The mesh is closed. If it crosses itself, its body is all points with a winding number other than 0.
-  explicit Solid(TriangleMesh mesh, bool crosses_itself = false);
+  // If the mesh crosses itself, its body is all points with a winding number other than 0.
+  explicit Solid(TriangleMesh mesh, Flaw flaw = Flaw::none);
   explicit Solid(BodyPtr body);
 
   bool is_empty() const { return bounds().is_empty(); }
@@ -30,7 +34,7 @@ class Solid {
   // Returns the body. Throws Error if the mesh is not closed, and in builds without a kernel.
   const BodyPtr& body() const;
   bool is_exact() const;  // true if there is already a body
-  bool crosses_itself() const;
+  Flaw flaw() const;
 
  private:
   struct State;

@@ -60,7 +60,8 @@ Region region_of_text(const Text& text, const SourceRange& where, Diagnostics& m
     return {};
   }
   const FontName name = font_name(text.font);
-  const auto font = draw::search_font(name.family, name.is_bold, name.is_italic);
+  auto font = draw::search_font_files(text.font_files, name.family, name.is_bold, name.is_italic);
+  if (!font) font = draw::search_font(name.family, name.is_bold, name.is_italic);
   if (!font) {
     messages.error(where, "there is no font \"" + name.family + "\", and none to take its place",
                    "install fonts-liberation or fonts-dejavu-core");

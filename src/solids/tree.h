@@ -64,6 +64,7 @@ struct Text {
   std::string font, horizontal = "left", vertical = "baseline", direction = "ltr", language = "en", script = "Latn";
   double spacing = 1;
   Fragments fragments = {};
+  std::vector<std::string> font_files = {};  // files of fonts that come before those of the system
 };
 
 // Leaves that are files, with absolute paths:

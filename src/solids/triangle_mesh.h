@@ -22,6 +22,8 @@ struct TriangleMesh {
 Box bounds_of(const TriangleMesh& mesh);
 // Returns the volume of a closed mesh in mm3, negative if it is inside out.
 double volume_of(const TriangleMesh& mesh);
+// Returns false if a coordinate is infinite or no number.
+bool is_finite(const TriangleMesh& mesh);
 // Returns the image under a map with a determinant other than 0; triangles are reversed if the map mirrors.
 TriangleMesh moved(const TriangleMesh& mesh, const Affine& map);
 

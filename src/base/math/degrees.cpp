@@ -65,8 +65,9 @@ double arc_tangent(double x) { return inverse(math::atan(x) * per_radian, x, tan
 
 double arc_tangent2(double y, double x) {
   const double angle = math::atan2(y, x) * per_radian;
-  const double eighth = std::round(angle / 45) * 45;
-  return std::abs(angle - eighth) < 1e-12 ? eighth : angle;
+  constexpr double rounding = 1e-15;
+  const double whole = std::round(angle);
+  return std::abs(angle - whole) <= rounding * std::abs(angle) ? whole : angle;
 }
 
 }  // namespace ombre::degrees

@@ -1,5 +1,6 @@
 #include "base/text/utf8.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ombre {
@@ -27,6 +28,11 @@ size_t code_point_size(std::string_view text, size_t at) {
   const uint32_t code = code_point(text, at);
   const bool is_overlong = (size == 3 && code < 0x800) || (size == 4 && code < 0x10000);
   return is_overlong || !is_scalar(code) ? 0 : size;
+}
+
+size_t character_size(std::string_view text, size_t at) {
+  const size_t size = code_point_size(text, at);
+  return size > 0 ? size : std::clamp<size_t>(announced_size(byte(text, at)), 1, text.size() - at);
 }
 
 uint32_t code_point(std::string_view text, size_t at) {

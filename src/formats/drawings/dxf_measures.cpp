@@ -52,6 +52,8 @@ std::optional<DxfMeasures> read_dxf_measures(const std::string& name, std::strin
         measures.dimensions.push_back({std::string(values.text(1)), layer, value_of(values), is_angle(values)});
       else if (entity.kind == "LINE")
         measures.lines.push_back({layer, values.point(10), values.point(11)});
+      else
+        ++measures.others[std::string(entity.kind)];
     }
     return measures;
   } catch (const DesignError&) {

@@ -23,6 +23,7 @@ struct Rules {
   bool prefers_last_use;             // the last file of `use` that defines a name gives it
   bool defaults_see_parameters;      // default values may use the parameters before them
   bool arguments_set_specials_last;  // arguments and defaults do not see the special variables that the call sets
+  bool calls_specials;               // functions in special variables may be called
 };
 
 // `Product` is what statements make.

@@ -31,7 +31,7 @@ Value Evaluation<Language, Product>::eval_tail(const ast::Expr& start, const Sco
           const auto& call = static_cast<const ast::Call&>(*expr);
           Callee callee;
           if (!find_callee(call, scope, callee)) return self().call_other(call, scope);
-          self().check_depth(call);
+          self().check_depth(call, entered);
           ScopePtr inner = make_scope(callee.scope);
           if (callee.used) self().enter(*callee.used, mark.size());
           bind(*callee.parameters, call.arguments, scope, callee.scope, inner, place(call.span, call.callee->span),
@@ -100,7 +100,7 @@ bool Evaluation<Language, Product>::find_function(Symbol name, const ScopePtr& s
     if (function) callee = {&function->parameters, function->body.get(), home, used};
     return function != nullptr;
   };
-  if (name->front() == '$' && is_closure(find_special(name))) return true;
+  if (Language::rules.calls_specials && name->front() == '$' && is_closure(find_special(name))) return true;
   for (const ScopePtr* at = &scope; *at; at = &(*at)->parent()) {
     if (Language::rules.prefers_variables && is_closure((*at)->own(name))) return true;
     if (is_defined((*at)->plan(), *at, nullptr)) return true;

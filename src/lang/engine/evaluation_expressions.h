@@ -141,7 +141,7 @@ Value Evaluation<Language, Product>::eval_index(const ast::Index& index, const S
 
 template <class Language, class Product>
 Value Evaluation<Language, Product>::character(const std::string& text, double index) {
-  const auto size_at = [&](size_t byte) { return std::max<size_t>(1, code_point_size(text, byte)); };
+  const auto size_at = [&](size_t byte) { return character_size(text, byte); };
   size_t byte = 0;
   for (double skip = index; skip > 0 && byte < text.size(); --skip) {
     meter_.spend();

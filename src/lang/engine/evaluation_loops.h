@@ -24,7 +24,7 @@ void Evaluation<Language, Product>::for_each(const Value& values, const ast::Spa
   } else if (const Text* text = values.text()) {
     for (size_t at = 0; at < text->text.size();) {
       meter_.spend();
-      const size_t size = std::max<size_t>(1, code_point_size(text->text, at));
+      const size_t size = character_size(text->text, at);
       body(make_text(text->text.substr(at, size), meter_));
       at += size;
     }
@@ -44,7 +44,7 @@ void Evaluation<Language, Product>::for_each_scope(const ast::Argument& loop, co
     // Reuses the scope for the next pass, unless a closure holds it.
     if (inner->use_count() > 1) inner = make_scope(scope);
     inner->clear();
-    set_variable(loop.name, value, *inner, mark.size());
+    if (loop.name.symbol) set_variable(loop.name, value, *inner, mark.size());
     body(inner);
   };
   for_each(values, place(whole, loop.value->span), "\"for\" needs a range, a list or a string", pass);

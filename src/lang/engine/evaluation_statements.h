@@ -97,9 +97,15 @@ void Evaluation<Language, Product>::call_module(const ast::ModuleDef& module, co
   const SpecialsMark mark(*this);
   inner->set_children(&children);
   if (used) self().enter(*used, mark.size());
-  bind(module.parameters, statement.arguments, scope, home, inner, place(statement.span, statement.name.span),
-       mark.size());
+  try {
+    bind(module.parameters, statement.arguments, scope, home, inner, place(statement.span, statement.name.span),
+         mark.size());
+  } catch (const LimitReached&) {
+    self().stop_if_recursive(statement);
+    throw;
+  }
   self().set_counts(statement, *inner, mark.size());
+  self().check_assignments(module);
 
   struct Entered {
     std::vector<const ast::CallStatement*>& calls;

@@ -31,7 +31,8 @@ class Interpreter : Evaluation<Interpreter, Product> {
                                .prefers_variables = false,
                                .prefers_last_use = false,
                                .defaults_see_parameters = true,
-                               .arguments_set_specials_last = false};
+                               .arguments_set_specials_last = false,
+                               .calls_specials = true};
 
   // Functions that were entered are not reported.
   struct EnteredCalls {
@@ -39,6 +40,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
   };
   void trace(const EnteredCalls&) {}
   void stop_if_recursive(const EnteredCalls&) {}
+  void stop_if_recursive(const ast::CallStatement&) {}
   void trace(const ast::Statement&) {}
 
   // Defined in interpreter_diagnostics.cpp.
@@ -102,6 +104,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
   // Defined in calls.cpp.
   void call_other(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   void check_depth(const ast::CallStatement&) {}
+  void check_assignments(const ast::ModuleDef&) {}
   void set_counts(const ast::CallStatement& statement, Scope& inner, size_t specials_from);
   void call_children(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   std::vector<size_t> chosen_children(const ast::CallStatement& statement, const ScopePtr& scope, size_t count);
@@ -130,7 +133,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
   bool is_chosen(const Value& condition, const ast::Span& where);
 
   // Defined in interpreter_function_calls.cpp.
-  void check_depth(const ast::Call&) {}
+  void check_depth(const ast::Call&, const EnteredCalls&) {}
   void enter(const Unit&, size_t) {}
   bool ignores(const std::vector<ast::Argument>&, size_t, const Value&) { return false; }
   [[noreturn]] void replace_callee(const ast::Call& call, const Value& value, const ScopePtr& scope, Callee& callee);

@@ -136,10 +136,7 @@ class Unescaper {
       default:
         break;
     }
-    if (dialect_ == Dialect::openscad) {  // OpenSCAD ignores such a backslash
-      at_ = begin + 1;
-      return;
-    }
+    if (dialect_ == Dialect::openscad) return ignore_backslash(begin);
     // Keeps the backslash, for designs whose paths and formulas were written without escapes in mind.
     diagnostics_.warning(part(begin, begin + 1), "this backslash starts no escape and stands for itself",
                          "write \\\\ for a backslash");
@@ -147,14 +144,23 @@ class Unescaper {
     at_ = begin + 1;
   }
 
+  // OpenSCAD passes over a backslash that starts no escape.
+  void ignore_backslash(size_t begin) { at_ = begin + 1; }
+
   void code(size_t begin, size_t digits) {
     uint32_t value = 0;
     for (size_t i = 0; i < digits; ++i, ++at_) {
       const int digit = at_ < text_.size() ? hex(text_[at_]) : -1;
+      if (digit < 0 && dialect_ == Dialect::openscad) return ignore_backslash(begin);
       if (digit < 0)
         return diagnostics_.error(Code::syntax, part(begin, at_),
                                   "this escape needs " + std::to_string(digits) + " hexadecimal digits");
       value = value * 16 + static_cast<uint32_t>(digit);
+    }
+    if (dialect_ == Dialect::openscad) {
+      if (digits == 2 && value > 0x7F) return ignore_backslash(begin);
+      if (value == 0) value = ' ';
+      return append_code_point(result_.text, value);
     }
     if (!is_code_point(value) || (digits == 2 && value > 0x7F))
       return diagnostics_.error(Code::syntax, part(begin, at_), "this escape is no Unicode character",

@@ -73,7 +73,7 @@ class Search {
     for (size_t at = 0; at < text.size();) {
       call_.meter.spend();
       if (result.size() >= call_.meter.limits().elements) call_.meter.too_many_elements();
-      const size_t size = std::max<size_t>(1, code_point_size(text, at));
+      const size_t size = character_size(text, at);
       result.push_back(make_text(text.substr(at, size), call_.meter));
       at += size;
     }

@@ -72,6 +72,7 @@ class Loader {
       into.has_words = true;
       return;
     }
+    if (is_font(include)) return find_font(include);
     SourcePtr source = find(include);
     if (!source) return;
     const std::string path = normal(source->name());
@@ -90,6 +91,7 @@ class Loader {
     std::string message, hint;
     Code code = Code::limit;
     if (!include.is_use && find_open(path) != open_.end()) {
+      if (dialect_ == Dialect::openscad) return cannot_open(include);
       message = '"' + path + "\" includes itself" + way_round(path);
       hint = "move what both need into a third file";
       code = Code::script;
@@ -119,6 +121,31 @@ class Loader {
     return names;
   }
 
+  bool is_font(const ast::Include& include) const {
+    const std::string ending = to_lower(fs::path(include.path).extension().string());
+    return dialect_ == Dialect::openscad && include.is_use && (ending == ".ttf" || ending == ".otf");
+  }
+
+  void find_font(const ast::Include& include) {
+    std::error_code ignored;
+    for (const std::string& place : places(include))
+      if (fs::is_regular_file(place, ignored)) return program_.fonts.push_back(place);
+    cannot_open(include);
+  }
+
+  // The message of OpenSCAD, which goes on without the file. Returns false.
+  bool cannot_open(const ast::Include& include) {
+    const std::string what = include.is_use ? "library" : "include file";
+    diagnostics_.warning({}, "Can't open " + what + " '" + include.path + "'.");
+    return false;
+  }
+
+  std::vector<std::string> places(const ast::Include& include) const {
+    std::vector<std::string> places = places_of(include.path, (*include.span.source)->name());
+    for (const std::string& library : libraries_) places.push_back((fs::path(library) / include.path).generic_string());
+    return places;
+  }
+
   // Searches beside the including file, then beside the file that it links to, in the working directory, and in the
   // libraries.
   SourcePtr find(const ast::Include& include) {
@@ -126,13 +153,11 @@ class Loader {
       diagnostics_.error(Code::syntax, include.span.range(), "there is no path between < and >");
       return nullptr;
     }
-    std::vector<std::string> places = places_of(include.path, (*include.span.source)->name());
-    for (const std::string& library : libraries_) places.push_back((fs::path(library) / include.path).generic_string());
+    std::vector<std::string> places = this->places(include);
     for (const std::string& path : places)
       if (auto text = read_(path)) return make_source(path, std::move(*text));
     if (dialect_ == Dialect::openscad) {
-      const std::string what = include.is_use ? "library" : "include file";
-      diagnostics_.warning({}, "Can't open " + what + " '" + include.path + "'.");
+      cannot_open(include);
       return nullptr;
     }
     if (places.size() > 1) places.back() += " in the working directory";

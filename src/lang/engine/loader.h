@@ -25,7 +25,8 @@ struct Unit {
 struct Program {
   std::shared_ptr<Names> names = std::make_shared<Names>();
   std::deque<ast::File> files;
-  std::deque<Unit> units;  // the first is the main file
+  std::deque<Unit> units;          // the first is the main file
+  std::vector<std::string> fonts;  // paths of font files that OpenSCAD scripts use
 };
 
 Program load(const SourcePtr& source, const Options& options, Diagnostics& diagnostics);

@@ -423,6 +423,7 @@ void Parser::arguments_until(TokenKind close, std::vector<Argument>& into) {
 // Reads the arguments of for and let, which assign values to names.
 void Parser::named_arguments(std::vector<Argument>& into, const char* owner, TokenKind close) {
   arguments_until(close, into);
+  if (dialect_ == Dialect::openscad) return;  // OpenSCAD accepts values without names
   for (const Argument& argument : into)
     if (!argument.name.symbol)
       fail(argument.value->span, '"' + std::string(owner) + "\" gives values to names, and here is no name",

@@ -1,38 +1,66 @@
 // Functions that measure drawings.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <filesystem>
 
 #include "lang/openscad/script_functions.h"
+#include "lang/openscad/value_text.h"
 #include "lang/openscad/vectors.h"
 #include "solids/drawing_measures.h"
 
 namespace ombre::lang::openscad {
 namespace {
 
-// Positional arguments come in this order.
+// OpenSCAD takes named arguments only, and warns of others.
 solids::MeasureChoice choice_of(const FunctionCall& call) {
-  constexpr std::array<std::string_view, 5> order{"file", "layer", "name", "origin", "scale"};
   solids::MeasureChoice choice;
-  for (size_t n = 0; n < call.size() && n < order.size(); ++n) {
-    const std::string name =
-        call.written.arguments[n].name.symbol ? *call.written.arguments[n].name.symbol : std::string(order[n]);
+  const std::string function = std::string(call.name) + "(..., ";
+  for (size_t n = 0; n < call.size(); ++n) {
+    const Symbol symbol = call.written.arguments[n].name.symbol;
+    const std::string name = symbol ? *symbol : "";
     const Text* text = call[n].text();
-    if (name == "file" && text) choice.path = path_beside(call.written.span, text->text);
-    if (name == "layer" && text) choice.layer = text->text;
-    if (name == "name" && text) choice.name = text->text;
-    if (const auto origin = numbers<2>(call[n]); name == "origin" && origin)
-      choice.origin = {(*origin)[0], (*origin)[1]};
-    if (name == "scale" && call[n].number()) choice.scale = *call[n].number();
+    if (name == "file") {
+      choice.shown = text ? text->text : "";
+      choice.path = path_beside(call.written.span, choice.shown);
+    } else if (name == "layer" || name == "name") {
+      (name == "layer" ? choice.layer : choice.name) = text ? text->text : "";
+    } else if (name == "origin") {
+      const auto origin = numbers<2>(call[n]);
+      if (origin && std::isfinite((*origin)[0]) && std::isfinite((*origin)[1]))
+        choice.origin = {(*origin)[0], (*origin)[1]};
+      else
+        call.fail(function + "origin=" + value_text(call[n], true, call.meter) + ") could not be converted");
+    } else if (name == "scale") {
+      choice.scale = call[n].number() ? *call[n].number() : choice.scale;
+    } else {
+      call.fail(function + name + "=...) is not supported");
+    }
   }
   return choice;
 }
 
+// Warns of entities that OpenSCAD 2021.01 does not support.
+void tell_of_others(const FunctionCall& call, const solids::MeasureChoice& choice,
+                    const std::map<std::string, size_t>& others) {
+  constexpr std::array<std::string_view, 5> supported{"CIRCLE", "ARC", "ELLIPSE", "LWPOLYLINE", "INSERT"};
+  for (const auto& [kind, count] : others)
+    if (std::ranges::find(supported, kind) == supported.end())
+      call.note("Unsupported DXF Entity '" + kind + "' (" + std::to_string(count) + ") in \"" +
+                std::filesystem::path(choice.path).filename().string() + "\".");
+}
+
 Value dxf_dim(const FunctionCall& call) {
-  const auto found = solids::dimension_of(choice_of(call));
+  const solids::MeasureChoice choice = choice_of(call);
+  const auto found = solids::dimension_of(choice);
+  tell_of_others(call, choice, found.others);
   return found.value ? Value(*found.value) : call.fail(found.warning);
 }
 
 Value dxf_cross(const FunctionCall& call) {
-  const auto found = solids::crossing_of(choice_of(call));
+  const solids::MeasureChoice choice = choice_of(call);
+  const auto found = solids::crossing_of(choice);
+  tell_of_others(call, choice, found.others);
   if (!found.value) return call.fail(found.warning);
   return make_list({found.value->x, found.value->y}, call.meter);
 }

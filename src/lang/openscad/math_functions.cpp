@@ -82,7 +82,7 @@ double draw(std::mt19937& random) {
 double finite_bound(const Call& call, double bound, const char* which, double otherwise) {
   if (std::isfinite(bound)) return bound;
   call.fail(std::string("rands() range ") + which + " cannot be infinite");
-  call.fail("resetting to " + std::to_string(otherwise));
+  call.note("resetting to " + std::to_string(otherwise));
   return otherwise;
 }
 

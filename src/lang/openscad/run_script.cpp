@@ -56,9 +56,13 @@ SourcePtr with_definitions(const SourcePtr& source, const std::vector<std::strin
   return make_source(source->name(), std::move(text));
 }
 
-bool is_unterminated(const Diagnostic& diagnostic) {
-  return diagnostic.message.starts_with("the string is not closed") ||
-         diagnostic.message.starts_with("the comment is not closed");
+// Returns what OpenSCAD calls unterminated, or an empty text for other mistakes.
+std::string unterminated(const Diagnostic& diagnostic) {
+  if (diagnostic.message.starts_with("the string is not closed")) return "string";
+  if (diagnostic.message.starts_with("the comment is not closed")) return "comment";
+  if (!diagnostic.message.starts_with("the path is not closed")) return "";
+  const std::string_view before = diagnostic.where.source->text().substr(0, diagnostic.where.begin);
+  return trim(before).ends_with("use") ? "use statement" : "include statement";
 }
 
 // Returns the line that OpenSCAD reports for a syntax error: that of the token at which it was found. A missing token
@@ -68,7 +72,9 @@ int line_of(const Diagnostic& diagnostic) {
   const SourceRange& where = diagnostic.where;
   const std::string_view text = where.source->text();
   const int last = static_cast<int>(std::ranges::count(text, '\n')) + 3;
-  if (is_unterminated(diagnostic)) return last;
+  const std::string what = unterminated(diagnostic);
+  if (what == "string" || what == "comment") return last;
+  if (!what.empty()) return where.source->place(where.begin).line;
   Diagnostics ignored;
   Lexer lexer(where.source, where.begin, Dialect::openscad, ignored);
   const Token token = lexer.next();
@@ -88,12 +94,8 @@ void report_syntax(const Diagnostics& found, const std::string& main, Messages& 
     if (!diagnostic.where.source || messages.error_count() > 0) continue;
     const std::string file = shown_path(diagnostic.where.source->name(), "");
     const int line = line_of(diagnostic);
-    if (is_unterminated(diagnostic)) {
-      const bool is_string = diagnostic.message.starts_with("the string");
-      messages.add({Message::Kind::error,
-                    std::string("Parser error: Unterminated ") + (is_string ? "string" : "comment"), file, line,
-                    Code::syntax});
-    }
+    if (const std::string what = unterminated(diagnostic); !what.empty())
+      messages.add({Message::Kind::error, "Parser error: Unterminated " + what, file, line, Code::syntax});
     messages.add({Message::Kind::error, "Parser error: syntax error", file, line, Code::syntax});
   }
   messages.add({Message::Kind::note, "Can't parse file '" + main + "'!\n", "", 0});

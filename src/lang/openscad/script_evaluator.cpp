@@ -51,7 +51,11 @@ solids::TreePtr Evaluator::run() {
     if (roots_.empty()) return result;
     std::vector<solids::TreePtr> roots;
     find_roots(result, roots);
-    if (roots.size() > 1) warn_of_roots(*roots[1]);
+    for (const solids::TreePtr& root : roots)
+      if (root->where != roots.front()->where) {
+        warn_of_roots(*root);
+        break;
+      }
     return roots.empty() ? result : roots.front();
   } catch (const Stopped&) {
   } catch (const LimitReached& limit) {
@@ -89,8 +93,10 @@ std::pair<std::string, int> Evaluator::file_and_line(const ast::Span& where) {
   const auto known = shown_files_.find(where.source);
   const int line = (*where.source)->place(where.begin).line;
   if (known != shown_files_.end()) return {known->second, line};
-  return {shown_files_[where.source] = shown_path((*where.source)->name(), folder_of(program_.units.front().path)),
-          line};
+  // OpenSCAD shows a used file from its own folder, and an included one from that of the file that includes it.
+  const std::string& name = (*where.source)->name();
+  const bool is_used = std::ranges::any_of(program_.units, [&](const Unit& unit) { return unit.path == name; });
+  return {shown_files_[where.source] = shown_path(name, folder_of(is_used ? name : program_.units.front().path)), line};
 }
 
 void Evaluator::say(Message::Kind kind, std::string text, const ast::Span& where, Code code) {
@@ -105,10 +111,7 @@ void Evaluator::warn(std::string text, const ast::Span& where) {
 }
 
 void Evaluator::warn_all(Problems& problems, const ast::Span& where) {
-  for (std::string& text : problems) {
-    const bool has_place = !text.starts_with("resetting to ");
-    warn(std::move(text), has_place ? where : ast::Span{});
-  }
+  for (Problem& problem : problems) warn(std::move(problem.text), problem.has_place ? where : ast::Span{});
 }
 
 void Evaluator::stop(std::string text, const ast::Span& where, Code code) {
@@ -268,6 +271,8 @@ std::string path_beside(const ast::Span& where, const std::string& path) {
 }
 
 std::string ModuleCall::complete_path(const std::string& path) const { return path_beside(statement_.span, path); }
+
+const std::vector<std::string>& ModuleCall::font_files() const { return evaluator_.program_.fonts; }
 
 const Trees& ModuleCall::children() {
   if (!children_) {

@@ -46,6 +46,7 @@ class ModuleCall {
   solids::Fragments fragments() const;          // fragments from $fn, $fa and $fs at the call
   solids::Fragments checked_fragments() const;  // enforces the least values of $fa and $fs
   std::string complete_path(const std::string& path) const;
+  const std::vector<std::string>& font_files() const;  // that the script uses
   const Trees& children();
   std::shared_ptr<solids::Tree> node(solids::Operation operation) const;
   solids::TreePtr with_children(solids::Operation operation);
@@ -93,7 +94,8 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
                                .prefers_variables = true,
                                .prefers_last_use = true,
                                .defaults_see_parameters = false,
-                               .arguments_set_specials_last = true};
+                               .arguments_set_specials_last = true,
+                               .calls_specials = false};
 
   // Levels that are reserved for what the last allowed call still evaluates.
   static constexpr int spare_levels = 200;
@@ -113,6 +115,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
     const ast::Call* first() const { return first_; }
     const std::vector<const ast::Call*>& others() const { return others_; }
     const ast::Call* last() const { return others_.empty() ? first_ : others_.back(); }
+    size_t count() const { return others_.size() + static_cast<size_t>(repeats_) + (first_ ? 1 : 0); }
     int repeats() const { return repeats_; }  // of calls of a function with which it ends itself
 
    private:
@@ -131,6 +134,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   void trace(const EnteredCalls& entered);
   // Throws Stopped if a recursion that does not end has led to a limit of what values may hold.
   void stop_if_recursive(const EnteredCalls& entered);
+  void stop_if_recursive(const ast::CallStatement& statement);
   void say_recursion(const ast::Call& call);
   void trace(const ast::Statement& statement);
   std::pair<std::string, int> file_and_line(const ast::Span& where);
@@ -155,11 +159,14 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
     out.push_back(std::move(result));
   }
   void check_depth(const ast::CallStatement& statement);
+  [[noreturn]] void stop_recursion(const ast::CallStatement& statement);
+  // Warns of parameters to which the module gives other values.
+  void check_assignments(const ast::ModuleDef& module);
   void set_counts(const ast::CallStatement& statement, Scope& inner, size_t specials_from);
   void call_other(const ast::CallStatement& statement, const ScopePtr& scope, Trees& out);
   solids::TreePtr run_builtin(const Module& module, const ast::CallStatement& statement, const ScopePtr& scope);
   solids::TreePtr run_children(const ast::CallStatement& statement, const ScopePtr& scope);
-  std::optional<size_t> chosen_child(const Value& index, size_t count);
+  std::optional<size_t> chosen_child(const ast::CallStatement& statement, const Value& index, size_t count);
   void bind_builtin(const Module& module, const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
                     ModuleCall& call, size_t specials_from);
   std::shared_ptr<solids::Tree> tree(solids::Operation operation, const ast::Span& where);
@@ -205,7 +212,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   Value operate(ast::Operator op, const ast::Span& where, const Value& left, const Value& right);
 
   // Defined in script_function_calls.cpp.
-  void check_depth(const ast::Call& call);
+  void check_depth(const ast::Call& call, const EnteredCalls& entered);
   void enter(const Unit& used, size_t specials_from);
   void replace_callee(const ast::Call& call, const Value& value, const ScopePtr& scope, Callee& callee);
   Value call_other(const ast::Call& call, const ScopePtr& scope);

@@ -13,8 +13,8 @@ namespace ombre::lang::openscad {
 namespace {
 
 // True for numbers as they are written, also with signs.
-bool is_literal(const ast::Expr& expr) {
-  if (expr.kind == ast::Expr::Kind::unary) return is_literal(*static_cast<const ast::Unary&>(expr).operand);
+bool is_written(const ast::Expr& expr) {
+  if (expr.kind == ast::Expr::Kind::unary) return is_written(*static_cast<const ast::Unary&>(expr).operand);
   return expr.kind == ast::Expr::Kind::number;
 }
 
@@ -24,6 +24,7 @@ void Evaluator::stop_at_depth(const ast::Span& where) { stop("Expressions are ne
 
 // Returns 0 and adds a warning if the loop would be too long.
 double Evaluator::passes(const Range& range, const ast::Span& where) {
+  if (range.step == 0 && range.begin == range.end) return 0;
   const double count = element_count(range);
   if (count < most_range_elements) return count;
   warn("Bad range parameter in for statement: too many elements (" + std::to_string(static_cast<uint64_t>(count)) + ")",
@@ -52,7 +53,7 @@ Value Evaluator::eval_range(const ast::Range& range, const ScopePtr& scope) {
       say(Message::Kind::deprecated,
           "Using ranges of the form [begin:end] with begin value greater than the end value is deprecated", range.span);
     }
-  } else if (is_literal(*range.begin) && is_literal(*range.step) && is_literal(*range.end)) {
+  } else if (is_written(*range.begin) && is_written(*range.step) && is_written(*range.end)) {
     if (result.step > 0 && result.end < result.begin)
       warn("begin is greater than the end, but step is positive", range.span);
     else if (result.step < 0 && result.end > result.begin)

@@ -37,8 +37,9 @@ void Evaluator::say_recursion(const ast::Call& call) {
   say(Message::Kind::error, "Recursion detected calling function '" + callee_name(call) + '\'', call.span);
 }
 
-void Evaluator::check_depth(const ast::Call& call) {
-  if (depth_ <= options_.limits.depth - spare_levels) return;
+void Evaluator::check_depth(const ast::Call& call, const EnteredCalls& entered) {
+  constexpr size_t most_tail_calls = 1'000'000;  // as in OpenSCAD
+  if (depth_ <= options_.limits.depth - spare_levels && entered.count() <= most_tail_calls) return;
   say_recursion(call);
   throw Stopped{};
 }
@@ -57,6 +58,10 @@ void Evaluator::replace_callee(const ast::Call& call, const Value& value, const 
 
 Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
   const ast::Name& name = static_cast<const ast::Variable&>(*call.callee).name;
+  if (name.is_special()) {
+    warn("Can't call function on dynamically scoped variable", call.span);
+    return {};
+  }
   const auto found = functions_.find(name.symbol);
   if (found == functions_.end() && gives_value(name, *scope)) return value_of_word(call, scope);
   if (found == functions_.end()) {
@@ -64,14 +69,16 @@ Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
     return {};
   }
   if (const auto is_undefined = tests_variable(name.text(), call, *scope)) return *is_undefined;
+  // OpenSCAD does not evaluate the arguments of a call with too few or too many.
+  const size_t count = call.arguments.size();
+  const bool is_count_right = count >= found->second.least && count <= found->second.most;
   std::vector<Value> arguments;
-  arguments.reserve(call.arguments.size());
-  for (const ast::Argument& argument : call.arguments) arguments.push_back(eval(*argument.value, scope));
+  arguments.reserve(count);
+  for (size_t n = 0; is_count_right && n < count; ++n) arguments.push_back(eval(*call.arguments[n].value, scope));
   at_ = call.span;
   if (auto made = result_of_objects(found->second.name, arguments)) return *made;
   Problems problems;
   const FunctionCall made{found->second.name, std::move(arguments), meter_, problems, module_calls_, random_, call};
-  const bool is_count_right = made.size() >= found->second.least && made.size() <= found->second.most;
   Value result = is_count_right ? found->second.call(made) : made.wrong_count();
   warn_all(problems, call.span);
   return result;
@@ -89,10 +96,14 @@ void Evaluator::report_twice(const ast::Argument&, Symbol parameter, const ast::
   warn("argument " + *parameter + " supplied more than once", where);
 }
 
-// True for a variable of let that repeats a name.
+// True for a variable of let that repeats a name, or has none.
 bool Evaluator::ignores(const std::vector<ast::Argument>& arguments, size_t n, const Value& value) {
   const ast::Name& name = arguments[n].name;
-  const auto is_it = [&](const ast::Argument& before) { return name.symbol && before.name.symbol == name.symbol; };
+  if (!name.symbol) {
+    warn("Assignment without variable name " + value_text(value, true, meter_), arguments[n].value->span);
+    return true;
+  }
+  const auto is_it = [&](const ast::Argument& before) { return before.name.symbol == name.symbol; };
   if (std::none_of(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(n), is_it)) return false;
   warn("Ignoring duplicate variable assignment " + name.text() + " = " + value_text(value, true, meter_),
        arguments[n].value->span);

@@ -27,9 +27,11 @@ struct FunctionCall {
   const std::vector<Value>& all() const { return arguments; }
   // Adds a warning and returns undef.
   Value fail(std::string text) const {
-    problems.push_back(std::move(text));
+    problems.push_back({std::move(text)});
     return {};
   }
+  // Adds a warning without a place.
+  void note(std::string text) const { problems.push_back({std::move(text), false}); }
   Value wrong_count() const { return fail(std::string(name) + "() number of parameters does not match"); }
   Value wrong_type() const { return fail(std::string(name) + "() parameter could not be converted"); }
   Value expected(size_t, const char*) const { return wrong_type(); }  // OpenSCAD says nothing about what it expects

@@ -33,7 +33,7 @@ class Computation {
     if (const double* n = operand.number()) return op == Operator::negate ? -*n : static_cast<double>(~to_integer(*n));
     if (const List* list = operand.list(); list && op == Operator::negate)
       return of_each(*list, [&](const Value& item) { return unary(op, item); });
-    problems_.push_back(std::string("undefined operation (") + ast::spelling(op) + type_name(operand) + ')');
+    problems_.push_back({std::string("undefined operation (") + ast::spelling(op) + type_name(operand) + ')'});
     return {};
   }
 
@@ -43,7 +43,7 @@ class Computation {
                 type_name(right) + ')');
   }
   Value fail(std::string text) {
-    problems_.push_back(std::move(text));
+    problems_.push_back({std::move(text)});
     return {};
   }
 
@@ -123,6 +123,12 @@ class Computation {
   Value not_rectangular(size_t row) {
     return fail("Matrix must be rectangular. Problem at row " + std::to_string(row));
   }
+  // The message for a row of a matrix that cannot be multiplied with a vector, or with a matrix.
+  Value wrong_row(size_t row, size_t size, const List& by) {
+    if (by.items.front().number()) return not_rectangular(row);
+    return fail("matrix*matrix left operand row length does not match right operand row count" +
+                sizes(size, by.items.size()) + " at row " + std::to_string(row));
+  }
   static std::string sizes(size_t a, size_t b) { return " (" + std::to_string(a) + " != " + std::to_string(b) + ")"; }
 
   Value vector_by_vector(const List& a, const List& b) {
@@ -146,7 +152,7 @@ class Computation {
     ListBuilder result(meter_);
     for (size_t row = 0; row < a.items.size(); ++row) {
       const List* line = a.items[row].list();
-      if (!line || line->items.size() != columns) return not_rectangular(row);
+      if (!line || line->items.size() != columns) return wrong_row(row, line ? line->items.size() : 0, b);
       Value product = (this->*times)(*line, b);
       if (product.is_undef()) return {};
       result.push(std::move(product));
@@ -165,7 +171,10 @@ class Computation {
       for (size_t row = 0; row < b.items.size(); ++row) {
         meter_.spend();
         const List* line = b.items[row].list();
-        if (!line || line->items.size() != columns) return not_rectangular(row);
+        if (!line || line->items.size() != columns) {
+          problems_.push_back({"Matrix must be rectangular. Problem at row " + std::to_string(row), false});
+          return not_rectangular(row);
+        }
         const double *x = a.items[row].number(), *y = line->items[column].number();
         if (!x || !y) return undefined(Operator::multiply, a.items[row], line->items[column]);
         sum += *x * *y;
@@ -184,8 +193,9 @@ class Computation {
     if (const auto is_ordered = ordered_values(op, left, right)) return *is_ordered;
     if (left.list() && right.list()) return of_vectors(op, *left.list(), *right.list());
     if (const Range* a = left.range(), *b = right.range(); a && b) return ordered(op, order_key(*a), order_key(*b));
-    if (left.is_undef() && right.is_undef())
-      return fail(std::string("operation undefined (undefined ") + ast::spelling(op) + " undefined)");
+    const std::string type = type_name(left);
+    if ((left.is_undef() && right.is_undef()) || (left.closure() && right.closure()))
+      return fail("operation undefined (" + type + ' ' + ast::spelling(op) + ' ' + type + ')');
     return undefined(op, left, right);
   }
 
@@ -197,7 +207,7 @@ class Computation {
         const Value &x = is_swapped ? b.items[i] : a.items[i], &y = is_swapped ? a.items[i] : b.items[i];
         const Value is_less = binary(Operator::less, x, y);
         if (is_less.is_undef()) {
-          problems_.back() += "\n\tin vector comparison at index " + std::to_string(i);
+          problems_.back().text += "\n\tin vector comparison at index " + std::to_string(i);
           return {};
         }
         if (!is_true(is_less)) continue;

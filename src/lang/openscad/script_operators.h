@@ -8,7 +8,12 @@
 
 namespace ombre::lang::openscad {
 
-using Problems = std::vector<std::string>;  // texts of warnings; the caller adds the position
+// The text of a warning. The caller adds the position, unless OpenSCAD gives none.
+struct Problem {
+  std::string text;
+  bool has_place = true;
+};
+using Problems = std::vector<Problem>;
 
 // Applies any operator except "&&" and "||", which do not evaluate both sides.
 Value binary(ast::Operator op, const Value& left, const Value& right, Meter& meter, Problems& problems);

@@ -1,6 +1,7 @@
 // Statements of OpenSCAD scripts, which make trees.
 #include "lang/engine/evaluation_loops.h"
 #include "lang/engine/parser.h"
+#include "lang/openscad/ranges.h"
 #include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
 
@@ -9,6 +10,33 @@ namespace ombre::lang::openscad {
 using ast::CallStatement;
 using ast::Statement;
 using solids::TreePtr;
+
+namespace {
+
+// True for what is written as a value: numbers with signs, strings, truth values, undef, and lists and ranges of them.
+bool is_literal(const ast::Expr& expr) {
+  using Kind = ast::Expr::Kind;
+  switch (expr.kind) {
+    case Kind::undef:
+    case Kind::boolean:
+    case Kind::number:
+    case Kind::string:
+      return true;
+    case Kind::unary:
+      return is_literal(*static_cast<const ast::Unary&>(expr).operand);
+    case Kind::list:
+      return std::ranges::all_of(static_cast<const ast::List&>(expr).elements,
+                                 [](const auto& element) { return is_literal(*element); });
+    case Kind::range: {
+      const auto& range = static_cast<const ast::Range&>(expr);
+      return is_literal(*range.begin) && (!range.step || is_literal(*range.step)) && is_literal(*range.end);
+    }
+    default:
+      return false;
+  }
+}
+
+}  // namespace
 
 // Keeps the special variables of a used file for its functions and modules.
 void Evaluator::end(const Unit& unit, size_t specials_before) {
@@ -98,7 +126,29 @@ void Evaluator::call_other(const CallStatement& statement, const ScopePtr& scope
 void Evaluator::check_depth(const CallStatement& statement) {
   constexpr int levels_of_statement = 8;  // trees are as deep as statements, and other code walks them recursively
   if (depth_ > options_.limits.depth - spare_levels || nested_statements_ > options_.limits.depth / levels_of_statement)
-    stop("Recursion detected calling module '" + statement.name.text() + '\'', statement.span);
+    stop_recursion(statement);
+}
+
+void Evaluator::stop_recursion(const CallStatement& statement) {
+  stop("Recursion detected calling module '" + statement.name.text() + '\'', statement.span);
+}
+
+// Values grow beyond a limit in an endless recursion that passes on lists of its own arguments.
+void Evaluator::stop_if_recursive(const CallStatement& statement) {
+  constexpr size_t deep = 200;
+  if (module_calls_.size() >= deep) stop_recursion(statement);
+}
+
+void Evaluator::check_assignments(const ast::ModuleDef& module) {
+  for (const ast::Assign* assignment : module.body.plan.assignments) {
+    if (!is_literal(*assignment->value)) continue;
+    const auto is_it = [&](const ast::Parameter& parameter) {
+      return parameter.name.symbol == assignment->name.symbol;
+    };
+    if (std::ranges::any_of(module.parameters, is_it))
+      warn("Module " + module.name.text() + ": Parameter " + assignment->name.text() + " is overwritten with a literal",
+           assignment->span);
+  }
 }
 
 // $children belongs to the module in which it stands, so braces of a call have that of the module around them.
@@ -108,16 +158,19 @@ void Evaluator::set_counts(const CallStatement& statement, Scope& inner, size_t 
 }
 
 // Returns nothing and adds a warning unless the value is the number of a child.
-std::optional<size_t> Evaluator::chosen_child(const Value& index, size_t count) {
+std::optional<size_t> Evaluator::chosen_child(const CallStatement& statement, const Value& index, size_t count) {
   const double* number = index.number();
   if (!number) return std::nullopt;
   const double place = std::trunc(*number);
   const std::string shown = number_text(place);
+  // OpenSCAD gives places for child() alone.
+  const bool is_old = statement.name.symbol == child_name_;
+  const std::string which = is_old ? "hild" : "hildren";
+  const ast::Span where = is_old ? statement.span : ast::Span{};
   if (place < 0)
-    messages_.add({Message::Kind::warning, "Negative children index (" + shown + ") not allowed", "", 0});
+    warn("Negative c" + which + " index (" + shown + ") not allowed", where);
   else if (place >= static_cast<double>(count))
-    messages_.add({Message::Kind::warning,
-                   "Children index (" + shown + ") out of bounds (" + std::to_string(count) + " children)", "", 0});
+    warn('C' + which + " index (" + shown + ") out of bounds (" + std::to_string(count) + " children)", where);
   else if (!std::isnan(place))
     return static_cast<size_t>(place);
   return std::nullopt;
@@ -139,17 +192,25 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
     run_block(*children->block, children->scope, result->children);
     return result;
   }
-  const Value index = statement.arguments.empty() ? Value(0.0) : eval(*statement.arguments[0].value, scope);
+  Value index = statement.arguments.empty() ? Value(0.0) : eval(*statement.arguments[0].value, scope);
+  if (is_old && !index.number()) return nullptr;
   if (!index.number() && !index.list() && !index.range()) {
     warn("Bad parameter type (" + value_text(index, true, meter_) +
              ") for children, only accept: empty, number, vector, range",
          statement.span);
     return nullptr;
   }
+  constexpr double most_children = 10'000;
+  if (const Range* range = index.range(); range && element_count(*range) >= most_children) {
+    warn("Bad range parameter for children: too many elements (" +
+             std::to_string(static_cast<uint64_t>(element_count(*range))) + ")",
+         statement.span);
+    return nullptr;
+  }
   const SpecialsMark mark(*this);
   ScopePtr inner;  // scope of the children, whose variables are computed once
   const auto run_child = [&](const Value& each) {
-    const auto chosen = chosen_child(each, plan.actions.size());
+    const auto chosen = chosen_child(statement, each, plan.actions.size());
     if (!chosen) return;
     if (!inner) {
       inner = make_scope(children->scope, &plan);

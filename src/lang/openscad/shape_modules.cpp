@@ -137,6 +137,7 @@ TreePtr text(ModuleCall& call) {
   result.script = call.text("script", "Latn");
   result.spacing = call.number("spacing", 1);
   result.fragments = call.fragments();
+  result.font_files = call.font_files();
   return call.node(std::move(result));
 }
 

@@ -18,17 +18,19 @@ Value str(const Call& call) {
   return make_text(std::move(text), call.meter);
 }
 
+// Appends the characters of numbers in nested lists and ranges.
+void append_characters(const Value& value, Meter& meter, std::string& text) {
+  if (const double* code = value.number()) common::append_character(text, *code, meter);
+  if (const List* list = value.list())
+    for (const Value& item : list->items) append_characters(item, meter, text);
+  const Range* range = value.range();
+  if (!range || element_count(*range) >= most_range_elements) return;
+  for (double i = 0; i < element_count(*range); ++i) common::append_character(text, range->at(i), meter);
+}
+
 Value chr(const Call& call) {
   std::string text;
-  for (const Value& argument : call.arguments) {
-    if (const double* code = argument.number()) common::append_character(text, *code, call.meter);
-    if (const List* list = argument.list())
-      for (const Value& item : list->items)
-        if (item.number()) common::append_character(text, *item.number(), call.meter);
-    const Range* range = argument.range();
-    if (!range || element_count(*range) >= most_range_elements) continue;
-    for (double i = 0; i < element_count(*range); ++i) common::append_character(text, range->at(i), call.meter);
-  }
+  for (const Value& argument : call.arguments) append_characters(argument, call.meter, text);
   return make_text(std::move(text), call.meter);
 }
 
@@ -38,7 +40,9 @@ Value ord(const Call& call) {
     return call.fail("ord() called with " + std::to_string(call.size()) + " arguments, only 1 argument expected");
   const Text* text = call[0].text();
   if (!text) return call.fail("ord() argument " + value_text(call[0], true, call.meter) + " is not of type string");
-  if (text->text.empty() || code_point_size(text->text, 0) == 0) return {};
+  if (text->text.empty()) return {};
+  if (code_point_size(text->text, 0) == 0)
+    return call.fail("ord() argument '" + text->text + "' is not a valid utf8 string");
   return static_cast<double>(code_point(text->text, 0));
 }
 
@@ -84,7 +88,7 @@ class Search {
   static std::vector<std::string> characters(const std::string& text) {
     std::vector<std::string> result;
     for (size_t at = 0; at < text.size();) {
-      const size_t size = std::max<size_t>(1, code_point_size(text, at));
+      const size_t size = character_size(text, at);
       result.push_back(text.substr(at, size));
       at += size;
     }
@@ -145,19 +149,19 @@ class Search {
         const Value* cell = in_column(table()->items[i]);
         if (!cell) return wrong_row(i);
         const Text* text = cell->text();
-        if (text && text->text.substr(0, std::max<size_t>(1, code_point_size(text->text, 0))) == character)
+        if (text && text->text.substr(0, character_size(text->text, 0)) == character)
           places.push_back(static_cast<double>(i));
       }
-      if (places.empty()) call_.problems.push_back("search term not found: \"" + character + '"');
+      if (places.empty()) call_.fail("search term not found: \"" + character + '"');
       push(places, false, result);
     }
     return result.finish();
   }
 
   Value wrong_row(size_t index) const {
-    call_.problems.push_back("Invalid entry in search vector at index " + std::to_string(index) +
-                             ", required number of values in the entry: " + number_text(column_ + 1) +
-                             ". Invalid entry: " + value_text(table()->items[index], true, call_.meter));
+    call_.fail("Invalid entry in search vector at index " + std::to_string(index) +
+               ", required number of values in the entry: " + number_text(column_ + 1) +
+               ". Invalid entry: " + value_text(table()->items[index], true, call_.meter));
     return ListBuilder(call_.meter).finish();
   }
 

@@ -2,6 +2,9 @@
 #include "solids/cgal/cgal_boxes.h"
 
 #include <CGAL/Nef_polyhedron_3.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/boost/graph/convert_nef_polyhedron_to_polygon_mesh.h>
 #include <CGAL/convex_decomposition_3.h>
@@ -27,7 +30,29 @@ class NefSolid {
 
 namespace {
 
-Nef solid_of(const Part& part) { return part.nef ? part.nef->solid() : Nef(ExactMesh(part.surface)); }
+// Returns the solid of a surface. CGAL takes all that a surface encloses as solid, so cavities are subtracted, and
+// shells within them are added again: the larger a shell, the earlier.
+Nef nef_of(const ExactMesh& surface) {
+  namespace processing = CGAL::Polygon_mesh_processing;
+  std::vector<ExactMesh> shells;
+  processing::split_connected_components(surface, shells);
+  std::vector<std::pair<Exact::FT, size_t>> volumes;
+  for (size_t n = 0; n < shells.size(); ++n) volumes.emplace_back(processing::volume(shells[n]), n);
+  if (std::ranges::all_of(volumes, [](const auto& volume) { return volume.first > 0; })) return Nef(ExactMesh(surface));
+  std::ranges::sort(volumes, [](const auto& a, const auto& b) {
+    const Exact::FT of_a = CGAL::abs(a.first), of_b = CGAL::abs(b.first);
+    return of_a != of_b ? of_a > of_b : a.second < b.second;
+  });
+  Nef solid;
+  for (const auto& [volume, n] : volumes) {
+    if (volume < 0) processing::reverse_face_orientations(shells[n]);
+    Nef shell(shells[n]);
+    solid = volume > 0 ? solid + shell : solid - shell;
+  }
+  return solid;
+}
+
+Nef solid_of(const Part& part) { return part.nef ? part.nef->solid() : nef_of(part.surface); }
 
 // Sorts points and polygons, because the order in which CGAL visits a Nef polyhedron may depend on memory addresses.
 void put_in_order(std::vector<Exact::Point_3>& points, std::vector<std::vector<std::size_t>>& polygons) {
