@@ -4,6 +4,7 @@
 
 #include "formats/mesh/polygon.h"
 #include "solids/fragments.h"
+#include "solids/kernel.h"
 
 namespace ombre::solids {
 namespace {
@@ -92,30 +93,90 @@ bool check_indices(const std::vector<size_t>& indices, size_t points, const std:
   return true;
 }
 
-// True if OpenSCAD 2021.01 cuts a face with four corners from the second to the last. Which triangles it makes counts
-// if the face is not flat: it cuts along the shorter diagonal as seen along the axis that its first three corners face
-// most. Where the diagonals have one length, it cuts as a sweep does.
-bool is_cut_from_second(const std::vector<Vec3>& corners) {
-  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[1]);
+// Returns the largest triangle with the two corners that are farthest apart along an axis, as its area vector.
+Vec3 widest_triangle(const std::vector<Vec3>& corners) {
+  int axis = 0;
+  std::array<double, 3> extent{};
+  std::array<Vec3, 2> ends;
+  for (int n = 0; n < 3; ++n) {
+    const auto along = [&](const Vec3& p) { return p[n]; };
+    const auto lo = std::ranges::min_element(corners, {}, along), hi = std::ranges::max_element(corners, {}, along);
+    extent[static_cast<size_t>(n)] = (*hi)[n] - (*lo)[n];
+    if (n > 0 && extent[static_cast<size_t>(n)] <= extent[static_cast<size_t>(axis)]) continue;
+    axis = n;
+    ends = {*lo, *hi};
+  }
+  Vec3 widest;
+  for (const Vec3& p : corners) {
+    const Vec3 area = cross(ends[0] - ends[1], p - ends[1]);
+    if (dot(area, area) > dot(widest, widest)) widest = area;
+  }
+  return widest;
+}
+
+// Returns a face as OpenSCAD 2021.01 sees it, which matters if the face is not flat: without the coordinate along which
+// its widest triangle points, and counter-clockwise.
+Ring flattened(const std::vector<Vec3>& corners) {
+  const Vec3 normal = widest_triangle(corners);
   int axis = 0;
   for (const int other : {1, 2})
     if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
-  std::array<Vec2, 4> flat;
-  for (size_t n = 0; n < 4; ++n) {
-    const double across = corners[n][(axis + 2) % 3];
-    flat[n] = {corners[n][(axis + 1) % 3], normal[axis] < 0 ? -across : across};
-  }
+  Ring flat;
+  for (const Vec3& p : corners) flat.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
+  if (doubled_area(flat) < 0)
+    for (Vec2& p : flat) p.y = -p.y;
+  return flat;
+}
+
+// True if OpenSCAD 2021.01 cuts a face with four corners from the second to the last: its triangles are Delaunay's.
+// Where all corners lie on a circle, it cuts as a sweep does.
+bool is_cut_from_second(const Ring& flat) {
   for (size_t n = 0; n < 4; ++n)
     if (cross(flat[n] - flat[(n + 3) % 4], flat[(n + 1) % 4] - flat[n]) <= 0) return false;  // not convex
-  constexpr double rounding = 1e-9;
-  const double first = length(flat[2] - flat[0]), second = length(flat[3] - flat[1]);
-  if (std::abs(first - second) > rounding * first) return second < first;
+  // Two opposite angles of less than half a turn together belong to a quadrilateral that is cut between the others.
+  const auto angle_parts = [&](size_t n) {
+    const Vec2 a = flat[(n + 1) % 4] - flat[n], b = flat[(n + 3) % 4] - flat[n];
+    return Vec2{dot(a, b), cross(a, b)};
+  };
+  const Vec2 first = angle_parts(0), third = angle_parts(2);
+  const double sine = first.y * third.x + first.x * third.y, size = length(first) * length(third);
+  constexpr double rounding = 1e-6;  // OpenSCAD computes this in single precision
+  if (std::abs(sine) > rounding * size) return sine > 0;
   std::array<size_t, 4> order{0, 1, 2, 3};
   std::ranges::sort(
       order, [&](size_t a, size_t b) { return std::pair(flat[a].x, flat[a].y) < std::pair(flat[b].x, flat[b].y); });
   const bool is_one_chain = (order[1] + 1) % 4 == order[2] || (order[2] + 1) % 4 == order[1];
   return (is_one_chain ? order[0] : order[1]) % 2 == 1;
 }
+
+bool is_flat(const std::vector<Vec3>& corners) {
+  constexpr double rounding = 1e-9;
+  Vec3 area;
+  double size = 0;
+  for (size_t n = 2; n < corners.size(); ++n) area = area + cross(corners[n - 1] - corners[0], corners[n] - corners[0]);
+  for (const Vec3& p : corners) size = std::max(size, length(p - corners[0]));
+  return std::ranges::all_of(
+      corners, [&](const Vec3& p) { return std::abs(dot(area, p - corners[0])) <= rounding * size * length(area); });
+}
+
+// Cuts faces of polyhedra as OpenSCAD 2021.01 does.
+class FaceCutter {
+ public:
+  std::vector<formats::Corners> cut(const std::vector<Vec3>& corners) {
+    if (corners.size() == 3 || is_flat(corners)) return cutter_.cut(corners);
+    const Ring flat = flattened(corners);
+    if (corners.size() == 4) return is_cut_from_second(flat) ? from_second() : cutter_.cut(corners);
+    const std::array rings{flat};
+    const PlaneTriangles pieces = kernel().triangulate(rings);
+    const bool is_simple = pieces.crossings.empty() && pieces.triangles.size() == corners.size() - 2;
+    return is_simple ? pieces.triangles : cutter_.cut(corners);
+  }
+
+ private:
+  static std::vector<formats::Corners> from_second() { return {{1, 2, 3}, {1, 3, 0}}; }
+
+  formats::PolygonCutter cutter_;
+};
 
 }  // namespace
 
@@ -159,7 +220,7 @@ TriangleMesh mesh_of(const Cylinder& cylinder) {
 
 TriangleMesh mesh_of(const Polyhedron& polyhedron, const SourceRange& where, Diagnostics& messages) {
   TriangleMesh mesh{polyhedron.points, {}};
-  formats::PolygonCutter cutter;
+  FaceCutter cutter;
   for (size_t row = 0; row < polyhedron.faces.size(); ++row) {
     std::vector<size_t> face = polyhedron.faces[row];
     if (!check_indices(face, mesh.points.size(), "faces", row, where, messages)) continue;
@@ -173,10 +234,6 @@ TriangleMesh mesh_of(const Polyhedron& polyhedron, const SourceRange& where, Dia
     }
     while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
     if (corners.size() < 3) continue;
-    if (corners.size() == 4 && is_cut_from_second(corners)) {
-      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-      std::rotate(number.begin(), number.begin() + 1, number.begin() + 4);
-    }
     for (const auto& [a, b, c] : cutter.cut(corners)) mesh.triangles.push_back({number[a], number[b], number[c]});
   }
   return tidied(mesh);
