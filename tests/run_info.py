@@ -82,7 +82,7 @@ def cad_files_are_described(folder):
     if program.WITHOUT_CAD in result.stdout + result.stderr:
         return
     found = next(event for event in map(json.loads, result.stdout.splitlines()) if event["event"] == "cad")
-    expect(found["solid_count"] == 2 and len(found["solids"]) == 2, found)
+    expect(found["solid_count"] == 2 and len(found["solids"]) == 2 and found["unit"] == "millimetre", found)
     near(found["solids"][1]["volume_mm3"], 125.663706, 1e-3, "the volume of the pin")
     expect(all(solid["faces"] > 0 for solid in found["solids"]), found)
 

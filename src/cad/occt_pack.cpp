@@ -21,6 +21,7 @@ std::string pack_shapes(const std::vector<MeasuredShape>& shapes) {
   for (const MeasuredShape& shape : shapes) {
     builder.Add(all, shape.named.shape);
     packer.add_text(shape.named.name);
+    packer.add_text(shape.named.unit);
     packer.add(shape.named.colour.has_value());
     packer.add(shape.named.colour.value_or(std::array<uint8_t, 4>{}));
     packer.add(shape.volume_mm3);
@@ -37,6 +38,7 @@ std::vector<MeasuredShape> unpack_shapes(const std::string& bytes) {
   std::vector<MeasuredShape> shapes(unpacker.get<uint64_t>());
   for (MeasuredShape& shape : shapes) {
     shape.named.name = unpacker.get_text();
+    shape.named.unit = unpacker.get_text();
     const bool has_colour = unpacker.get<bool>();
     const auto colour = unpacker.get<std::array<uint8_t, 4>>();
     if (has_colour) shape.named.colour = colour;

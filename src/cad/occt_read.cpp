@@ -6,8 +6,12 @@
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <IGESCAFControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
 #include <Quantity_ColorRGBA.hxx>
 #include <STEPCAFControl_Reader.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
@@ -186,6 +190,17 @@ void read_with(Reader& reader, const std::string& path, Document& document) {
                 {{"file", path}});
 }
 
+std::string unit_of(STEPCAFControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
+  return lengths.IsEmpty() ? "" : lengths.First().ToCString();
+}
+
+std::string unit_of(const IGESCAFControl_Reader& reader) {
+  const auto name = reader.IGESModel()->GlobalSection().UnitName();
+  return name.IsNull() ? "" : name->ToCString();
+}
+
 bool is_iges(const std::string& path) {
   const size_t dot = path.rfind('.');
   return dot != std::string::npos && dot + 1 < path.size() && (path[dot + 1] == 'i' || path[dot + 1] == 'I');
@@ -195,12 +210,15 @@ bool is_iges(const std::string& path) {
 
 std::vector<NamedShape> read_shapes(const std::string& path) {
   Document document;
+  std::string unit;
   if (is_iges(path)) {
     IGESCAFControl_Reader reader;
     read_with(reader, path, document);
+    unit = unit_of(reader);
   } else {
     STEPCAFControl_Reader reader;
     read_with(reader, path, document);
+    unit = unit_of(reader);
   }
   Collector found(document.handle());
   found.run();
@@ -208,6 +226,7 @@ std::vector<NamedShape> read_shapes(const std::string& path) {
     std::vector<NamedShape> closed = sewn(found.faces);
     found.solids.insert(found.solids.end(), closed.begin(), closed.end());
   }
+  for (NamedShape& solid : found.solids) solid.unit = unit;
   if (!found.solids.empty()) return found.solids;
   if (found.faces.empty())
     throw Error(Code::file_content, path + " holds no solid; export the part as a solid", {{"file", path}});

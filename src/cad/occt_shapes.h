@@ -15,6 +15,7 @@ struct NamedShape {
   std::string name;
   std::optional<std::array<uint8_t, 4>> colour;
   TopoDS_Shape shape;
+  std::string unit = {};  // the file's unit of lengths, which the reader converts to mm
 };
 
 // Reads the shapes of a file. Throws Error, and exceptions of the library.

@@ -116,6 +116,7 @@ class OcctSolid final : public Solid {
  public:
   explicit OcctSolid(const MeasuredShape& shape) : shape_(shape.named.shape) {
     name = shape.named.name;
+    unit = shape.named.unit;
     colour = shape.named.colour;
     volume_mm3 = shape.volume_mm3;
     faces = face_count(shape.named.shape);

@@ -92,8 +92,9 @@ std::optional<FileSummary> cad_summary(const std::string& path, Session& session
                                   {"volume_mm3", solid->volume_mm3},
                                   {"colour", colour.empty() ? Data() : Data(colour)}});
   }
-  summary.add("solid_count", format_count(solids.size()) + ", in mm whatever the file's unit is",
-              Data(static_cast<double>(solids.size())));
+  summary.add_count("solid_count", solids.size());
+  if (!solids[0]->unit.empty())
+    summary.add("unit", to_lower(solids[0]->unit) + ", read as mm", Data(to_lower(solids[0]->unit)));
   summary.add("volume_mm3", format_rounded(volume, 7) + " mm3", volume);
   summary.add_box(box);
   summary.text += lines;
