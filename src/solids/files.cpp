@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "base/text/error.h"
 #include "base/text/file_ending.h"
+#include "base/text/text.h"
 #include "formats/containers/file.h"
 #include "formats/drawings/plane_files.h"
 #include "formats/images/uncoloured.h"
 #include "formats/mesh/mesh.h"
 #include "formats/mesh/mesh_objects.h"
 #include "formats/packages/read_mesh.h"
+#include "import/surfaces/mesh_report.h"
 #include "solids/fragments.h"
 #include "solids/mended_solid.h"
 #include "solids/regions.h"
@@ -58,6 +61,72 @@ Attributes attributes_of(const formats::MeshGroup& group, const formats::Mesh& m
   return attributes;
 }
 
+// Groups of triangles that are one solid; `groups` has a flag for each of all_groups().
+struct Body {
+  Attributes attributes;
+  std::vector<bool> groups;
+};
+
+// Returns the name of the object that holds a group, or an empty text if the file has none.
+const std::string& object_of(const formats::MeshGroup& group) {
+  static const std::string none;
+  if (!group.object.empty()) return group.object;
+  return group.name == group.material ? none : group.name;
+}
+
+// Returns the groups of one object by their attributes.
+std::vector<Body> bodies_of_object(const formats::Mesh& mesh, const std::string& object) {
+  const size_t all = formats::all_groups(mesh).size();
+  std::vector<Body> bodies;
+  for (size_t n = 0; n < mesh.groups.size(); ++n) {
+    if (object_of(mesh.groups[n]) != object) continue;
+    Attributes attributes = attributes_of(mesh.groups[n], mesh);
+    auto body = std::ranges::find(bodies, attributes, &Body::attributes);
+    if (body == bodies.end()) body = bodies.insert(body, {std::move(attributes), std::vector<bool>(all)});
+    body->groups[n] = true;
+  }
+  return bodies;
+}
+
+bool is_closed(const formats::Mesh& mesh, const Body& body) {
+  return importing::inspect(formats::groups_of(mesh, body.groups)).is_closed();
+}
+
+// Joins bodies of an object that are no solids by themselves, since its triangles have materials or colours of their
+// own. Where they differ, the solid has none.
+Body joined(const std::vector<Body>& bodies) {
+  Body whole = bodies.front();
+  for (const Body& body : bodies) {
+    if (body.attributes.material != whole.attributes.material) whole.attributes.material.clear();
+    if (body.attributes.colour != whole.attributes.colour) whole.attributes.colour.reset();
+    if (body.attributes.part != whole.attributes.part) whole.attributes.part.clear();
+    for (size_t n = 0; n < whole.groups.size(); ++n) whole.groups[n] = whole.groups[n] || body.groups[n];
+  }
+  return whole;
+}
+
+// Returns the solids of a mesh. `colours` is set to the number of materials and colours of surfaces that are not used.
+std::vector<Body> bodies_of(const formats::Mesh& mesh, size_t& colours) {
+  std::vector<Body> all;
+  std::set<std::string> done;
+  for (const formats::MeshGroup& group : mesh.groups) {
+    if (!done.insert(object_of(group)).second) continue;
+    std::vector<Body> bodies = bodies_of_object(mesh, object_of(group));
+    if (bodies.size() > 1 && !std::ranges::all_of(bodies, [&](const Body& body) { return is_closed(mesh, body); })) {
+      colours += bodies.size();
+      bodies = {joined(bodies)};
+    }
+    for (Body& body : bodies) {
+      const auto same = std::ranges::find(all, body.attributes, &Body::attributes);
+      if (same == all.end())
+        all.push_back(std::move(body));
+      else
+        *same = joined({*same, body});
+    }
+  }
+  return all;
+}
+
 bool names_attributes(const std::string& ending) { return ending == ".3mf" || ending == ".amf" || ending == ".obj"; }
 
 Pieces mesh_pieces(const Import& import, const std::string& bytes, const SourceRange& where, Diagnostics& messages) {
@@ -76,15 +145,11 @@ Pieces mesh_pieces(const Import& import, const std::string& bytes, const SourceR
     add(*mesh, is_named ? attributes_of(mesh->groups[0], *mesh) : Attributes{});
     return pieces;
   }
-  std::vector<bool> is_done(mesh->groups.size());
-  for (size_t n = 0; n < is_done.size(); ++n) {
-    const Attributes attributes = attributes_of(mesh->groups[n], *mesh);
-    if (is_done[n]) continue;
-    std::vector<bool> flags(formats::all_groups(*mesh).size());
-    for (size_t other = n; other < is_done.size(); ++other)
-      if (attributes_of(mesh->groups[other], *mesh) == attributes) flags[other] = is_done[other] = true;
-    add(formats::groups_of(*mesh, flags), attributes);
-  }
+  size_t colours = 0;
+  for (const Body& body : bodies_of(*mesh, colours)) add(formats::groups_of(*mesh, body.groups), body.attributes);
+  if (colours > 0)
+    messages.warning(where, "the surface of a solid in \"" + import.path + "\" has " + format_count(colours) +
+                                " materials or colours, which are not used: the solid has none");
   return pieces;
 }
 
