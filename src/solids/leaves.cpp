@@ -1,5 +1,6 @@
 // The geometry of leaves: primitives, texts and files.
 #include <algorithm>
+#include <cmath>
 
 #include "base/text/error.h"
 #include "solids/files.h"
@@ -23,6 +24,14 @@ Pieces piece_of(Region region) {
   return {{{}, std::move(region)}};
 }
 
+bool is_finite(const std::vector<Ring>& rings) {
+  return std::ranges::all_of(rings, [](const Ring& ring) {
+    return std::ranges::all_of(ring, [](const Vec2& p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+  });
+}
+
+Pieces piece_of(const std::vector<Ring>& rings) { return is_finite(rings) ? piece_of(region_of(rings)) : Pieces{{}}; }
+
 class Leaf {
  public:
   Leaf(const Tree& tree, const OperationContext& context) : tree_(tree), context_(context) {}
@@ -36,11 +45,9 @@ class Leaf {
     const auto solid = mended_solid(mesh, "the polyhedron", tree_.where, messages());
     return {{{}, solid ? std::variant<std::monostate, Solid, Region>(*solid) : std::monostate{}}};
   }
-  Pieces operator()(const Square& square) const { return piece_of(region_of(rings_of(square))); }
-  Pieces operator()(const Circle& circle) const { return piece_of(region_of(rings_of(circle))); }
-  Pieces operator()(const Polygon& polygon) const {
-    return piece_of(region_of(rings_of(polygon, tree_.where, messages())));
-  }
+  Pieces operator()(const Square& square) const { return piece_of(rings_of(square)); }
+  Pieces operator()(const Circle& circle) const { return piece_of(rings_of(circle)); }
+  Pieces operator()(const Polygon& polygon) const { return piece_of(rings_of(polygon, tree_.where, messages())); }
   Pieces operator()(const Text& text) const { return piece_of(region_of_text(text, tree_.where, messages())); }
   Pieces operator()(const Import& import) const {
     Pieces pieces = import_pieces(import, tree_.where, messages());

@@ -194,9 +194,9 @@ class Applier {
 
   Piece summed(const Piece& a, const Piece& b) const {
     Attributes attributes = completed(a.attributes, b.attributes);
-    // OpenSCAD passes over empty children.
-    if (a.dimension() == 0 || b.dimension() == 0)
-      return {std::move(attributes), a.dimension() == 0 ? b.shape : a.shape};
+    // OpenSCAD passes over empty children in space; in the plane, the sum is empty.
+    if (a.dimension() + b.dimension() == 3) return {std::move(attributes), a.solid() ? a.shape : b.shape};
+    if (a.dimension() == 0 || b.dimension() == 0) return {std::move(attributes), {}};
     if (a.solid()) return piece_of(std::move(attributes), minkowski(*a.solid(), *b.solid(), context_.work));
     return piece_of(std::move(attributes), minkowski(*a.region(), *b.region()));
   }

@@ -93,14 +93,14 @@ bool check_indices(const std::vector<size_t>& indices, size_t points, const std:
   return true;
 }
 
-// Returns the largest triangle with the two corners that are farthest apart along an axis, as its area vector.
+// Returns the largest triangle with the two corners that are farthest apart along an axis, as its area vector. Of equal
+// ones, the first of the lowest and the last of the highest corners count.
 Vec3 widest_triangle(const std::vector<Vec3>& corners) {
   int axis = 0;
   std::array<double, 3> extent{};
   std::array<Vec3, 2> ends;
   for (int n = 0; n < 3; ++n) {
-    const auto along = [&](const Vec3& p) { return p[n]; };
-    const auto lo = std::ranges::min_element(corners, {}, along), hi = std::ranges::max_element(corners, {}, along);
+    const auto [lo, hi] = std::ranges::minmax_element(corners, {}, [&](const Vec3& p) { return p[n]; });
     extent[static_cast<size_t>(n)] = (*hi)[n] - (*lo)[n];
     if (n > 0 && extent[static_cast<size_t>(n)] <= extent[static_cast<size_t>(axis)]) continue;
     axis = n;

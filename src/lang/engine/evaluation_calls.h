@@ -100,7 +100,10 @@ bool Evaluation<Language, Product>::find_function(Symbol name, const ScopePtr& s
     if (function) callee = {&function->parameters, function->body.get(), home, used};
     return function != nullptr;
   };
-  if (Language::rules.calls_specials && name->front() == '$' && is_closure(find_special(name))) return true;
+  if (name->front() == '$') {
+    if (!Language::rules.calls_specials) return false;
+    if (is_closure(find_special(name))) return true;
+  }
   for (const ScopePtr* at = &scope; *at; at = &(*at)->parent()) {
     if (Language::rules.prefers_variables && is_closure((*at)->own(name))) return true;
     if (is_defined((*at)->plan(), *at, nullptr)) return true;

@@ -159,7 +159,7 @@ class Unescaper {
     }
     if (dialect_ == Dialect::openscad) {
       if (digits == 2 && value > 0x7F) return ignore_backslash(begin);
-      if (value == 0) value = ' ';
+      if (!is_code_point(value)) value = ' ';
       return append_code_point(result_.text, value);
     }
     if (!is_code_point(value) || (digits == 2 && value > 0x7F))

@@ -65,12 +65,13 @@ TreePtr extruded(ModuleCall& call, solids::Operation operation) {
   return result;
 }
 
+double finite(double number, double otherwise) { return std::isfinite(number) ? number : otherwise; }
+
 TreePtr linear_extrude(ModuleCall& call) {
   solids::LinearExtrude result;
   result.fragments = call.fragments();
   const auto first = call.number("file");  // linear_extrude(10)
-  result.height = std::max(0.0, call.number("height", first.value_or(100)));
-  if (!std::isfinite(result.height)) result.height = 100;
+  result.height = std::max(0.0, finite(call.number("height", first.value_or(100)), 100));
   if (const auto direction = vector3(call["v"], 0); direction && length(*direction) > 0) {
     result.direction = *direction;
     if (!call.has("height") && !first) result.height = length(*direction);
@@ -80,8 +81,8 @@ TreePtr linear_extrude(ModuleCall& call) {
     result.scale = {*all, *all};
   else if (const auto each = numbers<2>(call["scale"]))
     result.scale = {(*each)[0], (*each)[1]};
-  result.scale = {std::max(0.0, result.scale.x), std::max(0.0, result.scale.y)};
-  result.twist = call.number("twist", 0);
+  result.scale = {std::max(0.0, finite(result.scale.x, 1)), std::max(0.0, finite(result.scale.y, 1))};
+  result.twist = finite(call.number("twist", 0), 0);
   if (const auto slices = call.number("slices"); slices && *slices >= 1) result.slices = whole(*slices);
   if (const auto segments = call.number("segments")) result.segments = std::max(0, whole(*segments));
   result.convexity = std::max(1, whole(call.number("convexity", 1)));

@@ -56,10 +56,11 @@ int part_of_turn(const Exact::Point_3& a, const Exact::Point_3& b, const Exact::
 bool touches_itself_after(Boolean operation, const ExactMesh& first, const ExactMesh& second);
 // Combines parts by Nef polyhedra. This is slow, but surfaces may touch themselves.
 Parts combine_nef(Boolean operation, const Part& a, const Part& b);
-// Returns the solid of all points with a winding number other than 0 in a closed mesh that may cross itself. Throws
-// Error if it touches itself.
+// Returns the solid of all points with a winding number other than 0 in a closed mesh that may cross itself.
 Parts wound_parts(const TriangleMesh& mesh);
 std::vector<TriangleMesh> convex_parts_nef(const Part& part);
+// Returns the part of a surface that touches itself.
+Part touching_part(ExactMesh surface);
 Part moved_nef(const Part& part, const CGAL::Aff_transformation_3<Exact>& map);
 TriangleMesh hull_of(std::span<const Vec3> points);
 PlaneTriangles triangulate_rings(std::span<const Ring> rings);

@@ -1,6 +1,7 @@
 // Nef polyhedra: booleans for surfaces that touch themselves, and convex decomposition.
 #include "solids/cgal/cgal_boxes.h"
 
+#include <CGAL/Nef_nary_union_3.h>
 #include <CGAL/Nef_polyhedron_3.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -30,6 +31,21 @@ class NefSolid {
 
 namespace {
 
+// Returns what a shell encloses. Where it touches itself, CGAL needs its triangles one by one.
+Nef nef_of_shell(const ExactMesh& shell) {
+  if (!touches_itself(shell)) return Nef(ExactMesh(shell));
+  CGAL::Nef_nary_union_3<Nef> triangles;
+  for (const auto face : shell.faces()) {
+    std::vector<Exact::Point_3> corners;
+    for (const auto corner : vertices_around_face(shell.halfedge(face), shell)) corners.push_back(shell.point(corner));
+    triangles.add_polyhedron(Nef(corners.begin(), corners.end()));
+  }
+  Nef solid = triangles.get_union();
+  CGAL::Mark_bounded_volumes<Nef> fill(true);
+  solid.delegate(fill);
+  return solid.regularization();
+}
+
 // Returns the solid of a surface. CGAL takes all that a surface encloses as solid, so cavities are subtracted, and
 // shells within them are added again: the larger a shell, the earlier.
 Nef nef_of(const ExactMesh& surface) {
@@ -38,7 +54,8 @@ Nef nef_of(const ExactMesh& surface) {
   processing::split_connected_components(surface, shells);
   std::vector<std::pair<Exact::FT, size_t>> volumes;
   for (size_t n = 0; n < shells.size(); ++n) volumes.emplace_back(processing::volume(shells[n]), n);
-  if (std::ranges::all_of(volumes, [](const auto& volume) { return volume.first > 0; })) return Nef(ExactMesh(surface));
+  const bool has_cavities = std::ranges::any_of(volumes, [](const auto& volume) { return volume.first < 0; });
+  if (!has_cavities && !touches_itself(surface)) return Nef(ExactMesh(surface));
   std::ranges::sort(volumes, [](const auto& a, const auto& b) {
     const Exact::FT of_a = CGAL::abs(a.first), of_b = CGAL::abs(b.first);
     return of_a != of_b ? of_a > of_b : a.second < b.second;
@@ -46,7 +63,7 @@ Nef nef_of(const ExactMesh& surface) {
   Nef solid;
   for (const auto& [volume, n] : volumes) {
     if (volume < 0) processing::reverse_face_orientations(shells[n]);
-    Nef shell(shells[n]);
+    const Nef shell = nef_of_shell(shells[n]);
     solid = volume > 0 ? solid + shell : solid - shell;
   }
   return solid;
@@ -120,6 +137,11 @@ Parts combine_nef(Boolean operation, const Part& a, const Part& b) {
         std::string("two solids cannot be combined, most likely since a surface crosses itself: ") + failure.what());
   }
   return {};
+}
+
+Part touching_part(ExactMesh surface) {
+  const Nef nef = nef_of(surface);
+  return whole_of(nef, std::move(surface));
 }
 
 Part moved_nef(const Part& part, const CGAL::Aff_transformation_3<Exact>& map) {

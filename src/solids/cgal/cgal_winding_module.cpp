@@ -322,8 +322,10 @@ class Arrangement {
 Parts wound_parts(const TriangleMesh& mesh) {
   Parts parts;
   for (ExactMesh& shell : apart(Arrangement(mesh).borders())) {
-    if (touches_itself(shell)) throw Error(Code::surface_crosses, "its surface crosses and touches itself");
-    parts.emplace_back(std::move(shell));
+    if (touches_itself(shell))
+      parts.push_back(touching_part(std::move(shell)));
+    else
+      parts.emplace_back(std::move(shell));
   }
   return parts;
 }
