@@ -103,7 +103,7 @@ std::span<const ResultFormat> result_formats() {
         true,
         true,
         nullptr,
-        "cells of other types; numbers packed by LZ4 or LZMA",
+        "cells of other types",
         "points, lines and faces; hidden cells and those of other pieces; fields of more than nine numbers"},
        true,
        is_xml,

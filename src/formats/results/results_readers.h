@@ -8,7 +8,7 @@
 
 namespace ombre::formats {
 
-// Reads VTK's unstructured grids: text, base64 or raw, optionally compressed by zlib.
+// Reads VTK's unstructured grids: text, base64 or raw, optionally compressed by zlib, LZ4 or LZMA.
 Results read_vtu(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 // Reads a step of a collection of VTK's unstructured grids, whose parts are joined, or a grid in pieces. `beside` has
