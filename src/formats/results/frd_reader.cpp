@@ -49,9 +49,9 @@ class FrdReader {
         break;
     }
     if (wanted_ > 0) step_index(name_, times_, wanted_, diagnostics_);
-    if (flat_ > 0)
-      diagnostics_.warning({make_source(name_, ""), 0, 0},
-                           format_count(flat_) + " elements of kinds that are not read are left out");
+    mesh_.results.step_times = times_;
+    mesh_.results.step = times_.size() == 1 ? 1 : wanted_;
+    leave_out(mesh_.results, name_, flat_, "elements of kinds that are not read", diagnostics_);
     return std::move(mesh_.results);
   }
 
@@ -161,8 +161,9 @@ class FrdReader {
 
   void read_field() {
     read_format();
-    const bool is_wanted = wanted_ == 0 || step_of_block() == wanted_;
     ResultField field;
+    field.step = step_of_block();
+    const bool is_wanted = wanted_ == 0 || field.step == wanted_;
     size_t components = 0;
     next_value_ = values_end_ = 0;
     for (std::string_view key = next_in_block(); !key.empty(); key = next_in_block()) {

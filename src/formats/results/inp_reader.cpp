@@ -293,16 +293,15 @@ class InpReader : public DeckListener {
     }
   }
 
-  void tell_left_out() const {
-    const auto warn = [&](const std::string& message) {
-      diagnostics_.warning({make_source(name_, ""), 0, 0}, message);
+  void tell_left_out() {
+    const auto leave = [&](uint64_t count, const std::string& what) {
+      leave_out(result_.results, name_, count, what, diagnostics_);
     };
-    if (flat_ > 0)
-      warn(format_count(flat_) + " lines of elements that are no solids (" +
-           join(std::vector<std::string>(left_out_.begin(), left_out_.end()), ", ") + ") are left out");
-    if (unused_parts_ > 0)
-      warn(format_count(unused_parts_) + " parts of which the assembly has no instance are left out");
-    if (removed_ > 0) warn("*model change removes elements in a step; they are read");
+    leave(flat_, "lines of elements that are no solids (" +
+                     join(std::vector<std::string>(left_out_.begin(), left_out_.end()), ", ") + ")");
+    leave(unused_parts_, "parts of which the assembly has no instance");
+    if (removed_ > 0)
+      diagnostics_.warning({make_source(name_, ""), 0, 0}, "*model change removes elements in a step; they are read");
   }
 
   const std::string& name_;

@@ -29,4 +29,9 @@ size_t step_index(const std::string& name, std::span<const std::string> times, u
        "write a step from 1 to " + std::to_string(times.size()) + ", or leave step out for the last");
 }
 
+void set_steps(Results& results, std::vector<std::string> times, size_t index) {
+  results.step_times = std::move(times);
+  results.step = index + 1;
+}
+
 }  // namespace ombre::formats

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/text/diagnostic.h"
+#include "formats/results/results.h"
 
 namespace ombre::formats {
 
@@ -14,5 +15,8 @@ namespace ombre::formats {
 // no such step.
 size_t step_index(const std::string& name, std::span<const std::string> times, uint64_t wanted,
                   Diagnostics& diagnostics);
+
+// Writes down which steps the file has, and the index of the one that was read.
+void set_steps(Results& results, std::vector<std::string> times, size_t index);
 
 }  // namespace ombre::formats

@@ -70,14 +70,10 @@ class XdmfReader {
     add_points(child_of(mesh, "Geometry"));
     add_elements(child_of(mesh, "Topology"));
     for (const xml_node attribute : grid.children("Attribute")) add_field(attribute);
-    if (const auto flat = std::ranges::count(is_kept_, false); flat > 0)
-      file_.diagnostics().warning(
-          {make_source(file_.name(), ""), 0, 0},
-          format_count(static_cast<uint64_t>(flat)) + " points, lines or faces of the grid are left out");
-    if (fields_elsewhere_ > 0)
-      file_.diagnostics().warning(
-          {make_source(file_.name(), ""), 0, 0},
-          format_count(fields_elsewhere_) + " fields that are neither of nodes nor of cells are left out");
+    leave_out(results_, file_.name(), static_cast<uint64_t>(std::ranges::count(is_kept_, false)),
+              "points, lines or faces of the grid", file_.diagnostics());
+    leave_out(results_, file_.name(), fields_elsewhere_, "fields that are neither of nodes nor of cells",
+              file_.diagnostics());
     return std::move(results_);
   }
 
@@ -109,7 +105,7 @@ class XdmfReader {
   }
 
   // Returns the wanted step of a series; a grid that is none is its own only step.
-  xml_node grid_of_step(xml_node grid) const {
+  xml_node grid_of_step(xml_node grid) {
     std::vector<xml_node> steps;
     std::vector<std::string> times;
     if (!is_series(grid)) {
@@ -119,7 +115,9 @@ class XdmfReader {
     }
     if (steps.empty()) file_.fail_at(grid, "the collection has no grids");
     for (const xml_node step : steps) times.emplace_back(step.child("Time").attribute("Value").value());
-    return steps[step_index(file_.name(), times, step_, file_.diagnostics())];
+    const size_t chosen = step_index(file_.name(), times, step_, file_.diagnostics());
+    if (is_series(grid)) set_steps(results_, times, chosen);
+    return steps[chosen];
   }
 
   // Returns the grid that has the mesh of a step: its own, or that which an XInclude names, as meshio and FEniCS write
@@ -148,7 +146,7 @@ class XdmfReader {
                   "write Topology and Geometry into each grid, or include them as meshio and FEniCS do");
   }
 
-  std::vector<double> numbers_of(xml_node parent) const {
+  std::vector<double> numbers_of(xml_node parent) {
     const xml_node item = parent.child("DataItem");
     if (!item) file_.fail_at(parent, "expected a DataItem");
     const std::string_view format = file_.attribute(item, "Format").value_or("XML");
@@ -166,7 +164,7 @@ class XdmfReader {
   }
 
   // Reads the numbers of an item such as "part.h5:/Mesh/geometry".
-  std::vector<double> numbers_in_hdf5(xml_node item) const {
+  std::vector<double> numbers_in_hdf5(xml_node item) {
     const std::string_view place = trim(std::string_view(item.text().get()));
     const size_t colon = place.rfind(":/");
     if (colon == std::string_view::npos)
@@ -175,14 +173,28 @@ class XdmfReader {
     if (!numbers_)
       file_.fail_at(item, "the numbers are in the file " + formats::quoted(place.substr(0, colon)),
                     "name it by values=\"...\"");
+    const std::string_view name = place.substr(0, colon), path = place.substr(colon + 1);
+    if (name_of_numbers_.empty()) name_of_numbers_ = name;
+    if (name != name_of_numbers_)
+      file_.fail_at(
+          item,
+          "the numbers lie in several files: " + formats::quoted(name_of_numbers_) + " and " + formats::quoted(name),
+          "save them in one");
+    std::string problem;
+    if (auto found = open_numbers(item).numbers(std::string(path), problem)) return std::move(found->values);
+    file_.fail_at(item, formats::quoted(numbers_->name) + " has no numbers at " + formats::quoted(path) +
+                            (problem.empty() ? "" : ": " + problem));
+  }
+
+  // Opens the file of numbers when it is first needed.
+  const Hdf5File& open_numbers(xml_node item) {
     try {
-      auto found = hdf5_numbers(numbers_->bytes, std::string(place.substr(colon + 1)));
-      if (found) return std::move(found->values);
+      if (!hdf5_) hdf5_ = open_hdf5(numbers_->bytes);
     } catch (const Error& error) {
       file_.fail_at(item, numbers_->name + ": " + error.what());
     }
-    file_.fail_at(item,
-                  formats::quoted(numbers_->name) + " has no numbers at " + formats::quoted(place.substr(colon + 1)));
+    if (!hdf5_) file_.fail_at(item, numbers_->name + ": this is no file of HDF5, or it is damaged");
+    return *hdf5_;
   }
 
   void add_points(xml_node geometry) {
@@ -288,7 +300,9 @@ class XdmfReader {
 
   XmlFile file_;
   const std::optional<ResultsFile>& numbers_;
-  uint64_t step_ = 0;  // number of the step, or 0
+  std::unique_ptr<Hdf5File> hdf5_;
+  std::string name_of_numbers_;  // as the items write it
+  uint64_t step_ = 0;            // number of the step, or 0
   Results results_;
   uint64_t fields_elsewhere_ = 0;  // with values at edges, faces or the whole grid
   std::vector<bool> is_kept_;      // by element of the file: false if it has no volume

@@ -152,12 +152,22 @@ TEST(Xdmf, NumbersInHdf5) {
                                       {"/short", Hdf5Array::Kind::float32, {4}, wide.data()}};
   const std::string bytes = hdf5_file(arrays);
   EXPECT_EQ(hdf5_file(arrays), bytes);
-  const auto numbers = hdf5_numbers(bytes, "/short");
-  ASSERT_TRUE(numbers);
+  const auto file = open_hdf5(bytes);
+  ASSERT_TRUE(file);
+  std::string problem;
+  const auto numbers = file->numbers("/short", problem), rows = file->numbers("/Mesh/geometry", problem, {1, 2});
+  ASSERT_TRUE(numbers && rows);
   EXPECT_EQ(numbers->sizes, std::vector<uint64_t>{4});
   EXPECT_EQ(numbers->values, (std::vector<double>{1, 2, 3, 4}));
-  EXPECT_FALSE(hdf5_numbers(bytes, "/Mesh/none"));
-  EXPECT_FALSE(hdf5_numbers(bytes, "/Mesh"));
+  EXPECT_EQ(rows->sizes, (std::vector<uint64_t>{2, 3}));
+  EXPECT_EQ(rows->values, (std::vector<double>{1, 0, 0, 0, 2, 0}));
+  EXPECT_EQ(file->arrays_in("/Mesh"), (std::vector<std::string>{"geometry", "nodes"}));
+  EXPECT_FALSE(file->numbers("/Mesh/none", problem));
+  EXPECT_FALSE(file->numbers("/Mesh", problem));
+  EXPECT_EQ(problem, "");
+  EXPECT_FALSE(file->numbers("/Mesh/geometry", problem, {3, 2}));
+  EXPECT_EQ(problem, "it has 4 rows");
+  EXPECT_FALSE(open_hdf5("no numbers"));
 
   GridText grid;
   grid.points = "<DataItem Format=\"HDF\">other name.h5:/Mesh/geometry</DataItem>";
@@ -168,6 +178,8 @@ TEST(Xdmf, NumbersInHdf5) {
   EXPECT_EQ(results->points[3], (Vec3{0, 0, 3}));
   grid.points = "<DataItem Format=\"HDF\">a.h5:/Mesh/place</DataItem>";
   EXPECT_NE(grid_error(grid, bytes).find("has no numbers at \"/Mesh/place\""), std::string::npos);
+  grid.points = "<DataItem Format=\"HDF\">b.h5:/Mesh/geometry</DataItem>";
+  EXPECT_NE(grid_error(grid, bytes).find("several files: \"b.h5\" and \"other name.h5\""), std::string::npos);
   EXPECT_NE(grid_error(grid, bytes.substr(0, 100)).find("no file of HDF5"), std::string::npos);
   EXPECT_NE(grid_error(grid, "no numbers").find("no file of HDF5"), std::string::npos);
 }
