@@ -10,6 +10,9 @@
 
 namespace ombre::formats {
 
+// Returns a list such as "1 (time 0.5), 2 (time 1)", shortened if there are many.
+std::string steps_text(std::span<const std::string> times);
+
 // Returns the index of the step that is wanted by its number from 1, or of the last for 0. `times` has the time of each
 // step, empty if the file does not say it. Reports an error that lists the steps, and throws DesignError, if there is
 // no such step.

@@ -22,6 +22,9 @@ Results read_pvtu(const std::string& name, std::string_view bytes, const Results
 Results read_xdmf(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics);
 
+// Reads a step of an unstructured grid in VTK's file of HDF5; 0 is the last one.
+Results read_vtkhdf(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics);
+
 // Reads results of CalculiX as text. `step` counts from 1; for 0, each field is that of the last step that has it.
 Results read_frd(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics);
 
