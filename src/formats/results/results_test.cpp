@@ -238,6 +238,10 @@ TEST(Results, StepsOfCalculix) {
     const auto results = read_results("a.frd", frd, {{}, {}, step}, diagnostics);
     ASSERT_TRUE(results) << to_text(diagnostics);
     EXPECT_EQ(find_field(*results, "temperature")->values, std::vector<double>{value});
+    // Without a choice fields may be of several steps, so each says its own.
+    EXPECT_EQ(results->step_times, (std::vector<std::string>{"2.50000E-01", "1.00000E+00"}));
+    EXPECT_EQ(results->step, step);
+    EXPECT_EQ(find_field(*results, "temperature")->step, step == 0 ? 2 : step);
   }
   Diagnostics diagnostics;
   EXPECT_FALSE(read_results("a.frd", frd, {{}, {}, 3}, diagnostics));

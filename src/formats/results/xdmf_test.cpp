@@ -62,6 +62,8 @@ TEST(Xdmf, MixedElementsWithoutVolumeAreLeftOut) {
   EXPECT_EQ(results->nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
   EXPECT_EQ(find_field(*results, "stress")->values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
   EXPECT_NE(to_text(diagnostics).find("2 points, lines or faces of the grid are left out"), std::string::npos);
+  ASSERT_EQ(results->left_out.size(), 1U);
+  EXPECT_EQ(results->left_out[0].count, 2U);
 }
 
 // A grid with its mesh, the value of a field at its first node and a time.
