@@ -207,7 +207,7 @@ class OpenFile : public Hdf5File {
     const H5T_class_t kind = H5Tget_class(Handle(H5Dget_type(set), H5Tclose));
     return kind == H5T_FLOAT || kind == H5T_INTEGER;
   }
-  // What is not found in other files, the library would take for zeros.
+  // The library takes numbers for zeros that should lie in other files and are not found there.
   static bool lies_elsewhere(const Handle& set) {
     const Handle how(H5Dget_create_plist(set), H5Pclose);
     return H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) > 0;

@@ -40,7 +40,7 @@ struct ResultSet {
   uint64_t count = 0;
 };
 
-// What a file holds that is not read, with a warning: "points, lines or faces of the grid".
+// A kind of thing in a file that is not read, of which a warning tells: "points, lines or faces of the grid".
 struct LeftOut {
   std::string what;
   uint64_t count = 0;

@@ -8,7 +8,7 @@
 
 namespace ombre::jobs {
 
-// What of a file is described. Options have the names of the parameters of volume() and results().
+// Choices of what is described. Options have the names of the parameters of volume() and results().
 struct InfoChoices {
   std::string file;
   int step = 0;               // number, from 1, of a step of results; 0: the last
@@ -47,7 +47,7 @@ struct InfoChoices {
                "Number of one of several steps of results, counted from 1; without it the last", "N")
             .between(1, 1000000000),
         option("--values", &InfoChoices::values, kind::file,
-               "Of an .inp file the table of its values, of an .xdmf file the file with its numbers", "FILE"),
+               "Table with the values of an .inp file, or file with the numbers of an .xdmf file", "FILE"),
         option("--picture", &InfoChoices::picture, kind::file,
                "Write a picture of a volume to this file: the planes in its middle along x and y, x and z, y and z",
                "FILE"),
