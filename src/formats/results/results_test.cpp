@@ -221,6 +221,32 @@ TEST(Results, FrdOfCalculix) {
   for (size_t size = 0; size < bar.size(); size += 101) read_results("a.frd", bar.substr(0, size), {}, diagnostics);
 }
 
+TEST(Results, OtherElementsOfCalculix) {
+  const auto with = [](int type, const std::string& nodes) {
+    std::string text = "    1C\n    2C\n";
+    int n = 0;
+    for (const char* at : {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1"}) {
+      const std::string p = at;
+      text += " -1         " + std::to_string(++n);
+      for (const char c : {p[0], p[2], p[4]}) text += std::string(" ") + c + ".00000E+00";
+      text += "\n";
+    }
+    return text + " -3\n    3C\n -1         1    " + std::to_string(type) + "    0    1\n -2" + nodes +
+           "\n -3\n 9999\n";
+  };
+  const std::string six = "         1         2         3         4         5         6";
+  Diagnostics diagnostics;
+  const auto wedge = read_results("a.frd", with(2, six), {}, diagnostics);
+  ASSERT_TRUE(wedge) << to_text(diagnostics);
+  EXPECT_EQ(wedge->kinds, std::vector<ElementKind>{ElementKind::wedge6});
+  const auto shell = read_results("a.frd", with(8, six), {}, diagnostics);
+  ASSERT_TRUE(shell);
+  EXPECT_TRUE(shell->kinds.empty());
+  EXPECT_NE(to_text(diagnostics).find("1 shells and beams are left out"), std::string::npos);
+  EXPECT_FALSE(read_results("a.frd", with(5, six), {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("elements of the type 5 are not read"), std::string::npos);
+}
+
 TEST(Results, StepsOfCalculix) {
   const auto block = [](const std::string& time, int step, const std::string& value) {
     std::string number = std::to_string(step);

@@ -66,6 +66,39 @@ TEST(Xdmf, MixedElementsWithoutVolumeAreLeftOut) {
   EXPECT_EQ(results->left_out[0].count, 2U);
 }
 
+// ParaView writes the types as Type.
+TEST(Xdmf, NewerNamesOfTypes) {
+  const auto renamed = [](std::string text) {
+    for (const std::string name : {"TopologyType=", "GeometryType=", "AttributeType="})
+      for (size_t at = text.find(name); at != std::string::npos; at = text.find(name))
+        text.replace(at, name.size(), "Type=");
+    return text;
+  };
+  Diagnostics diagnostics;
+  const auto results = read_results("a.xdmf", renamed(GridText().text()), {}, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(find_field(*results, "stress")->values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  std::string flat = renamed(GridText().text());
+  flat.replace(flat.find("\"XYZ\""), 5, "\"XY\"");
+  EXPECT_FALSE(read_results("a.xdmf", flat, {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("expected the geometry XYZ"), std::string::npos);
+}
+
+TEST(Xdmf, GridsOfFacesAreTheirPoints) {
+  GridText faces;
+  faces.topology = "Triangle";
+  faces.nodes = item("0 1 2 1 2 3");
+  faces.stress = item("1 4 6 2 5 3 1 4 6 2 5 3");
+  faces.move = item("1 1 1 1 1 1 1 1 1 1 2 2 2 2 2 2 2 2 2 2 3 3 3 3 3 3 3 3 3 3 4 4 4 4 4 4 4 4 4 4");
+  Diagnostics diagnostics;
+  const auto results = read_grid(faces, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_TRUE(results->kinds.empty());
+  EXPECT_EQ(results->points.size(), 4U);
+  EXPECT_NE(to_text(diagnostics).find("2 points, lines or faces"), std::string::npos);
+  EXPECT_NE(to_text(diagnostics).find("1 fields of more than 9 numbers are left out"), std::string::npos);
+}
+
 // A grid with its mesh, the value of a field at its first node and a time.
 std::string step_of(const std::string& mesh, int value, const std::string& time) {
   return "<Grid Name=\"s\" GridType=\"Uniform\">" + mesh + "<Time Value=\"" + time +
