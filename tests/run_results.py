@@ -179,6 +179,11 @@ def steps_are_chosen(folder):
     for step, side in ((0, 3), (1, 2), (2, 3)):
         folder.write("solid.vcad", f'mesh("all.pvd", red, step={step});')
         expect(folder.voxels("solid.vcad", "0.5") == {"red": (2 * side)**3}, f"the voxels of step {step}")
+    pictures = []
+    for step in (1, 2):
+        folder.run("render", "all.pvd", "--step", step, "--by", "heat", "--size", "60x60", "-o", f"step{step}.png")
+        pictures.append((folder.path / f"step{step}.png").read_bytes())
+    expect(pictures[0] != pictures[1], "pictures of two steps")
     folder.write("first.vtu", grid(1, 5))
     folder.write("solid.vcad", 'mesh("all.pvd", red, step=1);')
     expect(folder.voxels("solid.vcad", "0.5") == {"red": 8}, "the voxels of a step that has changed")
@@ -311,7 +316,7 @@ def results_are_drawn(folder):
     count = sum(folder.voxels("moved.vcad", "0.25").values())
     wanted = (10 + 100 * STRAIN) * (10 - 39 * STRAIN) ** 2
     near(count / 64, wanted, 0.03 * wanted, "the volume")
-    for arguments in (("render", "cube.vcad", "--deform", "2"), ("render", "cube.vtu", "--by", "heat")):
+    for arguments in (("render", "cube.vcad", "--deform", "2"), ("render", "cube.vcad", "--step", "2"), ("render", "cube.vtu", "--by", "heat")):
         expect("error" in folder.run(*arguments, "-o", "never.png", status=1).stderr, str(arguments))
     expect(not (folder.path / "never.png").exists(), "a picture is left")
 

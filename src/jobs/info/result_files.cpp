@@ -182,13 +182,13 @@ int show_results(const InfoChoices& choices, Session& session) {
   return done;
 }
 
-std::string results_as_script(const std::string& path, const std::string& by, double deform) {
+std::string results_as_script(const std::string& path, const std::string& by, double deform, int step) {
   const std::string file = print_json_line(Data(std::filesystem::path(path).filename().string()));
-  const std::string deformed = ", deform=" + format_number(deform);
-  const std::string solid = "mesh(" + file + deformed + ");\n";
+  const std::string chosen = ", deform=" + format_number(deform) + ", step=" + std::to_string(step);
+  const std::string solid = "mesh(" + file + chosen + ");\n";
   if (by.empty()) return solid;
   const std::string name = print_json_line(Data(by));
-  return "attribute(" + name + ", results(" + file + ", " + name + ", outside=\"nearest\"" + deformed + ").value) " +
+  return "attribute(" + name + ", results(" + file + ", " + name + ", outside=\"nearest\"" + chosen + ").value) " +
          solid;
 }
 
