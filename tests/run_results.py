@@ -181,7 +181,8 @@ def steps_are_chosen(folder):
         expect(folder.voxels("solid.vcad", "0.5") == {"red": (2 * side)**3}, f"the voxels of step {step}")
     pictures = []
     for step in (1, 2):
-        folder.run("render", "all.pvd", "--step", step, "--by", "heat", "--size", "60x60", "-o", f"step{step}.png")
+        folder.run("render", "all.pvd", "--step", step, "--by", "heat", "--range", "0,10", "--size", "60x60", "-o",
+                   f"step{step}.png")
         pictures.append((folder.path / f"step{step}.png").read_bytes())
     expect(pictures[0] != pictures[1], "pictures of two steps")
     folder.write("first.vtu", grid(1, 5))
