@@ -200,7 +200,7 @@ def cubes_of_vtkhdf(folder, h5py, name, steps, shared_mesh=False):
     with h5py.File(folder.path / name, "w") as file:
         group = file.create_group("VTKHDF")
         group.attrs["Version"] = [2, 0]
-        group.attrs["Type"] = b"UnstructuredGrid"
+        group.attrs["Type"] = "UnstructuredGrid" if shared_mesh else b"UnstructuredGrid"
         points = [[x * side, y * side, (z + above) * side / 2] for side, _ in written for above in (0, 1)
                   for x, y, z in corners]
         count = 2 * len(written)
@@ -255,6 +255,13 @@ def vtkhdf_is_read(folder):
             expect(found["fields"][0]["ranges"] == [[heat, heat]] and found["elements"] == {"C3D8": 2}, str(found))
         folder.write("solid.vcad", f'mesh("{name}", red, step=1);')
         expect(folder.voxels("solid.vcad", "0.5") == {"red": (2 * sides[0])**3}, "the voxels of a step")
+    with h5py.File(folder.path / "shared.hdf", "r+") as file:
+        del file["VTKHDF/Steps/NumberOfParts"]
+    said = folder.run("info", "shared.hdf", status=1).stderr
+    expect("the steps share pieces" in said, said)
+    with h5py.File(folder.path / "steps.hdf", "r+") as file:
+        del file["VTKHDF/Steps/NumberOfParts"]
+    expect(info("steps.hdf", "--step", "1")["bounds_mm"] == [0, 0, 0, 2, 2, 2], "the pieces of a step")
     return wrong_vtkhdf(folder, h5py)
 
 

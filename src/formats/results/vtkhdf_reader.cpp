@@ -132,6 +132,16 @@ class VtkHdfReader {
     return has_steps() ? count_in("Steps/" + array, step_place_) : 0;
   }
 
+  // Returns the number of pieces from the first one of the step. Where the file does not say it, all steps have as
+  // many.
+  uint64_t pieces_of_step(uint64_t first) const {
+    if (has("Steps/NumberOfParts")) return count_in("Steps/NumberOfParts", step_place_);
+    const uint64_t all = numbers("NumberOfPoints", {}).size(), steps = numbers("Steps/Values", {}).size();
+    if (all % steps != 0 || first != step_place_ * (all / steps))
+      fail_at("Steps/NumberOfParts", "there are no such numbers, and the steps share pieces");
+    return all / steps;
+  }
+
   void add_pieces() {
     HdfPiece piece;
     piece.number = offset_of_step("PartOffsets");
@@ -139,7 +149,7 @@ class VtkHdfReader {
     piece.cells = offset_of_step("CellOffsets");
     piece.corners = offset_of_step("ConnectivityIdOffsets");
     Hdf5Rows rows{piece.number};
-    if (has_steps() && has("Steps/NumberOfParts")) rows.count = count_in("Steps/NumberOfParts", step_place_);
+    if (has_steps()) rows.count = pieces_of_step(piece.number);
     const std::vector<uint64_t> points = counts("NumberOfPoints", rows), cells = counts("NumberOfCells", rows),
                                 corners = counts("NumberOfConnectivityIds", rows);
     if (points.size() > most_pieces) fail_at("NumberOfPoints", "there are more than 100000 pieces");
