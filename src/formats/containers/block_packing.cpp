@@ -15,7 +15,7 @@ constexpr Module lzma{"ombre_lzma",  "liblzma",    "numbers packed by LZMA",
 // For LZMA it is what the cheapest repetition, of 273 bytes, takes with each of its decisions as cheap as they become.
 uint64_t greatest_ratio(BlockPacking packing) { return packing == BlockPacking::lz4 ? 255 : 16384; }
 
-bool unpack(std::string_view packed, BlockPacking packing, std::string& bytes) {
+bool fill_block(std::string_view packed, BlockPacking packing, std::string& bytes) {
   if (packing == BlockPacking::lz4) {
     static const auto unpack_lz4 = load_function<decltype(ombre_lz4_unpack)>(lz4, "ombre_lz4_unpack");
     return unpack_lz4(packed, &bytes);
@@ -29,7 +29,7 @@ bool unpack(std::string_view packed, BlockPacking packing, std::string& bytes) {
 std::string unpack_block(std::string_view packed, BlockPacking packing, uint64_t size) {
   if (size / greatest_ratio(packing) > packed.size()) return "";
   std::string bytes(size, '\0');
-  return unpack(packed, packing, bytes) ? bytes : "";
+  return fill_block(packed, packing, bytes) ? bytes : "";
 }
 
 }  // namespace ombre::formats
