@@ -87,8 +87,80 @@ def cad_files_are_described(folder):
     expect(all(solid["faces"] > 0 for solid in found["solids"]), found)
 
 
+DECK = """*NODE, NSET=all
+1, 0, 0, 0
+2, 1, 0, 0
+3, 0, 1, 0
+4, 0, 0, 1
+*ELEMENT, TYPE=C3D4, ELSET=Body
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=S3, ELSET=skin
+2, 1, 2, 3
+*NSET, NSET=Held
+1, 2
+*SURFACE, NAME=under
+Body, S1
+"""
+
+
+def sets_of_decks_are_described(folder):
+    folder.write("a.inp", DECK)
+    found = folder.info("a.inp")
+    expect(found["sets"] == [{"name": "all", "of": "nodes", "count": 4}, {"name": "Held", "of": "nodes", "count": 2},
+                             {"name": "Body", "of": "elements", "count": 1},
+                             {"name": "under", "of": "sides", "count": 1}], found["sets"])
+    expect(found["left_out"] == [{"what": "lines of elements that are no solids (S3)", "count": 1}], found["left_out"])
+    expect(found["step_times"] == [] and found["step"] is None, found)
+    text = folder.run("info", "a.inp").stdout
+    expect("Held: 2 nodes" in text and "under: 1 sides" in text, text)
+    folder.write("a.csv", "node,t\n1,5\n2,6\n3,7\n4,8\n")
+    found = next(event for event in folder.events("info", "a.inp", "--values", "a.csv") if "fields" in event)
+    expect(found["fields"][0]["ranges"] == [[5, 8]], found["fields"])
+
+
+def frd(*blocks):
+    """A file of CalculiX with one tetrahedron, and fields as (name, time, step, value at all nodes)."""
+    lines = ["    1C", "    2C" + " " * 30 + "1"]
+    lines += [f" -1{n + 1:10}" + "".join(f"{x:12.5E}" for x in p)
+              for n, p in enumerate([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])]
+    lines += [" -3", "    3C" + " " * 30 + "1", " -1         1    3    0    1", " -2" + "".join(f"{n:10}" for n in (1, 2, 3, 4)),
+              " -3"]
+    for name, time, step, value in blocks:
+        lines += [f"  100CL  101{time:12.5E}           4                     0{step:5}           1",
+                  f" -4  {name:8}    1    1", " -5  T           1    1    0    0"]
+        lines += [f" -1{n:10}{value:12.5E}" for n in (1, 2, 3, 4)] + [" -3"]
+    return "\n".join(lines + [" 9999", ""])
+
+
+def steps_of_results_are_chosen(folder):
+    """Without a choice each field is that of the last step that has it, and says so."""
+    folder.write("a.frd", frd(("NDTEMP", 0.5, 1, 3), ("ERROR", 0.5, 1, 1), ("NDTEMP", 2, 2, 4)))
+    found = folder.info("a.frd")
+    expect(found["step_times"] == [0.5, 2] and found["step"] is None, found)
+    expect({field["name"]: (field["step"], field["ranges"][0][0]) for field in found["fields"]} ==
+           {"temperature": (2, 4), "error": (1, 1)}, found["fields"])
+    found = next(event for event in folder.events("info", "a.frd", "--step", "1") if "fields" in event)
+    expect(found["step"] == 1 and [field["ranges"][0] for field in found["fields"]] == [[3, 3], [1, 1]], found)
+    text = folder.run("info", "a.frd").stdout
+    expect("2: 1 (time 5.00000E-01), 2 (time 2.00000E+00); each field is of the last one that has it" in text, text)
+    expect("error, of nodes, of step 1" in text, text)
+    expect("there is no step 3" in folder.run("info", "a.frd", "--step", "3", status=1).stderr, "a step too many")
+    folder.write("a.off", off(BLOCK))
+    expect("--step is for results" in folder.run("info", "a.off", "--step", "1", status=1).stderr, "a step of a mesh")
+
+
+def choices_of_volumes_are_taken(folder):
+    """A NaN, and one of two channels, as volume() takes them."""
+    header = "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: little\nspacings: 1 1 1\n\n"
+    (folder.path / "a.nrrd").write_bytes(header.encode() + struct.pack("<2f", float("nan"), 5))
+    expect("NaN" in folder.run("info", "a.nrrd", status=1).stderr, "no error of a NaN")
+    found = next(event for event in folder.events("info", "a.nrrd", "--nan", "-1") if event["event"] == "volume")
+    expect(found["least"] == -1 and found["greatest"] == 5, found)
+
+
 CHECKS = [meshes_are_described, drawings_are_described, tables_are_described, images_are_described,
-          cad_files_are_described]
+          cad_files_are_described, sets_of_decks_are_described, steps_of_results_are_chosen,
+          choices_of_volumes_are_taken]
 
 
 if __name__ == "__main__":

@@ -179,12 +179,127 @@ def steps_are_chosen(folder):
     for step, side in ((0, 3), (1, 2), (2, 3)):
         folder.write("solid.vcad", f'mesh("all.pvd", red, step={step});')
         expect(folder.voxels("solid.vcad", "0.5") == {"red": (2 * side)**3}, f"the voxels of step {step}")
+    pictures = []
+    for step in (1, 2):
+        folder.run("render", "all.pvd", "--step", step, "--by", "heat", "--range", "0,10", "--size", "60x60", "-o",
+                   f"step{step}.png")
+        pictures.append((folder.path / f"step{step}.png").read_bytes())
+    expect(pictures[0] != pictures[1], "pictures of two steps")
     folder.write("first.vtu", grid(1, 5))
     folder.write("solid.vcad", 'mesh("all.pvd", red, step=1);')
     expect(folder.voxels("solid.vcad", "0.5") == {"red": 8}, "the voxels of a step that has changed")
     folder.write("solid.vcad", 'mesh("all.pvd", red, step=3);')
     said = folder.run("slice", "solid.vcad", "--voxel", "0.5", "-o", "none", status=1).stderr
     expect("there is no step 3; the file has 2 steps: 1 (time 1), 2 (time 9)" in said, said)
+
+
+def cubes_of_vtkhdf(folder, h5py, name, steps, shared_mesh=False):
+    """Writes cubes of these sides as steps, each in two pieces: bricks one above the other, with the value of the step."""
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    written = steps[:1] if shared_mesh else steps
+    with h5py.File(folder.path / name, "w") as file:
+        group = file.create_group("VTKHDF")
+        group.attrs["Version"] = [2, 0]
+        group.attrs["Type"] = "UnstructuredGrid" if shared_mesh else b"UnstructuredGrid"
+        points = [[x * side, y * side, (z + above) * side / 2] for side, _ in written for above in (0, 1)
+                  for x, y, z in corners]
+        count = 2 * len(written)
+        for array, numbers in (("NumberOfPoints", [8] * count), ("NumberOfCells", [1] * count),
+                               ("NumberOfConnectivityIds", [8] * count), ("Points", points),
+                               ("Connectivity", list(range(8)) * count), ("Offsets", [0, 8] * count),
+                               ("Types", [12] * count)):
+            group[array] = numbers
+        values = [value for _, value in steps for _ in range(16)]
+        group["PointData/heat"] = values
+        group["PointData/wide"] = [[value] * 12 for value in values]
+        group["CellData/move [mm]"] = [[n, 2 * n, 3 * n] for n in range(count)]
+        if len(steps) == 1:
+            return
+        times = group.create_group("Steps")
+        times.attrs["NSteps"] = len(steps)
+        times["Values"] = [0.5 * (n + 1) for n in range(len(steps))]
+        far = 0 if shared_mesh else 1
+        times["PartOffsets"] = [far * 2 * n for n in range(len(steps))]
+        times["NumberOfParts"] = [2] * len(steps)
+        times["PointOffsets"] = [far * 16 * n for n in range(len(steps))]
+        times["CellOffsets"] = [[far * 2 * n] for n in range(len(steps))]
+        times["ConnectivityIdOffsets"] = [[far * 16 * n] for n in range(len(steps))]
+        times["PointDataOffsets/heat"] = [16 * n for n in range(len(steps))]
+        times["PointDataOffsets/wide"] = [16 * n for n in range(len(steps))]
+
+
+def vtkhdf_is_read(folder):
+    try:
+        import h5py
+    except ImportError:
+        return "skipped: h5py is not installed"
+    cubes_of_vtkhdf(folder, h5py, "one.vtkhdf", [(2, 5)])
+    result = program.run([folder.ombre, "info", "one.vtkhdf", "--json"], cwd=folder.path)
+    if "OMBRE_HDF5" in result.stderr + result.stdout:
+        return "skipped: built without HDF5"
+
+    def info(name, *arguments):
+        return next(event for event in folder.events("info", name, *arguments) if "fields" in event)
+    found = info("one.vtkhdf")
+    expect(found["nodes"] == 16 and found["elements"] == {"C3D8": 2} and found["step_times"] == [], str(found))
+    expect(found["bounds_mm"] == [0, 0, 0, 2, 2, 2], str(found))
+    near(found["volume_mm3"], 8, 1e-9, "the volume")
+    expect({field["name"]: field["ranges"] for field in found["fields"]} ==
+           {"heat": [[5, 5]], "move": [[0, 1], [0, 2], [0, 3]]}, str(found["fields"]))
+    expect(found["left_out"] == [{"what": "fields of more than 9 numbers (wide)", "count": 1}], str(found["left_out"]))
+    for name, shared, sides in (("steps.hdf", False, (2, 3)), ("shared.hdf", True, (2, 2))):
+        cubes_of_vtkhdf(folder, h5py, name, [(2, 5), (3, 7)], shared)
+        for arguments, side, heat in (((), sides[1], 7), (("--step", "1"), sides[0], 5), (("--step", "2"), sides[1], 7)):
+            found = info(name, *arguments)
+            expect(found["bounds_mm"] == [0, 0, 0, side, side, side] and found["step_times"] == [0.5, 1], str(found))
+            expect(found["fields"][0]["ranges"] == [[heat, heat]] and found["elements"] == {"C3D8": 2}, str(found))
+        folder.write("solid.vcad", f'mesh("{name}", red, step=1);')
+        expect(folder.voxels("solid.vcad", "0.5") == {"red": (2 * sides[0])**3}, "the voxels of a step")
+    with h5py.File(folder.path / "shared.hdf", "r+") as file:
+        del file["VTKHDF/Steps/NumberOfParts"]
+    said = folder.run("info", "shared.hdf", status=1).stderr
+    expect("the steps share pieces" in said, said)
+    with h5py.File(folder.path / "steps.hdf", "r+") as file:
+        del file["VTKHDF/Steps/NumberOfParts"]
+    expect(info("steps.hdf", "--step", "1")["bounds_mm"] == [0, 0, 0, 2, 2, 2], "the pieces of a step")
+    return wrong_vtkhdf(folder, h5py)
+
+
+def wrong_vtkhdf(folder, h5py):
+    """Files that are no grid, or not whole, are errors that name what is wrong; so are numbers in other files."""
+    def image(group):
+        group.attrs["Type"] = b"ImageData"
+
+    def replace(array, numbers):
+        def change(group):
+            del group[array]
+            group[array] = numbers
+        return change
+
+    def elsewhere(group):
+        del group["Points"]
+        layout = h5py.VirtualLayout(shape=(16, 3), dtype="f8")
+        layout[:] = h5py.VirtualSource("other.h5", "points", shape=(16, 3))
+        group.create_virtual_dataset("Points", layout)
+
+    def polyhedron(group):
+        group["Types"][0] = 42
+    for change, wanted in ((image, "no unstructured grid but \"ImageData\""),
+                           (replace("Offsets", [0, 8, 8, 16]), "begin with 8, not 0"),
+                           (replace("Types", [12]), "\"Types\": it has 1 rows"),
+                           (replace("Types", [12, 25]), "cell 0 has not the 20 nodes of its type"),
+                           (replace("Types", [12, 26]), "of VTK's type 26"),
+                           (replace("Connectivity", [0, 1, 2, 3, 4, 5, 6, 8] * 2), "names point 8; there are 8"),
+                           (replace("PointData/heat", [1, 2]), "\"PointData/heat\": it has 2 rows"),
+                           (replace("NumberOfPoints", [8, -8]), "expected counts, found -8"),
+                           (replace("NumberOfPoints", [8, 2**40]), "\"Points\": it has 16 rows"),
+                           (elsewhere, "lie in other files"), (polyhedron, "no faces of polyhedra")):
+        cubes_of_vtkhdf(folder, h5py, "wrong.vtkhdf", [(2, 5)])
+        with h5py.File(folder.path / "wrong.vtkhdf", "r+") as file:
+            change(file["VTKHDF"])
+        said = folder.run("info", "wrong.vtkhdf", status=1).stderr
+        expect(wanted in said and "wrong.vtkhdf" in said, said)
+    return ""
 
 
 def results_are_described(folder):
@@ -209,7 +324,7 @@ def results_are_drawn(folder):
     count = sum(folder.voxels("moved.vcad", "0.25").values())
     wanted = (10 + 100 * STRAIN) * (10 - 39 * STRAIN) ** 2
     near(count / 64, wanted, 0.03 * wanted, "the volume")
-    for arguments in (("render", "cube.vcad", "--deform", "2"), ("render", "cube.vtu", "--by", "heat")):
+    for arguments in (("render", "cube.vcad", "--deform", "2"), ("render", "cube.vcad", "--step", "2"), ("render", "cube.vtu", "--by", "heat")):
         expect("error" in folder.run(*arguments, "-o", "never.png", status=1).stderr, str(arguments))
     expect(not (folder.path / "never.png").exists(), "a picture is left")
 
@@ -237,7 +352,7 @@ def wrong_use_is_reported(folder):
 
 
 CHECKS = [own_results_are_read_back, outside_is_as_requested, the_mesh_is_a_solid, coverage_is_reported,
-          bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, steps_are_chosen, results_are_described,
+          bytes_do_not_depend_on_threads, calculix_is_read, tables_are_read, steps_are_chosen, vtkhdf_is_read, results_are_described,
           results_are_drawn, wrong_use_is_reported]
 
 

@@ -34,17 +34,19 @@ void ResultFiles::add(const std::string& path, std::string_view bytes, const std
   }
 }
 
-std::optional<formats::Results> read_results(const std::string& path, Diagnostics& diagnostics) {
+std::optional<formats::Results> read_results(const std::string& path, Diagnostics& diagnostics, uint64_t step,
+                                             const std::string& values) {
   const auto bytes_of = [](const std::string& file) -> std::shared_ptr<const std::string> {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) return nullptr;
     return std::make_shared<const std::string>(formats::read_file(file));
   };
-  const std::string bytes = formats::read_file(path), numbers = numbers_beside(path);
-  const ResultFiles named(path, bytes, 0, bytes_of);
-  const auto values = numbers.empty() ? nullptr : bytes_of(numbers);
-  formats::ResultsBeside beside{{}, named.files()};
-  if (values) beside.values = formats::ResultsFile{numbers, *values};
+  const std::string bytes = formats::read_file(path), beside_it = values.empty() ? numbers_beside(path) : "";
+  const ResultFiles named(path, bytes, step, bytes_of);
+  const auto table =
+      values.empty() ? bytes_of(beside_it) : std::make_shared<const std::string>(formats::read_file(values));
+  formats::ResultsBeside beside{{}, named.files(), step};
+  if (table) beside.values = formats::ResultsFile{values.empty() ? beside_it : values, *table};
   return formats::read_results(path, bytes, beside, diagnostics);
 }
 

@@ -34,9 +34,11 @@ class ResultFiles {
   std::vector<formats::ResultsFile> files_;
 };
 
-// Reads results, and the files that belong to them, from the disk. Returns null, with diagnostics, if a file is
-// invalid. Throws Error if it cannot be read.
-std::optional<formats::Results> read_results(const std::string& path, Diagnostics& diagnostics);
+// Reads a step of results, and the files that belong to them, from the disk; 0 is the last step. `values` is the file
+// of numbers, empty for the one that lies beside an .xdmf file. Returns null, with diagnostics, if a file is invalid.
+// Throws Error if it cannot be read.
+std::optional<formats::Results> read_results(const std::string& path, Diagnostics& diagnostics, uint64_t step = 0,
+                                             const std::string& values = "");
 // Reads the files for a design. The content of `file`, which must be known, becomes that of all of them.
 ResultFiles result_files(design::FilePath& file, uint64_t step, Loading& loading);
 

@@ -176,7 +176,7 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   }
   if (step != 0 && !sources::has_elements(file.path)) {
     loading.reader().diagnostics.error(loading.reader().where, "\"" + file.path + "\" has no results with steps",
-                                       "leave step out, or take an .xdmf, .frd or .pvd file");
+                                       "leave step out, or take an .xdmf, .frd, .pvd or .vtkhdf file");
     return nullptr;
   }
   FilePath numbers{sources::numbers_beside(file.path), {}};

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <thread>
 
+#include "formats/containers/hdf5.h"
+
 namespace ombre::sources {
 namespace {
 
@@ -70,6 +72,11 @@ class DesignOfTest : public Loader {
     return source(request, reader());
   }
   auto volume(design::VolumeRequest request) { return source(request, reader()); }
+  auto results(const std::string& path) {
+    design::ResultsRequest request;
+    request.file.path = path;
+    return source(request, reader());
+  }
   auto square(double side) {
     PolygonsRequest request{{{{{0, 0}, {side, 0}, {side, side}, {0, side}}}, {}}, false};
     return source(request, reader());
@@ -141,6 +148,37 @@ TEST(SourceCache, DescriptionsBesideAFileCountToo) {
   const auto second = DesignOfTest(cache).volume(path);
   ASSERT_TRUE(second && second->space_from_index);
   EXPECT_EQ((*second->space_from_index)({0, 1, 0}), (Vec3{0, 2, 0}));
+}
+
+// The file of HDF5 has the points of the mesh.
+TEST(SourceCache, NumbersBesideAMeshCountToo) {
+  const Folder folder("ombre_sources_numbers");
+  const std::vector<double> small{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, large{0, 0, 0, 5, 0, 0, 0, 5, 0, 0, 0, 5};
+  const auto points = [](const std::vector<double>& list) {
+    return formats::hdf5_file({{"/points", formats::Hdf5Array::Kind::float64, {4, 3}, list.data()}});
+  };
+  if (!has_module(formats::hdf5_library)) GTEST_SKIP() << without(formats::hdf5_library);
+  const std::string path = folder.write(
+      "a.xdmf",
+      "<Xdmf><Domain><Grid><Topology TopologyType=\"Tetrahedron\"><DataItem>0 1 2 3</DataItem></Topology>"
+      "<Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\">a.h5:/points</DataItem></Geometry>"
+      "<Attribute Name=\"t\" Center=\"Node\"><DataItem>1 2 3 4</DataItem></Attribute></Grid></Domain></Xdmf>");
+  folder.write("a.h5", points(small));
+  SourceCache cache;
+  DesignOfTest design(cache);
+  const auto first = design.mesh(path);
+  const auto values = design.results(path);
+  if (!first && to_text(design.diagnostics).find("without libzip and pugixml") != std::string::npos) GTEST_SKIP();
+  ASSERT_TRUE(first && values) << to_text(design.diagnostics);
+  EXPECT_EQ(DesignOfTest(cache).mesh(path), first);
+  EXPECT_EQ(DesignOfTest(cache).results(path)->source, values->source);
+  folder.write("a.h5", points(large), 50);
+  const auto second = DesignOfTest(cache).mesh(path);
+  const auto moved = DesignOfTest(cache).results(path);
+  ASSERT_TRUE(second && moved);
+  EXPECT_EQ(first->front().source->bounds().hi.x, 1);
+  EXPECT_EQ(second->front().source->bounds().hi.x, 5);
+  EXPECT_NE(moved->source, values->source);
 }
 
 TEST(SourceCache, TrustsNoTimeThatIsTooRecent) {

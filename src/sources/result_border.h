@@ -11,7 +11,7 @@
 
 namespace ombre::sources {
 
-// Returns true for names of files that contain meshes of elements: .vtu, .pvd, .pvtu, .xdmf, .frd, .inp.
+// Returns true for names of files that contain meshes of elements: .vtu, .pvd, .pvtu, .vtkhdf, .xdmf, .frd, .inp.
 bool has_elements(const std::string& path);
 // Returns the HDF5 file beside an .xdmf file that belongs to it; empty if there is none.
 std::string numbers_beside(const std::string& path);

@@ -45,6 +45,7 @@ void exercise(const std::string& bytes, const std::string* table) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
+  if (bytes.starts_with("\x89HDF")) return 0;  // bytes for the library of HDF5, which is not ours
   exercise(bytes, nullptr);
   const size_t gap = bytes.find("\n\n");
   if (gap == std::string::npos) return 0;

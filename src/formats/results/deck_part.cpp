@@ -81,6 +81,21 @@ uint32_t DeckPart::place_of(const Element& element, uint64_t node) const {
   return found->second;
 }
 
+std::vector<ResultSet> DeckPart::sets() const {
+  std::vector<ResultSet> list;
+  for (const auto& [name, members] : node_sets_) list.push_back({name, ResultSet::Of::nodes, sorted(members).size()});
+  for (const auto& [name, members] : element_sets_)
+    list.push_back({name, ResultSet::Of::elements, sorted(members).size()});
+  return list;
+}
+
+uint64_t DeckPart::size_of(ResultSet::Of of, std::string_view name) const {
+  if (parse_number(name)) return 1;
+  const Sets& sets = of == ResultSet::Of::nodes ? node_sets_ : element_sets_;
+  const auto found = sets.find(to_lower(name));
+  return found == sets.end() ? 0 : sorted(found->second).size();
+}
+
 void DeckPart::add_node(const DeckLine& line, uint64_t number, Vec3 at, const std::string& set) {
   if (!node_places_.try_emplace(number, static_cast<uint32_t>(nodes_.size())).second)
     line.fail("node " + std::to_string(number) + " comes twice");

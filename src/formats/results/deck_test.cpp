@@ -191,4 +191,32 @@ TEST(Decks, KeywordsThatChangeTheMeshAreRefused) {
   expect_cube(cube + "*TRANSFORM, NSET=all, TYPE=C\n0, 0, 0, 0, 0, 1\n");
 }
 
+std::string sets_of(const Deck& deck) {
+  std::string text;
+  for (const ResultSet& set : deck.results->sets)
+    text += set.name + ' ' + std::to_string(static_cast<int>(set.of)) + ' ' + std::to_string(set.count) + ", ";
+  return text;
+}
+
+// Names are compared in lower case, and shown as they are written first.
+TEST(Decks, SetsAndSurfacesAreCounted) {
+  const std::string sets =
+      replaced(replaced(cube, "*NODE", "*NODE, NSET=Nall"), "TYPE=C3D8", "TYPE=C3D8, ELSET=Body") +
+      "*NSET, NSET=Base\n1, 2, 3, 4, 4\n*NSET, NSET=ends, GENERATE\n5, 8\n*NSET, NSET=ends\nBASE\n"
+      "*SURFACE, NAME=Top, TYPE=ELEMENT\nbody, S2\n1, S3\n*SURFACE, NAME=points, TYPE=NODE\nbase\n";
+  const std::string counted = "Base 0 4, ends 0 8, Nall 0 8, Body 1 1, points 2 4, Top 2 2, ";
+  const Deck deck(sets);
+  ASSERT_TRUE(deck.results) << deck.said;
+  EXPECT_EQ(sets_of(deck), counted);
+  // Two instances have the sets of their part each, and the assembly has sets of their nodes.
+  const Deck twice("*PART, NAME=p\n" + sets +
+                   "*END PART\n*ASSEMBLY, NAME=all\n*INSTANCE, NAME=a, PART=p\n*END INSTANCE\n"
+                   "*INSTANCE, NAME=b, PART=p\n20.\n*END INSTANCE\n*NSET, NSET=held, INSTANCE=a\n1, 2\n"
+                   "*NSET, NSET=held, INSTANCE=b\n1, 2, 3\n*ELSET, ELSET=_side, INSTANCE=b\n1\n"
+                   "*SURFACE, NAME=Side\n_side, S1\n*END ASSEMBLY\n");
+  ASSERT_TRUE(twice.results) << twice.said;
+  EXPECT_EQ(sets_of(twice),
+            "Base 0 8, ends 0 16, held 0 5, Nall 0 16, _side 1 1, Body 1 2, points 2 8, Side 2 1, Top 2 4, ");
+}
+
 }  // namespace ombre::formats

@@ -16,12 +16,16 @@ namespace {
 
 std::optional<ElementKind> frd_kind(uint64_t type) {
   static const std::map<uint64_t, ElementKind> kinds{{1, ElementKind::brick8},
+                                                     {2, ElementKind::wedge6},
                                                      {3, ElementKind::tetrahedron4},
                                                      {4, ElementKind::brick20},
                                                      {6, ElementKind::tetrahedron10}};
   const auto found = kinds.find(type);
   return found == kinds.end() ? std::nullopt : std::optional(found->second);
 }
+
+// Returns true for shells and beams, which are left out.
+bool is_flat_in_frd(uint64_t type) { return type >= 7 && type <= 12; }
 
 // Returns the usual name of a field for its name in CalculiX.
 std::string plain_name(const std::string& name) {
@@ -49,9 +53,9 @@ class FrdReader {
         break;
     }
     if (wanted_ > 0) step_index(name_, times_, wanted_, diagnostics_);
-    if (flat_ > 0)
-      diagnostics_.warning({make_source(name_, ""), 0, 0},
-                           format_count(flat_) + " elements of kinds that are not read are left out");
+    mesh_.results.step_times = times_;
+    mesh_.results.step = times_.size() == 1 ? 1 : wanted_;
+    leave_out(mesh_.results, name_, flat_, "shells and beams", diagnostics_);
     return std::move(mesh_.results);
   }
 
@@ -130,7 +134,10 @@ class FrdReader {
       if (key == "-1") {
         finish();
         element = whole(3, id_size_);
-        kind = frd_kind(whole(3 + id_size_, 5));
+        const uint64_t type = whole(3 + id_size_, 5);
+        kind = frd_kind(type);
+        if (!kind && !is_flat_in_frd(type))
+          fail_line("elements of the type " + std::to_string(type) + " are not read, as wedges of 15 nodes (5)");
         flat_ += kind ? 0 : 1;
       } else {
         for (size_t at = 3; at < line_.size() && !word(at, id_size_).empty(); at += id_size_)
@@ -161,8 +168,9 @@ class FrdReader {
 
   void read_field() {
     read_format();
-    const bool is_wanted = wanted_ == 0 || step_of_block() == wanted_;
     ResultField field;
+    field.step = step_of_block();
+    const bool is_wanted = wanted_ == 0 || field.step == wanted_;
     size_t components = 0;
     next_value_ = values_end_ = 0;
     for (std::string_view key = next_in_block(); !key.empty(); key = next_in_block()) {

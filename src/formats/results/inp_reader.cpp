@@ -8,6 +8,7 @@
 #include "base/math/degrees.h"
 #include "base/text/text.h"
 #include "formats/results/deck_part.h"
+#include "formats/results/deck_sets.h"
 #include "formats/results/results_readers.h"
 
 namespace ombre::formats {
@@ -83,6 +84,7 @@ class InpReader : public DeckListener {
     if (std::ranges::find(unread_keywords, keyword.name) != unread_keywords.end())
       keyword.line.fail(keyword.name + " changes the mesh and is not read", "save the mesh that it makes");
     enter_scope();
+    sets_.note_names(keyword);
     if (keyword.name == "*node") system_here_ = system_letter();
     if (keyword.name == "*element") begin_elements();
     if (keyword.name == "*system") part().system = Affine();
@@ -101,6 +103,10 @@ class InpReader : public DeckListener {
       move_instance(line);
     else if (name == "*system" || name == "*ncopy")
       block_.emplace_back(line);
+    else if (name == "*surface")
+      sets_.add_to_surface(keyword_, line, in_instance_ ? 0 : current_);
+    else if ((name == "*nset" || name == "*elset") && keyword_.has("instance"))
+      sets_.add_to_set_of_instance(keyword_, line);
     else if (name == "*nset")
       mesh().add_to_node_set(keyword_, line);
     else if (name == "*elset")
@@ -116,9 +122,10 @@ class InpReader : public DeckListener {
   void end() override {
     finish_block();
     if (instances_.empty())
-      for (Part& part : parts_) add(part.mesh, Affine());
+      for (size_t n = 0; n < parts_.size(); ++n) add_part(n, Affine());
     else
       add_instances();
+    result_.results.sets = sets_.take();
     tell_left_out();
   }
 
@@ -262,20 +269,27 @@ class InpReader : public DeckListener {
       if (part == parts_.end() && instance.own.nodes().empty())
         instance.line.fail("there is no part " + formats::quoted(instance.part));
       if (part != parts_.end()) {
-        is_used[static_cast<size_t>(part - parts_.begin())] = true;
-        add(part->mesh, instance.move);
+        const auto place = static_cast<size_t>(part - parts_.begin());
+        is_used[place] = true;
+        add_part(place, instance.move);
       }
       add(instance.own, instance.move);
+      for (const ResultSet& set : instance.own.sets()) sets_.add(set.of, set.name, set.count);
     }
     for (size_t n = 0; n < parts_.size(); ++n) {
       if (parts_[n].name.empty())
-        add(parts_[n].mesh, Affine());
+        add_part(n, Affine());
       else if (!is_used[n] && !parts_[n].mesh.elements().empty())
         ++unused_parts_;
     }
   }
 
-  // Adds a copy of the part to the result.
+  void add_part(size_t n, const Affine& move) {
+    add(parts_[n].mesh, move);
+    sets_.count(parts_[n].mesh, n);
+  }
+
+  // Adds a copy of the mesh to the result.
   void add(const DeckPart& mesh, const Affine& move) {
     if (mesh.nodes().empty() && mesh.elements().empty()) return;
     if (!result_.results.points.empty()) result_.is_of_several_parts = true;
@@ -293,16 +307,15 @@ class InpReader : public DeckListener {
     }
   }
 
-  void tell_left_out() const {
-    const auto warn = [&](const std::string& message) {
-      diagnostics_.warning({make_source(name_, ""), 0, 0}, message);
+  void tell_left_out() {
+    const auto leave = [&](uint64_t count, const std::string& what) {
+      leave_out(result_.results, name_, count, what, diagnostics_);
     };
-    if (flat_ > 0)
-      warn(format_count(flat_) + " lines of elements that are no solids (" +
-           join(std::vector<std::string>(left_out_.begin(), left_out_.end()), ", ") + ") are left out");
-    if (unused_parts_ > 0)
-      warn(format_count(unused_parts_) + " parts of which the assembly has no instance are left out");
-    if (removed_ > 0) warn("*model change removes elements in a step; they are read");
+    leave(flat_, "lines of elements that are no solids (" +
+                     join(std::vector<std::string>(left_out_.begin(), left_out_.end()), ", ") + ")");
+    leave(unused_parts_, "parts of which the assembly has no instance");
+    if (removed_ > 0)
+      diagnostics_.warning({make_source(name_, ""), 0, 0}, "*model change removes elements in a step; they are read");
   }
 
   const std::string& name_;
@@ -320,6 +333,7 @@ class InpReader : public DeckListener {
   DeckLine element_line_;
   uint64_t flat_ = 0, unused_parts_ = 0, removed_ = 0;
   std::set<std::string> left_out_;  // types of elements
+  DeckSets sets_;
   NumberedResults result_;
 };
 

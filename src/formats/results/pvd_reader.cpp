@@ -40,6 +40,7 @@ void append(Results& all, Results part) {
   all.kinds.insert(all.kinds.end(), part.kinds.begin(), part.kinds.end());
   for (const uint64_t first : part.first) all.first.push_back(nodes + first);
   for (const uint32_t node : part.nodes) all.nodes.push_back(static_cast<uint32_t>(points + node));
+  all.left_out.insert(all.left_out.end(), part.left_out.begin(), part.left_out.end());
   for (ResultField& field : part.fields) {
     const size_t before = field.is_of_elements ? elements : points;
     append_field(all.fields, std::move(field), before);
@@ -59,6 +60,7 @@ class NamedGrids {
     std::vector<std::string> times;
     for (const auto& [time, sets] : steps) times.push_back(format_number(time));
     const size_t wanted = step_index(name_, times, beside_.step, diagnostics_);
+    set_steps(results_, times, wanted);
     for (const xml_node set : std::next(steps.begin(), static_cast<ptrdiff_t>(wanted))->second) {
       const ResultsFile& grid = file_called(file, set, std::string(file.required(set, "file")));
       if (is_pvtu(grid.bytes))

@@ -59,6 +59,8 @@ TEST(Collections, StepsAndPartsAreJoined) {
   EXPECT_EQ(last->first, (std::vector<uint64_t>{0, 4, 8}));
   EXPECT_EQ(last->points[9], (Vec3{3, 0, 0}));
   EXPECT_EQ(find_field(*last, "t")->values, (std::vector<double>{2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4}));
+  EXPECT_EQ(last->step_times, (std::vector<std::string>{"2", "10"}));
+  EXPECT_EQ(last->step, 2U);
   const auto first = read_results("a.pvd", pvd, {{}, files, 1}, diagnostics);
   ASSERT_TRUE(first) << to_text(diagnostics);
   EXPECT_EQ(find_field(*first, "t")->values, (std::vector<double>{1, 1, 1, 1}));

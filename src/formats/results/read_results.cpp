@@ -26,7 +26,7 @@ void add_von_mises(Results& results) {
   const ResultField* stress = find_field(results, "stress");
   if (!stress) stress = find_field(results, "S");
   if (!stress || stress->components != 6) return;
-  ResultField added{"von Mises stress", stress->unit, 1, stress->is_of_elements, {}};
+  ResultField added{"von Mises stress", stress->unit, 1, stress->is_of_elements, {}, stress->step};
   for (size_t n = 0; n + 6 <= stress->values.size(); n += 6) added.values.push_back(von_mises(&stress->values[n]));
   results.fields.push_back(std::move(added));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text/file_ending.h"
+#include "formats/containers/hdf5.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/results/deck.h"
 #include "formats/results/named_grids.h"
@@ -20,6 +21,7 @@ bool is_deck(std::string_view text) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   return text.starts_with('*');
 }
+bool is_hdf5(std::string_view text) { return text.starts_with("\x89HDF\r\n"); }
 bool is_anything(std::string_view) { return true; }
 
 void refuse_values(const std::string& name, const ResultsBeside& beside, Diagnostics& diagnostics) {
@@ -55,6 +57,12 @@ Results read_pieces(const std::string& name, std::string_view bytes, const Resul
   return read_pvtu(name, bytes, beside, diagnostics);
 }
 
+Results read_vtkhdf_step(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
+                         Diagnostics& diagnostics) {
+  refuse_values(name, beside, diagnostics);
+  return read_vtkhdf(name, bytes, beside.step, diagnostics);
+}
+
 Results read_frd_step(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                       Diagnostics& diagnostics) {
   refuse_values(name, beside, diagnostics);
@@ -80,8 +88,9 @@ std::span<const ResultFormat> result_formats() {
         true,
         true,
         nullptr,
-        "several grids or spatial collections; elements of other types; references between items",
-        "points, lines and faces; fields of other places than nodes and cells"},
+        "several grids or spatial collections; elements of other types; references between items; numbers in several "
+        "files",
+        "points, lines and faces; fields of other places than nodes and cells, or of more than nine numbers"},
        true,
        is_xdmf,
        read_xdmf},
@@ -103,19 +112,31 @@ std::span<const ResultFormat> result_formats() {
         true,
         true,
         nullptr,
-        "cells of other types; numbers packed by LZ4 or LZMA",
+        "cells of other types",
         "points, lines and faces; hidden cells and those of other pieces; fields of more than nine numbers"},
        true,
        is_xml,
        read_alone<read_vtu>},
+      {{"VTKHDF",
+        {".vtkhdf", ".hdf"},
+        Content::results,
+        true,
+        false,
+        &hdf5_library,
+        "other types than unstructured grids; cells of other types; numbers in other files",
+        "points, lines and faces; hidden cells and those of other pieces; fields of more than nine numbers, or of "
+        "none"},
+       true,
+       is_hdf5,
+       read_vtkhdf_step},
       {{"CalculiX results",
         {".frd"},
         Content::results,
         true,
         false,
         nullptr,
-        "binary files",
-        "beams, shells and other elements"},
+        "binary files; wedges of 15 nodes",
+        "beams and shells"},
        true,
        is_frd,
        read_frd_step},

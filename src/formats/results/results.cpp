@@ -18,6 +18,13 @@ void Results::add_element(ElementKind kind, const uint32_t* first_node) {
   if (is_upside_down) std::swap_ranges(own, own + 3, own + 3);
 }
 
+void leave_out(Results& results, const std::string& file, uint64_t count, const std::string& what,
+               Diagnostics& diagnostics) {
+  if (count == 0) return;
+  results.left_out.push_back({what, count});
+  diagnostics.warning({make_source(file, ""), 0, 0}, format_count(count) + ' ' + what + " are left out");
+}
+
 void set_name(ResultField& field, std::string_view text) {
   const size_t open = text.rfind('[');
   const bool has_unit = open != std::string_view::npos && open > 0 && text.back() == ']';

@@ -29,6 +29,21 @@ struct ResultField {
   size_t components = 1;
   bool is_of_elements = false;
   std::vector<double> values;
+  uint64_t step = 0;  // number of its step, from 1, if fields may be of several; else 0
+};
+
+// A named set of nodes, elements or sides of elements in a deck.
+struct ResultSet {
+  enum class Of : uint8_t { nodes, elements, sides };
+  std::string name;
+  Of of = Of::nodes;
+  uint64_t count = 0;
+};
+
+// A kind of thing in a file that is not read, of which a warning tells: "points, lines or faces of the grid".
+struct LeftOut {
+  std::string what;
+  uint64_t count = 0;
 };
 
 struct Results {
@@ -38,9 +53,19 @@ struct Results {
   std::vector<uint32_t> nodes;      // numbers of points
   std::vector<ResultField> fields;  // names are unique
 
+  // The times of the file's steps, empty texts where it does not say them; none for files without steps.
+  std::vector<std::string> step_times = {};
+  uint64_t step = 0;  // number of the step that was read, from 1; 0 if fields are of several, or there are no steps
+  std::vector<ResultSet> sets = {};
+  std::vector<LeftOut> left_out = {};
+
   // The nodes must be there. Puts the triangle of a wedge first from which the other lies above.
   void add_element(ElementKind kind, const uint32_t* first_node);
 };
+
+// Records what of a file is left out, and warns of it unless the count is 0.
+void leave_out(Results& results, const std::string& file, uint64_t count, const std::string& what,
+               Diagnostics& diagnostics);
 
 // Splits a text such as "stress [MPa]" into name and unit.
 void set_name(ResultField& field, std::string_view text);
@@ -70,8 +95,8 @@ struct ResultsBeside {
   uint64_t step = 0;                    // number of the step, counted from 1; 0 for the last
 };
 
-// Reads .vtu, .pvd, .pvtu, .xdmf, .frd, .inp and .csv files by their content. Returns null, with diagnostics, if a file
-// is invalid.
+// Reads .vtu, .pvd, .pvtu, .vtkhdf, .xdmf, .frd, .inp and .csv files by their content. Returns null, with diagnostics,
+// if a file is invalid.
 std::optional<Results> read_results(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                                     Diagnostics& diagnostics);
 

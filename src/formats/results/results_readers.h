@@ -8,7 +8,7 @@
 
 namespace ombre::formats {
 
-// Reads VTK's unstructured grids: text, base64 or raw, optionally compressed by zlib.
+// Reads VTK's unstructured grids: text, base64 or raw, optionally compressed by zlib, LZ4 or LZMA.
 Results read_vtu(const std::string& name, std::string_view bytes, Diagnostics& diagnostics);
 
 // Reads a step of a collection of VTK's unstructured grids, whose parts are joined, or a grid in pieces. `beside` has
@@ -21,6 +21,9 @@ Results read_pvtu(const std::string& name, std::string_view bytes, const Results
 // Reads a uniform grid of XDMF 3, or one of a temporal collection. `beside` has the HDF5 file, if there is one.
 Results read_xdmf(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                   Diagnostics& diagnostics);
+
+// Reads a step of an unstructured grid in VTK's file of HDF5; 0 is the last one.
+Results read_vtkhdf(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics);
 
 // Reads results of CalculiX as text. `step` counts from 1; for 0, each field is that of the last step that has it.
 Results read_frd(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics);

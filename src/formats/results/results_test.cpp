@@ -89,6 +89,31 @@ TEST(Results, VtuPackedInBlocks) {
             std::string::npos);
 }
 
+// The arrays were packed by Python's lz4 and lzma in two blocks, as VTK packs them. Builds without a library name it.
+TEST(Results, VtuPackedByLz4AndLzma) {
+  const std::array<std::array<std::string, 3>, 2> cases{
+      {{"vtkLZ4DataCompressor", "AgAAACAAAAAQAAAADwAAAAoAAAA=GQABACeAPw8AUAAAAABAFgABAFAAAABAQA==", "OMBRE_LZ4"},
+       {"vtkLZMADataCompressor",
+        "AgAAACAAAAAQAAAARAAAAEAAAAA=/Td6WFoAAAFpIt42AgAhARYAAAB0L+Wj4AAfAAtdAABszlCv9wHmXiAAAADuas0+AAEjIILi"
+        "QaWQQpkNAQAAAAABWVr9N3pYWgAAAWki3jYCACEBFgAAAHQv5aPgAA8ACF0AAGzGUN/wAAAAwEUeagABIBDtgbWokEKZDQEAAAAAAVla",
+        "OMBRE_LZMA"}}};
+  for (const auto& [compressor, packed, option] : cases) {
+    const std::string header = "compressor=\"" + compressor + '"';
+    Diagnostics diagnostics;
+    const auto results =
+        read_results("a.vtu", vtu_of_tetrahedron(header, binary_points("Float32", packed)), {}, diagnostics);
+    if (to_text(diagnostics).find(option) != std::string::npos) continue;
+    ASSERT_TRUE(results) << to_text(diagnostics);
+    EXPECT_EQ(results->points, cube_corners);
+    std::string wrong = packed;
+    wrong[28] = 'Z';  // in the head of the first block
+    EXPECT_NE(error_of(vtu_of_tetrahedron(header, binary_points("Float32", wrong))).find("damaged or cut off"),
+              std::string::npos);
+  }
+  const std::string unknown = vtu_of_tetrahedron("compressor=\"vtkOther\"", binary_points("Float32", cases[0][1]));
+  EXPECT_NE(error_of(unknown).find("numbers packed by \"vtkOther\" are not read"), std::string::npos);
+}
+
 TEST(Results, Base64) {
   EXPECT_EQ(from_base64("TWFu TWE=\n"), "ManMa");
   EXPECT_EQ(from_base64("TQ=="), "M");
@@ -196,6 +221,32 @@ TEST(Results, FrdOfCalculix) {
   for (size_t size = 0; size < bar.size(); size += 101) read_results("a.frd", bar.substr(0, size), {}, diagnostics);
 }
 
+TEST(Results, OtherElementsOfCalculix) {
+  const auto with = [](int type, const std::string& nodes) {
+    std::string text = "    1C\n    2C\n";
+    int n = 0;
+    for (const char* at : {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1"}) {
+      const std::string p = at;
+      text += " -1         " + std::to_string(++n);
+      for (const char c : {p[0], p[2], p[4]}) text += std::string(" ") + c + ".00000E+00";
+      text += "\n";
+    }
+    return text + " -3\n    3C\n -1         1    " + std::to_string(type) + "    0    1\n -2" + nodes +
+           "\n -3\n 9999\n";
+  };
+  const std::string six = "         1         2         3         4         5         6";
+  Diagnostics diagnostics;
+  const auto wedge = read_results("a.frd", with(2, six), {}, diagnostics);
+  ASSERT_TRUE(wedge) << to_text(diagnostics);
+  EXPECT_EQ(wedge->kinds, std::vector<ElementKind>{ElementKind::wedge6});
+  const auto shell = read_results("a.frd", with(8, six), {}, diagnostics);
+  ASSERT_TRUE(shell);
+  EXPECT_TRUE(shell->kinds.empty());
+  EXPECT_NE(to_text(diagnostics).find("1 shells and beams are left out"), std::string::npos);
+  EXPECT_FALSE(read_results("a.frd", with(5, six), {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("elements of the type 5 are not read"), std::string::npos);
+}
+
 TEST(Results, StepsOfCalculix) {
   const auto block = [](const std::string& time, int step, const std::string& value) {
     std::string number = std::to_string(step);
@@ -213,6 +264,10 @@ TEST(Results, StepsOfCalculix) {
     const auto results = read_results("a.frd", frd, {{}, {}, step}, diagnostics);
     ASSERT_TRUE(results) << to_text(diagnostics);
     EXPECT_EQ(find_field(*results, "temperature")->values, std::vector<double>{value});
+    // Without a choice fields may be of several steps, so each says its own.
+    EXPECT_EQ(results->step_times, (std::vector<std::string>{"2.50000E-01", "1.00000E+00"}));
+    EXPECT_EQ(results->step, step);
+    EXPECT_EQ(find_field(*results, "temperature")->step, step == 0 ? 2 : step);
   }
   Diagnostics diagnostics;
   EXPECT_FALSE(read_results("a.frd", frd, {{}, {}, 3}, diagnostics));

@@ -30,6 +30,15 @@ std::optional<ElementKind> element_kind(std::string_view topology) {
   return std::nullopt;
 }
 
+// Returns the number of nodes of elements that have no volume and are left out; null for other types.
+std::optional<size_t> nodes_of_flat(std::string_view topology) {
+  static const std::map<std::string, size_t> counts{{"polyvertex", 1}, {"polyline", 1},        {"triangle", 3},
+                                                    {"edge_3", 3},     {"quadrilateral", 4},   {"triangle_6", 6},
+                                                    {"tri_6", 6},      {"quadrilateral_8", 8}, {"quad_8", 8}};
+  const auto found = counts.find(to_lower(topology));
+  return found == counts.end() ? std::nullopt : std::optional(found->second);
+}
+
 // The codes of elements in a topology of the type Mixed (XdmfTopologyType). Those without a kind have no volume.
 struct MixedKind {
   size_t nodes = 0;  // 0: the list says how many
@@ -70,18 +79,21 @@ class XdmfReader {
     add_points(child_of(mesh, "Geometry"));
     add_elements(child_of(mesh, "Topology"));
     for (const xml_node attribute : grid.children("Attribute")) add_field(attribute);
-    if (const auto flat = std::ranges::count(is_kept_, false); flat > 0)
-      file_.diagnostics().warning(
-          {make_source(file_.name(), ""), 0, 0},
-          format_count(static_cast<uint64_t>(flat)) + " points, lines or faces of the grid are left out");
-    if (fields_elsewhere_ > 0)
-      file_.diagnostics().warning(
-          {make_source(file_.name(), ""), 0, 0},
-          format_count(fields_elsewhere_) + " fields that are neither of nodes nor of cells are left out");
+    leave_out(results_, file_.name(), static_cast<uint64_t>(std::ranges::count(is_kept_, false)),
+              "points, lines or faces of the grid", file_.diagnostics());
+    leave_out(results_, file_.name(), wide_fields_, "fields of more than 9 numbers", file_.diagnostics());
+    leave_out(results_, file_.name(), fields_elsewhere_, "fields that are neither of nodes nor of cells",
+              file_.diagnostics());
     return std::move(results_);
   }
 
  private:
+  // Returns the type of an element, whose attribute is called Type by newer programs.
+  std::optional<std::string_view> type_of(xml_node node, std::string_view older_name) const {
+    const auto older = file_.attribute(node, older_name);
+    return older ? older : file_.attribute(node, "Type");
+  }
+
   xml_node child_of(xml_node parent, const char* name) const {
     const xml_node child = parent.child(name);
     if (!child) file_.fail_at(parent, "expected " + formats::quoted(name) + " in the grid");
@@ -109,7 +121,7 @@ class XdmfReader {
   }
 
   // Returns the wanted step of a series; a grid that is none is its own only step.
-  xml_node grid_of_step(xml_node grid) const {
+  xml_node grid_of_step(xml_node grid) {
     std::vector<xml_node> steps;
     std::vector<std::string> times;
     if (!is_series(grid)) {
@@ -119,7 +131,9 @@ class XdmfReader {
     }
     if (steps.empty()) file_.fail_at(grid, "the collection has no grids");
     for (const xml_node step : steps) times.emplace_back(step.child("Time").attribute("Value").value());
-    return steps[step_index(file_.name(), times, step_, file_.diagnostics())];
+    const size_t chosen = step_index(file_.name(), times, step_, file_.diagnostics());
+    if (is_series(grid)) set_steps(results_, times, chosen);
+    return steps[chosen];
   }
 
   // Returns the grid that has the mesh of a step: its own, or that which an XInclude names, as meshio and FEniCS write
@@ -148,7 +162,7 @@ class XdmfReader {
                   "write Topology and Geometry into each grid, or include them as meshio and FEniCS do");
   }
 
-  std::vector<double> numbers_of(xml_node parent) const {
+  std::vector<double> numbers_of(xml_node parent) {
     const xml_node item = parent.child("DataItem");
     if (!item) file_.fail_at(parent, "expected a DataItem");
     const std::string_view format = file_.attribute(item, "Format").value_or("XML");
@@ -166,7 +180,7 @@ class XdmfReader {
   }
 
   // Reads the numbers of an item such as "part.h5:/Mesh/geometry".
-  std::vector<double> numbers_in_hdf5(xml_node item) const {
+  std::vector<double> numbers_in_hdf5(xml_node item) {
     const std::string_view place = trim(std::string_view(item.text().get()));
     const size_t colon = place.rfind(":/");
     if (colon == std::string_view::npos)
@@ -175,18 +189,32 @@ class XdmfReader {
     if (!numbers_)
       file_.fail_at(item, "the numbers are in the file " + formats::quoted(place.substr(0, colon)),
                     "name it by values=\"...\"");
+    const std::string_view name = place.substr(0, colon), path = place.substr(colon + 1);
+    if (name_of_numbers_.empty()) name_of_numbers_ = name;
+    if (name != name_of_numbers_)
+      file_.fail_at(
+          item,
+          "the numbers lie in several files: " + formats::quoted(name_of_numbers_) + " and " + formats::quoted(name),
+          "save them in one");
+    std::string problem;
+    if (auto found = open_numbers(item).numbers(std::string(path), problem)) return std::move(found->values);
+    file_.fail_at(item, formats::quoted(numbers_->name) + " has no numbers at " + formats::quoted(path) +
+                            (problem.empty() ? "" : ": " + problem));
+  }
+
+  // Opens the file of numbers when it is first needed.
+  const Hdf5File& open_numbers(xml_node item) {
     try {
-      auto found = hdf5_numbers(numbers_->bytes, std::string(place.substr(colon + 1)));
-      if (found) return std::move(found->values);
+      if (!hdf5_) hdf5_ = open_hdf5(numbers_->bytes);
     } catch (const Error& error) {
       file_.fail_at(item, numbers_->name + ": " + error.what());
     }
-    file_.fail_at(item,
-                  formats::quoted(numbers_->name) + " has no numbers at " + formats::quoted(place.substr(colon + 1)));
+    if (!hdf5_) file_.fail_at(item, numbers_->name + ": this is no file of HDF5, or it is damaged");
+    return *hdf5_;
   }
 
   void add_points(xml_node geometry) {
-    if (file_.attribute(geometry, "GeometryType").value_or("XYZ") != "XYZ")
+    if (type_of(geometry, "GeometryType").value_or("XYZ") != "XYZ")
       file_.fail_at(geometry, "expected the geometry XYZ");
     const std::vector<double> numbers = numbers_of(geometry);
     if (numbers.size() % 3 != 0 || numbers.size() / 3 > UINT32_MAX)
@@ -201,8 +229,9 @@ class XdmfReader {
   }
 
   void add_elements(xml_node topology) {
-    const std::string_view type = file_.required(topology, "TopologyType");
+    const std::string_view type = type_of(topology, "TopologyType").value_or("");
     if (to_lower(type) == "mixed") return add_mixed(topology, numbers_of(topology));
+    if (const auto nodes = nodes_of_flat(type)) return leave_out_elements(topology, *nodes);
     const auto kind = element_kind(type);
     if (!kind)
       file_.fail_at(topology, "elements of the type " + formats::quoted(type) +
@@ -214,6 +243,12 @@ class XdmfReader {
       file_.fail_at(topology, "expected " + std::to_string(each) + " nodes for each element, found " +
                                   std::to_string(numbers.size()));
     for (size_t n = 0; n < numbers.size(); n += each) add_element(topology, *kind, &numbers[n]);
+  }
+
+  void leave_out_elements(xml_node topology, size_t usual_nodes) {
+    const auto stated = file_.attribute(topology, "NodesPerElement");
+    const uint64_t each = stated ? file_.count(topology, *stated, "a count of nodes") : usual_nodes;
+    is_kept_.assign(numbers_of(topology).size() / std::max<uint64_t>(each, 1), false);
   }
 
   void add_element(xml_node topology, ElementKind kind, const double* numbers) {
@@ -262,11 +297,15 @@ class XdmfReader {
     field.values = numbers_of(attribute);
     const size_t count = field.is_of_elements ? is_kept_.size() : results_.points.size();
     field.components = count == 0 ? 0 : field.values.size() / count;
-    if (field.components < 1 || field.components > 9 || field.components * count != field.values.size())
+    if (field.components < 1 || field.components * count != field.values.size())
       file_.fail_at(attribute, "the field " + formats::quoted(field.name) + " has " +
                                    std::to_string(field.values.size()) + " numbers for " + std::to_string(count) +
                                    (field.is_of_elements ? " elements" : " nodes"));
-    if (file_.attribute(attribute, "AttributeType").value_or("") == "Tensor6") reorder(field);
+    if (field.components > most_components) {
+      ++wide_fields_;
+      return;
+    }
+    if (type_of(attribute, "AttributeType").value_or("") == "Tensor6") reorder(field);
     if (field.is_of_elements) leave_out_flat(field);
     results_.fields.push_back(std::move(field));
   }
@@ -288,8 +327,12 @@ class XdmfReader {
 
   XmlFile file_;
   const std::optional<ResultsFile>& numbers_;
-  uint64_t step_ = 0;  // number of the step, or 0
+  std::unique_ptr<Hdf5File> hdf5_;
+  std::string name_of_numbers_;  // as the items write it
+  uint64_t step_ = 0;            // number of the step, or 0
   Results results_;
+  static constexpr size_t most_components = 9;
+  uint64_t wide_fields_ = 0;
   uint64_t fields_elsewhere_ = 0;  // with values at edges, faces or the whole grid
   std::vector<bool> is_kept_;      // by element of the file: false if it has no volume
 };

@@ -62,6 +62,41 @@ TEST(Xdmf, MixedElementsWithoutVolumeAreLeftOut) {
   EXPECT_EQ(results->nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
   EXPECT_EQ(find_field(*results, "stress")->values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
   EXPECT_NE(to_text(diagnostics).find("2 points, lines or faces of the grid are left out"), std::string::npos);
+  ASSERT_EQ(results->left_out.size(), 1U);
+  EXPECT_EQ(results->left_out[0].count, 2U);
+}
+
+// ParaView writes the types as Type.
+TEST(Xdmf, NewerNamesOfTypes) {
+  const auto renamed = [](std::string text) {
+    for (const std::string name : {"TopologyType=", "GeometryType=", "AttributeType="})
+      for (size_t at = text.find(name); at != std::string::npos; at = text.find(name))
+        text.replace(at, name.size(), "Type=");
+    return text;
+  };
+  Diagnostics diagnostics;
+  const auto results = read_results("a.xdmf", renamed(GridText().text()), {}, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(find_field(*results, "stress")->values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  std::string flat = renamed(GridText().text());
+  flat.replace(flat.find("\"XYZ\""), 5, "\"XY\"");
+  EXPECT_FALSE(read_results("a.xdmf", flat, {}, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("expected the geometry XYZ"), std::string::npos);
+}
+
+TEST(Xdmf, GridsOfFacesAreTheirPoints) {
+  GridText faces;
+  faces.topology = "Triangle";
+  faces.nodes = item("0 1 2 1 2 3");
+  faces.stress = item("1 4 6 2 5 3 1 4 6 2 5 3");
+  faces.move = item("1 1 1 1 1 1 1 1 1 1 2 2 2 2 2 2 2 2 2 2 3 3 3 3 3 3 3 3 3 3 4 4 4 4 4 4 4 4 4 4");
+  Diagnostics diagnostics;
+  const auto results = read_grid(faces, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_TRUE(results->kinds.empty());
+  EXPECT_EQ(results->points.size(), 4U);
+  EXPECT_NE(to_text(diagnostics).find("2 points, lines or faces"), std::string::npos);
+  EXPECT_NE(to_text(diagnostics).find("1 fields of more than 9 numbers are left out"), std::string::npos);
 }
 
 // A grid with its mesh, the value of a field at its first node and a time.
@@ -152,12 +187,22 @@ TEST(Xdmf, NumbersInHdf5) {
                                       {"/short", Hdf5Array::Kind::float32, {4}, wide.data()}};
   const std::string bytes = hdf5_file(arrays);
   EXPECT_EQ(hdf5_file(arrays), bytes);
-  const auto numbers = hdf5_numbers(bytes, "/short");
-  ASSERT_TRUE(numbers);
+  const auto file = open_hdf5(bytes);
+  ASSERT_TRUE(file);
+  std::string problem;
+  const auto numbers = file->numbers("/short", problem), rows = file->numbers("/Mesh/geometry", problem, {1, 2});
+  ASSERT_TRUE(numbers && rows);
   EXPECT_EQ(numbers->sizes, std::vector<uint64_t>{4});
   EXPECT_EQ(numbers->values, (std::vector<double>{1, 2, 3, 4}));
-  EXPECT_FALSE(hdf5_numbers(bytes, "/Mesh/none"));
-  EXPECT_FALSE(hdf5_numbers(bytes, "/Mesh"));
+  EXPECT_EQ(rows->sizes, (std::vector<uint64_t>{2, 3}));
+  EXPECT_EQ(rows->values, (std::vector<double>{1, 0, 0, 0, 2, 0}));
+  EXPECT_EQ(file->arrays_in("/Mesh"), (std::vector<std::string>{"geometry", "nodes"}));
+  EXPECT_FALSE(file->numbers("/Mesh/none", problem));
+  EXPECT_FALSE(file->numbers("/Mesh", problem));
+  EXPECT_EQ(problem, "");
+  EXPECT_FALSE(file->numbers("/Mesh/geometry", problem, {3, 2}));
+  EXPECT_EQ(problem, "it has 4 rows");
+  EXPECT_FALSE(open_hdf5("no numbers"));
 
   GridText grid;
   grid.points = "<DataItem Format=\"HDF\">other name.h5:/Mesh/geometry</DataItem>";
@@ -168,6 +213,8 @@ TEST(Xdmf, NumbersInHdf5) {
   EXPECT_EQ(results->points[3], (Vec3{0, 0, 3}));
   grid.points = "<DataItem Format=\"HDF\">a.h5:/Mesh/place</DataItem>";
   EXPECT_NE(grid_error(grid, bytes).find("has no numbers at \"/Mesh/place\""), std::string::npos);
+  grid.points = "<DataItem Format=\"HDF\">b.h5:/Mesh/geometry</DataItem>";
+  EXPECT_NE(grid_error(grid, bytes).find("several files: \"b.h5\" and \"other name.h5\""), std::string::npos);
   EXPECT_NE(grid_error(grid, bytes.substr(0, 100)).find("no file of HDF5"), std::string::npos);
   EXPECT_NE(grid_error(grid, "no numbers").find("no file of HDF5"), std::string::npos);
 }

@@ -11,6 +11,7 @@
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "formats/containers/base64.h"
+#include "formats/containers/block_packing.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/volumes/volume_packing.h"
 
@@ -29,6 +30,16 @@ std::optional<VtkArrays::Kind> number_kind(std::string_view type) {
       {"Int64", {8, 'i'}},   {"UInt8", {1, 'u'}},   {"UInt16", {2, 'u'}}, {"UInt32", {4, 'u'}}, {"UInt64", {8, 'u'}}};
   const auto found = kinds.find(type);
   return found == kinds.end() ? std::nullopt : std::optional(found->second);
+}
+
+constexpr std::string_view zlib_compressor = "vtkZLibDataCompressor", lz4_compressor = "vtkLZ4DataCompressor",
+                           lzma_compressor = "vtkLZMADataCompressor";
+
+bool can_unpack(std::string_view compressor) {
+  return compressor == zlib_compressor || compressor == lz4_compressor || compressor == lzma_compressor;
+}
+BlockPacking block_packing(std::string_view compressor) {
+  return compressor == lz4_compressor ? BlockPacking::lz4 : BlockPacking::xz;
 }
 
 template <class T>
@@ -76,9 +87,7 @@ VtkArrays::VtkArrays(const std::string& name, std::string_view bytes, Diagnostic
 void VtkArrays::read_settings(xml_node root) {
   is_swapped_ = file_.attribute(root, "byte_order").value_or("LittleEndian") == "BigEndian";
   has_long_headers_ = file_.attribute(root, "header_type").value_or("UInt32") == "UInt64";
-  const std::string_view compressor = file_.attribute(root, "compressor").value_or("");
-  is_packed_ = !compressor.empty();
-  if (is_packed_ && compressor != "vtkZLibDataCompressor") foreign_compressor_ = compressor;
+  compressor_ = file_.attribute(root, "compressor").value_or("");
 }
 
 VtkArrays::Kind VtkArrays::kind_of(xml_node array) const {
@@ -108,7 +117,7 @@ std::string VtkArrays::bytes_of(xml_node array, uint64_t count) const {
 std::optional<std::string_view> VtkArrays::bytes_in_file(xml_node array, uint64_t count) const {
   if (file_.attribute(array, "format").value_or("ascii") != "appended") return std::nullopt;
   const Kind kind = kind_of(array);
-  if (parts_.is_base64 || is_packed_ || (is_swapped_ && kind.bytes > 1)) return std::nullopt;
+  if (parts_.is_base64 || !compressor_.empty() || (is_swapped_ && kind.bytes > 1)) return std::nullopt;
   std::string_view text = appended_at(array);
   check_header(array, text, false, count * kind.bytes);
   if (text.size() - header_bytes() < count * kind.bytes) file_.fail_at(array, "the array is cut off");
@@ -189,7 +198,7 @@ void VtkArrays::check_header(xml_node array, std::string_view text, bool is_base
 
 // Returns the bytes that follow a header with their size.
 std::string VtkArrays::array_bytes(xml_node array, std::string_view text, bool is_base64, uint64_t size) const {
-  if (is_packed_) return unpacked_blocks(array, text, is_base64, size);
+  if (!compressor_.empty()) return unpacked_blocks(array, text, is_base64, size);
   check_header(array, text, is_base64, size);
   std::string bytes = take(array, text, is_base64, header_bytes() + size);
   bytes.erase(0, header_bytes());
@@ -199,8 +208,8 @@ std::string VtkArrays::array_bytes(xml_node array, std::string_view text, bool i
 // Decompresses blocks of equal size, except the last. The header contains their number, their size, the size of the
 // last one, and the compressed size of each.
 std::string VtkArrays::unpacked_blocks(xml_node array, std::string_view text, bool is_base64, uint64_t size) const {
-  if (!foreign_compressor_.empty())
-    file_.fail_at(array, "numbers packed by " + formats::quoted(foreign_compressor_) + " are not read",
+  if (!can_unpack(compressor_))
+    file_.fail_at(array, "numbers packed by " + formats::quoted(compressor_) + " are not read",
                   "save with zlib (vtkZLibDataCompressor) or without packing");
   std::string_view ahead = text;
   const uint64_t blocks = header(take(array, ahead, is_base64, header_bytes()), 0);
@@ -227,10 +236,13 @@ std::string VtkArrays::unpacked_blocks(xml_node array, std::string_view text, bo
 
 std::string VtkArrays::unpacked_block(xml_node array, std::string_view packed, uint64_t size) const {
   try {
-    return unpacked(file_.name(), packed, Packing::zlib, size);
-  } catch (const Error&) {
-    file_.fail_at(array, "the array's packed numbers are damaged or cut off");
+    const std::string bytes = compressor_ == zlib_compressor ? unpacked(file_.name(), packed, Packing::zlib, size)
+                                                             : unpack_block(packed, block_packing(compressor_), size);
+    if (bytes.size() == size) return bytes;
+  } catch (const Error& error) {
+    if (error.code() == Code::library_missing) file_.fail_at(array, error.what());
   }
+  file_.fail_at(array, "the array's packed numbers are damaged or cut off");
 }
 
 }  // namespace ombre::formats

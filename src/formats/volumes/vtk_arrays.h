@@ -1,5 +1,5 @@
 // Reads arrays of numbers in VTK's XML files: as text, as base64, or as raw bytes after the XML, optionally compressed
-// by zlib.
+// by zlib, LZ4 or LZMA.
 #pragma once
 
 #include <cstdint>
@@ -56,8 +56,8 @@ class VtkArrays {
 
   Parts parts_;
   XmlFile file_;
-  std::string foreign_compressor_;  // one that is not read; it does not matter for numbers as text
-  bool is_swapped_ = false, has_long_headers_ = false, is_packed_ = false;
+  std::string compressor_;  // empty if numbers are not packed; it does not matter for numbers as text
+  bool is_swapped_ = false, has_long_headers_ = false;
 };
 
 }  // namespace ombre::formats

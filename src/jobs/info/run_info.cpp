@@ -138,11 +138,20 @@ int show_script(const std::string& path, Session& session) {
   return done;
 }
 
+void refuse_options_of_results(const InfoChoices& a) {
+  for (const auto& [name, is_given] : {std::pair("--step", a.step > 0), std::pair("--values", !a.values.empty())})
+    if (is_given)
+      throw WrongArgument(spelled::option(name) + " is for results; leave it out, or write for example ombre info " +
+                          "seat.pvd " + spelled::option("--step", "2"));
+}
+
 int show_file(const InfoChoices& a, Session& session) {
   const std::string& path = a.file;
   if (path.ends_with(".scad")) return show_script(path, session);
-  if (is_results(path)) return show_results(path, session);
-  const bool is_volume = a.as_volume || !a.picture.empty() || !a.series.empty() || a.channel >= 0;
+  if (is_results(path)) return show_results(a, session);
+  refuse_options_of_results(a);
+  const bool is_volume =
+      a.as_volume || !a.picture.empty() || !a.series.empty() || a.channel >= 0 || a.phase > 0 || a.nan || a.is_regular;
   if (const auto content = summarised_content(path); content && !is_volume)
     return show_summary(path, *content, session);
   return is_design(path) ? show_design(path, session) : show_volume(a, session);

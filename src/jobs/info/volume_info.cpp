@@ -228,8 +228,9 @@ int show_volume(const InfoChoices& arguments, Session& session) {
   std::vector<std::string> warnings;
   const sources::VolumeParts files_of_volume = sources::volume_parts(path, read);
   const auto read_channel = [&](int channel) {
-    return sources::read_volume_parts(path, files_of_volume, {arguments.series, channel}, read, &session.stop,
-                                      warnings);
+    formats::VolumeChoice choice{arguments.series, channel, arguments.nan, arguments.phase};
+    choice.is_regular = arguments.is_regular;
+    return sources::read_volume_parts(path, files_of_volume, choice, read, &session.stop, warnings);
   };
   // A segmentation in layers has segments in all channels, which are all reported.
   const bool has_layers = is_layered(files_of_volume.segments);

@@ -36,6 +36,7 @@ struct PictureChoices {
   std::string view = "iso";
   std::optional<std::array<double, 2>> angles_deg;  // azimuth, elevation
   double perspective_deg = 0, zoom = 1, deform = 0;
+  int step = 0;  // number, from 1, of a step of results; 0: the last
   std::vector<CutRequest> cuts;
   std::optional<Box> box;
   std::vector<std::pair<std::string, double>> opacity;  // by the name of the material
@@ -92,6 +93,9 @@ struct PictureChoices {
             .needs("--by"),
         option("--deform", &P::deform, kind::number,
                "Factor of the displacement that moves the mesh of results (.vtu, .xdmf, .frd; default 0)", "X"),
+        option("--step", &P::step, kind::whole,
+               "Number of one of several steps of results, counted from 1; without it the last", "N")
+            .between(1, 1000000000),
         option("--background", &P::background, colour_kind,
                "Colour of the background: white (default), black, gray, transparent or #rrggbb", "COLOUR"),
         option("--aa", &P::samples, kind::whole, "Rays along the edge of a pixel, which smooth edges (default 2)", "N")

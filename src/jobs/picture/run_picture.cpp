@@ -87,11 +87,13 @@ compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diag
     options.threads = a.work.threads;
     options.cache = &session.cache;
     const fs::path path = fs::path(a.design.design).replace_extension(".vcad");
-    return compile::load_text(results_as_script(a.design.design, a.by, a.deform), path.string(), options, diagnostics);
+    return compile::load_text(results_as_script(a.design.design, a.by, a.deform, a.step), path.string(), options,
+                              diagnostics);
   }
-  if (a.deform != 0)
-    throw WrongArgument(spelled::option("--deform") + " is for results; write for example ombre render part.vtu " +
-                        spelled::option("--deform", "5"));
+  for (const auto& [name, is_given] : {std::pair("--deform", a.deform != 0), std::pair("--step", a.step > 0)})
+    if (is_given)
+      throw WrongArgument(spelled::option(name) + " is for results; write for example ombre render part.vtu " +
+                          spelled::option(name, "5"));
   return load_design(a.design, session, diagnostics, a.work.threads);
 }
 

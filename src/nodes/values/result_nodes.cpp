@@ -35,9 +35,8 @@ struct Results {
     return {"results",
             "Results of a simulation at the point where they are used: a field of a mesh's nodes or elements.",
             {{"path", &Results::path,
-              "The file: .vtu, as ombre fea writes it, .pvd, .pvtu, .xdmf, .frd, .inp, or .csv; relative to the "
-              "script, then "
-              "to the working directory",
+              "The file: .vtu, as ombre fea writes it, .pvd, .pvtu, .vtkhdf, .xdmf, .frd, .inp, or .csv; relative to "
+              "the script, then to the working directory",
               required()},
              {"field", &Results::field,
               "Name of the field, or its beginning: displacement, von_mises; empty: the only one"},
