@@ -234,6 +234,7 @@ export async function keepAsDesign(): Promise<string> {
 }
 
 let saveTimer = 0, draftTimer = 0;
+let sentDraft: { file: string; isKept: Promise<unknown> } | undefined;
 export function edited() {
   if (!state.file) beginFile();
   keepDraft(state.file, editor!.text(), version);
@@ -259,7 +260,18 @@ async function sendDraft() {
   draftTimer = 0;
   if (!isDirty() || !connection.isOpen) return;
   const { file } = state;
-  await connection.ask("keep_draft", { file, text: editor!.text(), version }).answer.catch(() => undefined);
+  sentDraft = { file, isKept: connection.ask("keep_draft", { file, text: editor!.text(), version }).answer.catch(() => undefined) };
+  await sentDraft.isKept;
+}
+
+// Removes the draft from the server, once it is there, so that it does not come after the saved text.
+async function removeDrafts(file: string) {
+  dropDraft(file);
+  if (sentDraft?.file !== file) return;
+  const { isKept } = sentDraft;
+  sentDraft = undefined;
+  await isKept;
+  await connection.ask("drop_draft", { file }).answer.catch(() => undefined);
 }
 
 export function save(): Promise<void> {
@@ -291,7 +303,7 @@ async function saveNow() {
     savedText = text;
     if (isNew) listFiles();
     isNew = false;
-    if (editor.text() === text) dropDraft(file);
+    if (editor.text() === text) removeDrafts(file);
     set({ saved: editor.text() === text ? "saved" : "unsaved", saveProblem: "" });
   } catch (error) {
     if (file !== state.file) return;
@@ -305,7 +317,7 @@ function takeFromDisk(disk: Reply) {
   if (fromDisk(disk.text) === editor!.text()) {
     version = disk.version;
     savedText = editor!.text();
-    dropDraft(state.file);
+    removeDrafts(state.file);
     return set({ saved: "saved", saveProblem: "", conflict: undefined });
   }
   if (fromDisk(disk.text) === sentText) {

@@ -160,7 +160,7 @@ function ProbeCard() {
 
 // A finger or the mouse moves the layer, two fingers also zoom it. A click that moves nothing probes.
 function pointerMoves(painter: () => Painter, zoom: (by: number, at: { x: number; y: number }) => void) {
-  let moved = 0;
+  let moved = 4;
   const move = (dx: number, dy: number) => {
     const { look } = painter();
     if (!look) return;

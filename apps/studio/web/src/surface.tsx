@@ -54,7 +54,7 @@ export function renderMembers(camera: Camera): Record<string, unknown> {
 
 // The canvas gets the proportions of the picture, so that one for an earlier size of the view is never stretched.
 async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
-  const { camera, design } = state;
+  const { camera, file } = state;
   if (!camera) return;
   const colours = coloursKey();
   const [fullWidth, fullHeight] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * Math.min(devicePixelRatio, 2))));
@@ -63,7 +63,7 @@ async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
   const reply = await about("render", { width, height, samples: step.samples, ...renderMembers(camera) }, "surface");
   noteRange(colours, reply.range);
   const picture = await createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" }));
-  if (state.design === undefined && design) return picture.close(); // another file was opened meanwhile
+  if (state.file !== file) return picture.close(); // another file was opened meanwhile
   canvas.width = fullWidth;
   canvas.height = fullHeight;
   const context = canvas.getContext("2d")!;

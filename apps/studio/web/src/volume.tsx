@@ -247,7 +247,7 @@ export function VolumeView() {
     canvas.current!.dataset.state = "drawing";
     about("volume", { side, ...(by ? { by } : {}) }, "volume")
       .then((reply) => {
-        if (!state.design) return; // another file was opened meanwhile
+        if (state.file !== file) return; // another file was opened meanwhile
         painter.current!.take({ ...(reply as any), design: design.design, by }, reply.bytes!);
         painter.current!.paint();
         setRange(reply.range);
