@@ -1,9 +1,5 @@
 #include "studio/kept_jobs.h"
 
-#include "base/text/error.h"
-#include "base/text/json.h"
-#include "export/output_file.h"
-#include "formats/containers/file.h"
 #include "studio/kind_request.h"
 #include "studio/workspace/state_folder.h"
 
@@ -22,24 +18,14 @@ std::string text_in(const Data& data, std::string_view name) {
 }  // namespace
 
 void write_kept_jobs(const fs::path& state, const DataList& jobs) {
-  if (state.empty()) return;
-  make_private_folder(state);
-  exporting::write_file((state / list_name).string(), print_json_line(DataMembers{{"jobs", jobs}}),
-                        exporting::Durability::flushed);
+  if (!state.empty()) write_state(state, list_name, DataMembers{{"jobs", jobs}});
 }
 
 DataList read_kept_jobs(const fs::path& state) {
-  std::error_code ignored;
-  const fs::path file = state / list_name;
-  if (state.empty() || !fs::is_regular_file(file, ignored)) return {};
-  try {
-    Diagnostics none;
-    const auto data = parse_json(make_source(list_name, formats::read_file(file.string())), none);
-    const Data* jobs = data ? data->find("jobs") : nullptr;
-    return jobs && jobs->list() ? *jobs->list() : DataList();
-  } catch (const Error&) {
-    return {};
-  }
+  if (state.empty()) return {};
+  const auto data = read_state(state, list_name);
+  const Data* jobs = data ? data->find("jobs") : nullptr;
+  return jobs && jobs->list() ? *jobs->list() : DataList();
 }
 
 DesignOrigin origin_of(const Data& job) {

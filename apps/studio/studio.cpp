@@ -313,7 +313,9 @@ Answer Studio::open(const Request& request, const StopFlag&) {
   FileText file = is_new ? FileText() : workspace_.read(name);
   DataMembers members{
       {"text", std::move(file.text)}, {"version", std::move(file.version)}, {"kind", std::string(name_of(kind))}};
-  if (draft) members.emplace_back("draft", DataMembers{{"text", draft->text}, {"version", draft->version}, {"time", draft->time}});
+  if (draft)
+    members.emplace_back("draft",
+                         DataMembers{{"text", draft->text}, {"version", draft->version}, {"time", draft->time}});
   return {std::move(members), {}};
 }
 

@@ -4,9 +4,6 @@
 #include <chrono>
 
 #include "base/system/hash.h"
-#include "base/text/json.h"
-#include "export/output_file.h"
-#include "formats/containers/file.h"
 #include "studio/workspace/state_folder.h"
 #include "studio/workspace/studio_messages.h"
 
@@ -26,16 +23,11 @@ std::string text_in(const Data& data, std::string_view name) {
 
 // Returns null for a file that holds no draft, for example one that the user changed.
 std::optional<Draft> read_draft(const fs::path& path) {
-  try {
-    Diagnostics ignored;
-    const auto data = parse_json(make_source(path.string(), formats::read_file(path.string())), ignored);
-    if (!data || !data->members() || text_in(*data, "file").empty()) return std::nullopt;
-    const Data* time = data->find("time");
-    return Draft{text_in(*data, "file"), text_in(*data, "text"), text_in(*data, "version"),
-                 time && time->number() ? *time->number() : 0};
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
+  const auto data = read_state(path.parent_path(), path.filename().string());
+  if (!data || !data->members() || text_in(*data, "file").empty()) return std::nullopt;
+  const Data* time = data->find("time");
+  return Draft{text_in(*data, "file"), text_in(*data, "text"), text_in(*data, "version"),
+               time && time->number() ? *time->number() : 0};
 }
 
 }  // namespace
@@ -52,11 +44,11 @@ void Drafts::keep(const Draft& draft) {
   const auto count = std::distance(fs::directory_iterator(folder_, error), fs::directory_iterator());
   if (static_cast<size_t>(count) >= most && !fs::exists(path, error))
     throw RequestError("busy", "there are too many drafts; save some files");
-  const Data data(DataMembers{{"file", draft.file},
-                              {"text", draft.text},
-                              {"version", draft.version},
-                              {"time", draft.time > 0 ? draft.time : now()}});
-  exporting::write_file(path.string(), print_json_line(data), exporting::Durability::flushed);
+  write_state(folder_, path.filename().string(),
+              DataMembers{{"file", draft.file},
+                          {"text", draft.text},
+                          {"version", draft.version},
+                          {"time", draft.time > 0 ? draft.time : now()}});
 }
 
 void Drafts::remove(const std::string& file) {

@@ -9,6 +9,9 @@
 
 #include "base/system/hash.h"
 #include "base/text/error.h"
+#include "base/text/json.h"
+#include "export/output_file.h"
+#include "formats/containers/file.h"
 
 namespace ombre::studio {
 namespace {
@@ -49,6 +52,23 @@ void make_private_folder(const fs::path& folder) {
   if (error)
     throw Error(Code::cannot_write, "cannot make the folder " + folder.string() + ": " + error.message(),
                 {{"file", folder.string()}});
+}
+
+void write_state(const fs::path& state, const std::string& name, const Data& data) {
+  make_private_folder(state);
+  exporting::write_file((state / name).string(), print_json_line(data), exporting::Durability::flushed);
+}
+
+std::optional<Data> read_state(const fs::path& state, const std::string& name) {
+  std::error_code ignored;
+  const fs::path file = state / name;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;
+  try {
+    Diagnostics none;
+    return parse_json(make_source(file.string(), formats::read_file(file.string())), none);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 StateLock::StateLock(const fs::path& state) {

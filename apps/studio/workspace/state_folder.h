@@ -3,6 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/text/data.h"
 
 namespace ombre::studio {
 
@@ -28,6 +32,11 @@ class StateLock {
  private:
   int file_ = -1;
 };
+
+// Writes JSON to a file of the folder, which survives a power failure. Throws Error.
+void write_state(const std::filesystem::path& state, const std::string& name, const Data& data);
+// Returns nothing if there is no such file, or it holds no JSON.
+std::optional<Data> read_state(const std::filesystem::path& state, const std::string& name);
 
 // Creates a folder, with those above it, that only this user can read. Throws Error.
 void make_private_folder(const std::filesystem::path& folder);
