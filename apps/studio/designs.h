@@ -23,7 +23,7 @@ struct CutDesign {
 };
 using CutDesignPtr = std::shared_ptr<const CutDesign>;
 
-// What a design was loaded from, by which a later start of the studio loads it again.
+// The source of a design, by which a later start of the studio loads it again.
 struct DesignOrigin {
   std::string file;                      // as the page names it
   std::vector<std::string> definitions;  // "name=value"

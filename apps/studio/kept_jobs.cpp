@@ -55,7 +55,7 @@ ExportRequest revived(const Data& job, const Workspace& workspace, const std::fu
     return kind_request(request, workspace, design);
   }
   request.body = *options->members();
-  // What the job has written is its own, and it goes on from there.
+  // The layers that are there are the job's own, and it goes on from them.
   return {design(), read_job_choices(request, {}), file, folder, workspace.path(folder).string()};
 }
 

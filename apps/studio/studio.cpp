@@ -419,7 +419,7 @@ DataList Studio::scans_of(const design::Design& design) const {
   return {names.begin(), names.end()};
 }
 
-// What a Python script says is told while it runs, since it may take long.
+// The lines of a Python script are sent while it runs, since it may take long.
 Answer Studio::load(const Request& request, const StopFlag& stop) {
   DesignOrigin origin{request.text("file"), request.texts("definitions"), {}};
   if (request.body.find("rotate")) std::ranges::copy(request.numbers("rotate", 3), origin.rotate.begin());

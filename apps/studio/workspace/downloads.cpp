@@ -75,7 +75,7 @@ std::shared_ptr<const Download> Downloads::take(const std::string& key) {
   return download;
 }
 
-void zip_folder(const std::string& folder, const std::string& path, const std::function<void(double)>& told) {
+void zip_folder(const std::string& folder, const std::string& path, const std::function<void(double)>& report) {
   const std::vector<Member> members = files_in(folder);
   if (members.empty()) throw RequestError("gone", "there is no file in " + folder);
   double all = 0, done = 0;
@@ -89,7 +89,7 @@ void zip_folder(const std::string& folder, const std::string& path, const std::f
       try {
         append_piece(bytes, member.path, from, count);
         done += static_cast<double>(count);
-        told(std::min(done / all, 1.0));
+        report(std::min(done / all, 1.0));
       } catch (...) {
         problem = std::current_exception();
         throw;

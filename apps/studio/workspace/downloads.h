@@ -37,8 +37,8 @@ class Downloads {
 };
 
 // Packs a folder with all files in it into a zip archive at `path`. Links, pipes, devices and hidden files are left
-// out. `told` gets the share that is packed, 0 to 1. Throws RequestError if there are too many files, Cancelled if
-// `told` throws it, and Error.
-void zip_folder(const std::string& folder, const std::string& path, const std::function<void(double)>& told);
+// out. `report` gets the share that is packed, 0 to 1. Throws RequestError if there are too many files, Cancelled if
+// `report` throws it, and Error.
+void zip_folder(const std::string& folder, const std::string& path, const std::function<void(double)>& report);
 
 }  // namespace ombre::studio

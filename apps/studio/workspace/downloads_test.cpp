@@ -53,13 +53,13 @@ TEST(Downloads, StopPackingWhenTheyAreCancelled) {
   const TestFolder folder;
   folder.write("job/a.txt", "text");
   int calls = 0;
-  const auto told = [&](double) {
+  const auto report = [&](double) {
     if (++calls == 2) throw Cancelled();
   };
-  EXPECT_THROW(zip_folder((folder.path / "job").string(), (folder.path / "job.zip").string(), told), Cancelled);
+  EXPECT_THROW(zip_folder((folder.path / "job").string(), (folder.path / "job.zip").string(), report), Cancelled);
   EXPECT_FALSE(std::filesystem::exists(folder.path / "job.zip"));
   std::filesystem::create_directories(folder.path / "none");
-  EXPECT_THROW(zip_folder((folder.path / "none").string(), (folder.path / "job.zip").string(), told), RequestError);
+  EXPECT_THROW(zip_folder((folder.path / "none").string(), (folder.path / "job.zip").string(), report), RequestError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a person does with whole files of the folder: rename, duplicate, delete, make a folder.
+// Actions on whole files of the folder: rename, duplicate, delete, make a folder.
 #pragma once
 
 #include <string>

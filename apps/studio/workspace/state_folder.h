@@ -1,4 +1,4 @@
-// What the studio keeps for a folder between its starts: where that lies, and at which port the folder is shown.
+// Keeps the state of a folder between starts of the studio, and says at which port the folder is shown.
 #pragma once
 
 #include <cstdint>

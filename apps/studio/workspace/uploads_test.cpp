@@ -34,7 +34,7 @@ TEST(Uploads, PutPiecesTogether) {
   EXPECT_EQ(files_in(folder), 3U);  // the folder and the two files
 }
 
-TEST(Uploads, OverwriteOnlyWhatTheyAreTold) {
+TEST(Uploads, OverwriteOnlyOnRequest) {
   const TestFolder folder;
   folder.write("part.stl", "mine");
   const Workspace workspace(folder.path);

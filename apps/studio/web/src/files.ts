@@ -126,12 +126,12 @@ export const openableEndings = () => [...new Set([...designEndings, ".ombre", ..
 const pieceBytes = 4 << 20;
 let uploads = 0;
 
-async function upload({ name, file }: Incoming, replace: boolean, told: (bytes: number) => void) {
+async function upload({ name, file }: Incoming, replace: boolean, sent: (bytes: number) => void) {
   const upload = `${Date.now().toString(36)}x${++uploads}`;
   for (let at = 0; at === 0 || at < file.size; at += pieceBytes) {
     const bytes = new Uint8Array(await file.slice(at, at + pieceBytes).arrayBuffer());
     await connection.ask("upload", { upload, file: name, at, bytes: base64(bytes), last: at + pieceBytes >= file.size, replace }).answer;
-    told(bytes.length);
+    sent(bytes.length);
   }
 }
 
