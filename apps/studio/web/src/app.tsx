@@ -36,8 +36,9 @@ function viewsToSee(): typeof designViews {
 }
 
 function statusText(): string {
-  const { status, isBusy, isOld, isRunning, file, kind, design, transfer } = state;
+  const { status, isBusy, isOld, isRunning, file, kind, design, transfer, turntable } = state;
   if (transfer) return `${transfer.name}: ${Math.floor(100 * transfer.share)} %`;
+  if (turntable !== undefined) return `turntable: ${Math.round(100 * turntable)} %`;
   if (status === "connecting") return "connecting…";
   if (status === "lost") return "the server is gone; what you type is kept here, and it connects again when it comes back";
   if (status === "refused") return "this address lacks the server's token; open the one that it printed, what you typed is kept";
@@ -114,30 +115,17 @@ function FileMenu() {
 }
 
 function DownloadMenu() {
-  const { design, file, kind, isOld } = useStore();
-  const hasSolid = design !== undefined && !isOld && kind !== "table";
+  const { design, file, kind, isOld, turntable } = useStore();
+  const isShown = design !== undefined && kind !== "table", hasSolid = isShown && !isOld;
   return (
     <Menu title="Download">
       <button disabled={!hasSolid} onClick={() => downloadMesh(".3mf")}>3MF</button>
       <button disabled={!hasSolid} onClick={() => downloadMesh(".stl")}>STL</button>
-      <button disabled={!design} onClick={takePicture}>Picture (PNG)</button>
+      <button disabled={!isShown} onClick={takePicture} title="The views that are seen (Alt P)">Picture (PNG)</button>
+      <button disabled={!isShown} onClick={() => makeTurntable("webm")} title="The design turned once around (Alt T)">{turntable === undefined ? "Turntable (WebM)" : "Stop the turntable"}</button>
+      <button disabled={!isShown || turntable !== undefined} onClick={() => makeTurntable("gif")} title="The design turned once around (Alt G)">Turntable (GIF)</button>
       <button disabled={!file || kind !== "" || file.endsWith(".py")} onClick={downloadBundle} title="The design with the files that it reads, as one file (Alt B)">Bundle</button>
     </Menu>
-  );
-}
-
-function PictureButtons() {
-  const { design, turntable, kind } = useStore();
-  return (
-    <span class="controls pictures">
-      <button disabled={!design || kind === "table"} onClick={takePicture} title="A picture of the view, as PNG (Alt P)">Picture</button>
-      <button disabled={!design || kind === "table"} onClick={() => makeTurntable("webm")} title="The design turned once around, as WebM (Alt T)">
-        {turntable === undefined ? "Turntable" : `Stop at ${Math.round(100 * turntable)} %`}
-      </button>
-      <button disabled={!design || kind === "table" || turntable !== undefined} onClick={() => makeTurntable("gif")} title="The design turned once around, as GIF (Alt G)">
-        GIF
-      </button>
-    </span>
   );
 }
 
@@ -163,7 +151,6 @@ function Views() {
   return (
     <section class={isOld ? "views old" : "views"} aria-label="Views">
       <Tabs label="Views" tabs={views} chosen={view} choose={(name) => set({ view: name })} />
-      <PictureButtons />
       {isOld && <p class="oldmark">of an earlier text</p>}
       <div class={view === "all" ? "grid four" : "grid"} role="tabpanel" aria-labelledby={`tab-${view}`}>
         {view === "planes" && <PlanesView />}
