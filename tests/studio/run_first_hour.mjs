@@ -259,7 +259,7 @@ const checks = {
     const before = await size();
     await open("wrong.vcad");
     await page.waitForSelector('.problems[data-errors="3"]');
-    assert.deepEqual(await page.locator(".problems .place").allInnerTexts(), ["3:5", "1:1", "2:1"]);
+    assert.deepEqual(await page.locator(".problems .place").allInnerTexts(), ["1:1", "2:1", "3:5"]);
     assert.deepEqual(await size(), before);
     for (const width of [820, 1000, 1280, 1920]) {
       await page.setViewportSize({ width, height: 800 });

@@ -144,7 +144,8 @@ function Theme() {
 }
 
 function Views() {
-  const { view: wanted, isOld } = useStore();
+  const { view: wanted, isOld: isOldText, design } = useStore();
+  const isOld = isOldText && design !== undefined;
   const views = viewsToSee();
   const view = views.some((v) => v.name === wanted) ? wanted : views[0].name;
   const isShown = (name: State["view"]) => view === "all" || view === name;

@@ -347,8 +347,10 @@ function Examples() {
         {found.map((e) => (
           <li key={e.name}>
             <ExamplePicture name={e.name} />
-            <strong>{e.name}</strong> {e.sentence}
-            <button aria-label={`Open a copy of ${e.name}`} onClick={() => openExample(e.name)}>Open a copy</button>
+            <span class="words">
+              <strong>{e.name}</strong> {e.sentence}
+              <button aria-label={`Open a copy of ${e.name}`} onClick={() => openExample(e.name)}>Open a copy</button>
+            </span>
           </li>
         ))}
       </ul>

@@ -4,7 +4,7 @@ import { listFileChoices } from "./filechoice";
 import { Draft, dropDraft, keepDraft, keptDraft, keptDrafts, keptView, renameKept, takeEarlyText } from "./kept";
 import { Link, takeLink } from "./links";
 import { hearPresets, listPresets } from "./presets";
-import { DataFile, Hello, Job, JobOption, JobOptions, Mark, Plan, State, Value, set, state } from "./store";
+import { DataFile, Diagnostic, Hello, Job, JobOption, JobOptions, Mark, Plan, State, Value, set, state } from "./store";
 
 // The part of the editor that the session needs.
 export interface Editor {
@@ -446,6 +446,9 @@ let shown = { file: "", text: "", definitions: [] as string[], rotate: [0, 0, 0]
 
 let loads = 0;
 
+// Mistakes stand in the order of the text; those of other files come first.
+const inOrder = (diagnostics: Diagnostic[]) => [...diagnostics].sort((a, b) => (a.from ?? -1) - (b.from ?? -1));
+
 async function load(isRun = false) {
   if (!editor || !state.file || !connection.isOpen || state.kind === "table") return;
   if (isPython() && !isRun) return set({ isOld: state.design !== undefined, problem: "" });
@@ -457,7 +460,7 @@ async function load(isRun = false) {
   try {
     const reply = await connection.ask("load", { ...sent, ...(isRun ? { run: true } : {}) }, "load").answer;
     if (number !== loads) return; // the answer crossed the cancelling by a newer one
-    const change: any = { isBusy: false, isRunning: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
+    const change: any = { isBusy: false, isRunning: false, problem: "", diagnostics: inOrder(reply.diagnostics), echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
     if (reply.ok && state.kind === "results") change.by = fieldToShow(reply.attributes);
     if (reply.ok) shown = sent;
