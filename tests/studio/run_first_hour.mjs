@@ -283,7 +283,7 @@ const checks = {
   },
 
   async "opens what people have"() {
-    const made = { "tetrahedron.off": "mesh(", "gear.stl": "mesh(", "textured_cube.obj": "mesh(", "wheel.3mf": "mesh(", "two_lobes.nrrd": "volume_solid(", "bent_beam.vtu": "results(", "leaf.png": "relief(" };
+    const made = { "tetrahedron.off": "mesh(", "gear.stl": "mesh(", "textured_cube.obj": "mesh(", "wheel.3mf": "mesh(", "bracket.step": "cad(", "two_lobes.nrrd": "volume_solid(", "bent_beam.vtu": "results(", "leaf.png": "relief(" };
     for (const [name, call] of Object.entries(made)) {
       const design = name.replace(/\.\w+$/, ".vcad");
       await drop([[name, readFileSync(join(models, name))]]);

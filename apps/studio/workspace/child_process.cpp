@@ -82,7 +82,7 @@ int wait_for(pid_t child) {
 class Guardian {
  public:
   explicit Guardian(pid_t group) {
-    const std::string script = "read done || kill -KILL -- \"-$1\"";
+    const std::string script = "read done || kill -s KILL -- \"-$1\"";
     shell_ = spawn({"/bin/sh", "-c", script, "sh", std::to_string(group)}, {line_.end(0), -1, -1});
     line_.close(0);
   }
