@@ -9,15 +9,6 @@
 namespace ombre::studio {
 namespace {
 
-std::string code_of(const auto& work) {
-  try {
-    work();
-  } catch (const RequestError& error) {
-    return error.code();
-  }
-  return "";
-}
-
 class FileActions : public testing::Test {
  protected:
   bool has(const std::string& name) const { return std::filesystem::exists(folder.path / name); }

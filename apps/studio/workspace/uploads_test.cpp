@@ -8,15 +8,6 @@
 namespace ombre::studio {
 namespace {
 
-std::string code_of(const auto& work) {
-  try {
-    work();
-  } catch (const RequestError& error) {
-    return error.code();
-  }
-  return "";
-}
-
 size_t files_in(const TestFolder& folder) {
   return static_cast<size_t>(std::distance(std::filesystem::recursive_directory_iterator(folder.path), {}));
 }
