@@ -16,6 +16,7 @@
 #include "studio/page.h"
 #include "studio/server.h"
 #include "studio/workspace/child_process.h"
+#include "studio/workspace/state_folder.h"
 #endif
 
 namespace ombre::cli {
@@ -102,6 +103,9 @@ void tell_address(const studio::Address& address, const Console& console) {
   console.say("The studio is at\n\n    " + address.url() +
               "\n\nand ends with Ctrl-C. From another machine:\n\n    ssh -L " + port + ":127.0.0.1:" + port +
               " USER@THIS_MACHINE\n");
+  if (address.wanted_port != 0 && address.port != address.wanted_port)
+    console.say("Port " + std::to_string(address.wanted_port) +
+                ", which belongs to this folder, is taken; drafts and jobs come back at this one too.\n");
   console.event("studio", {{"url", address.url()}, {"port", static_cast<double>(address.port)}});
 }
 
@@ -146,8 +150,10 @@ int run_studio(const StudioArguments& a, CommandSession& session) {
     }
     options.first_file = place.lexically_relative(folder).generic_string();
   }
+  options.state = studio::state_folder(folder);
   studio::Studio studio(folder, options, session.cache);
   studio::ServerOptions server;
+  server.usual_port = studio::usual_port(folder);
   server.port = static_cast<uint16_t>(a.port);
   server.token = chosen_token();
   server.idle_seconds = a.idle;
@@ -178,7 +184,8 @@ Command add_studio(CLI::App& program, OutputOptions& output) {
   auto arguments = std::make_shared<StudioArguments>();
   app->add_option("place", arguments->place, "A folder of designs, or one design in it (default: this folder)")
       ->type_name("PLACE");
-  app->add_option("--port", arguments->port, "Port of 127.0.0.1 (default: a free one)")
+  app->add_option("--port", arguments->port,
+                  "Port of 127.0.0.1 (default: one that belongs to the folder, or a free one after it)")
       ->check(whole_between(0, 65535))
       ->type_name("N");
   app->add_option("--idle", arguments->idle, "End after this many seconds without a page or a job (default: never)")

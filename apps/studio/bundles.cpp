@@ -107,4 +107,12 @@ Answer open_example_answer(const Workspace& workspace, const Request& request, c
   return {{{"file", unpack(workspace, name + ".ombre", make_bundle(file, stop).bytes)}}, {}};
 }
 
+Answer example_picture_answer(const Workspace&, const Request& request, const StopFlag&) {
+  const std::string& name = request.text("name");
+  const fs::path file = examples_folder() / "pictures" / (name + ".png");
+  std::error_code ignored;
+  if (name.find('/') != std::string::npos || !fs::is_regular_file(file, ignored)) return {};
+  return {{{"type", "image/png"}}, formats::read_file(file.string())};
+}
+
 }  // namespace ombre::studio

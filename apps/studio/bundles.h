@@ -16,6 +16,8 @@ Answer bundle_answer(const Workspace& workspace, const Request& request, const S
 Answer unbundle_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
 // Answers "examples": their names, and the first sentence of each.
 Answer examples_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
+// Answers "example_picture": a PNG; without bytes if the example has none.
+Answer example_picture_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
 // Answers "open_example": copies an example into its own folder.
 Answer open_example_answer(const Workspace& workspace, const Request& request, const StopFlag& stop);
 

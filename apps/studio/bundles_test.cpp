@@ -8,18 +8,6 @@
 namespace ombre::studio {
 namespace {
 
-std::string to_base64(const std::string& bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t n = 0; n < bytes.size(); n += 3) {
-    unsigned group = 0;
-    for (size_t k = 0; k < 3; ++k)
-      group = group << 8 | (n + k < bytes.size() ? static_cast<unsigned char>(bytes[n + k]) : 0);
-    for (size_t k = 0; k < 4; ++k) text += n + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 TEST_F(StudioTest, MakesAndOpensBundles) {
   folder.write("shapes/a.vcad", "include <b.vcad>\nsphere(r);\n");
   folder.write("shapes/b.vcad", "r = 2;\n");

@@ -13,9 +13,11 @@
 #include "base/text/text.h"
 #include "design/attributes.h"
 #include "formats/results/results.h"
+#include "sources/file_formats.h"
 #include "sources/files_of_results.h"
 #include "studio/designs.h"
 #include "studio/scans.h"
+#include "studio/workspace/data_files.h"
 
 namespace ombre::studio {
 namespace {
@@ -97,7 +99,48 @@ class FieldLines {
   std::string text_;
 };
 
+// How designs read files whose contents decide nothing about the script.
+struct Import {
+  Content content;
+  std::string_view ending;  // of the design
+  std::string_view before, after;
+};
+constexpr std::array<Import, 4> imports{{
+    {Content::mesh, ".vcad", "// A mesh.\n\nmesh(", ", \"gray\");\n"},
+    {Content::cad, ".vcad", "// A solid from a CAD file.\n\ncad(", ", \"gray\");\n"},
+    {Content::image, ".vcad",
+     "// A plate that is higher where an image is brighter.\n\nwidth = 40;  // [5:200]\nheight = 2;  // [0.1:0.1:20]\n"
+     "base = 1;  // [0.1:0.1:10]\n\nrelief(",
+     ", width, height, base, \"gray\");\n"},
+    {Content::drawing, ".scad",
+     "// A plate from a drawing.\n\nheight = 2;  // [0.1:0.1:50]\n\nlinear_extrude(height) import(", ");\n"},
+}};
+
+const Import* import_of(const std::string& name) {
+  const auto found =
+      std::ranges::find_if(imports, [&](const Import& row) { return sources::is_read_as(name, row.content); });
+  return found == imports.end() ? nullptr : &*found;
+}
+
+bool is_scan(const std::string& name, const fs::path& path) {
+  return data_kind(name) == DataKind::scan || is_dicom_folder(path);
+}
+
 }  // namespace
+
+bool can_be_imported(const std::string& name) {
+  const DataKind kind = data_kind(name);
+  return kind == DataKind::scan || kind == DataKind::results || import_of(name) != nullptr;
+}
+
+ImportingDesign importing_design(const std::string& name, const fs::path& path) {
+  if (is_scan(name, path)) return {".vcad", script_for_scan(name, path)};
+  if (data_kind(name) == DataKind::results) return {".vcad", script_for_results(name, path)};
+  const Import* import = import_of(name);
+  if (!import) throw RequestError("unsupported", "no node reads files like " + name);
+  const std::string file = quoted(fs::path(name).filename().string());
+  return {std::string(import->ending), std::string(import->before) + file + std::string(import->after)};
+}
 
 std::string script_for_scan(const std::string& name, const fs::path& path) {
   const Scan scan = read_scan(path.string(), {}, nullptr);

@@ -1,4 +1,4 @@
-// Scripts that show data files: scans and results of simulations.
+// Scripts that show data files: scans, results of simulations, models, images and drawings.
 #pragma once
 
 #include <filesystem>
@@ -11,5 +11,18 @@ namespace ombre::studio {
 // attribute for each number. They throw Error if the file cannot be read.
 std::string script_for_scan(const std::string& name, const std::filesystem::path& path);
 std::string script_for_results(const std::string& name, const std::filesystem::path& path);
+
+// A design that reads one file.
+struct ImportingDesign {
+  std::string ending;  // of the design's name
+  std::string text;
+};
+
+// Returns a design that imports the file at `path`, which the design calls `name`. Throws RequestError if no node reads
+// files of that kind, and Error if the file cannot be read.
+ImportingDesign importing_design(const std::string& name, const std::filesystem::path& path);
+
+// Returns true if files of this name are imported by a design.
+bool can_be_imported(const std::string& name);
 
 }  // namespace ombre::studio

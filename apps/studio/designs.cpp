@@ -62,9 +62,11 @@ CutDesignPtr OpenDesign::make(const JobChoices& choices) const {
   return made;
 }
 
-OpenDesignPtr Designs::add(const compile::LoadedPtr& loaded, const Box& bounds, const std::string& program) {
+OpenDesignPtr Designs::add(const DesignOrigin& origin, const compile::LoadedPtr& loaded, const Box& bounds,
+                           const std::string& program) {
   const std::lock_guard lock(mutex_);
-  kept_.push_front(std::make_shared<OpenDesign>("d" + std::to_string(++count_), loaded, bounds, program, memory_));
+  const std::string handle = "d" + std::to_string(++count_);
+  kept_.push_front(std::make_shared<OpenDesign>(handle, origin, loaded, bounds, program, memory_));
   if (kept_.size() > most) kept_.pop_back();
   return kept_.front();
 }

@@ -1,11 +1,13 @@
 // The open designs, and the jobs planned for them.
 #pragma once
 
+#include <array>
 #include <list>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "base/math/box.h"
 #include "jobs/slice/plan.h"
@@ -21,15 +23,28 @@ struct CutDesign {
 };
 using CutDesignPtr = std::shared_ptr<const CutDesign>;
 
+// The source of a design, by which a later start of the studio loads it again.
+struct DesignOrigin {
+  std::string file;                      // as the page names it
+  std::vector<std::string> definitions;  // "name=value"
+  std::array<double, 3> rotate{};        // degrees about x, then y, then z
+};
+
 // A loaded design. Thread-safe.
 class OpenDesign {
  public:
   // Constructs an open design; the memory must outlive it.
-  OpenDesign(std::string name, compile::LoadedPtr design, const Box& box, std::string program,
+  OpenDesign(std::string name, DesignOrigin from, compile::LoadedPtr design, const Box& box, std::string program,
              design::SubDesignMemory& kept)
-      : handle(std::move(name)), loaded(std::move(design)), bounds(box), memory(kept), program_(std::move(program)) {}
+      : handle(std::move(name)),
+        origin(std::move(from)),
+        loaded(std::move(design)),
+        bounds(box),
+        memory(kept),
+        program_(std::move(program)) {}
 
   const std::string handle;
+  const DesignOrigin origin;
   const compile::LoadedPtr loaded;
   const Box bounds;
   design::SubDesignMemory& memory;  // holds what was made of parts of this and other designs
@@ -58,7 +73,8 @@ class Designs {
 
   // Constructs an empty collection; the memory must outlive all added designs.
   explicit Designs(design::SubDesignMemory& memory) : memory_(memory) {}
-  OpenDesignPtr add(const compile::LoadedPtr& loaded, const Box& bounds, const std::string& program);
+  OpenDesignPtr add(const DesignOrigin& origin, const compile::LoadedPtr& loaded, const Box& bounds,
+                    const std::string& program);
   // Returns the design of a handle. Throws RequestError "gone" if it is no longer kept and has to be loaded again.
   OpenDesignPtr find(const std::string& handle);
 

@@ -4,9 +4,12 @@
 
 #include "base/system/stopwatch.h"
 #include "base/text/error.h"
+#include "base/text/json.h"
+#include "jobs/all_jobs.h"
 #include "jobs/common/data_events.h"
 #include "jobs/common/memory_loader.h"
 #include "jobs/common/run_reported.h"
+#include "jobs/saved_job.h"
 #include "jobs/slice/slice.h"
 #include "load/load.h"
 #include "options/members.h"
@@ -21,7 +24,8 @@ struct Exports::Job {
   HowFar how_far;
   int64_t layers = 0;
   std::string message;
-  DataList report;  // events of the kind's job except progress and messages
+  DataList report;                  // events of the kind's job except progress and messages
+  std::optional<DataMembers> kept;  // the description of a job of an earlier start, which has no request yet
   Stopwatch since_report = {};
   std::shared_ptr<StopFlag> stop = std::make_shared<StopFlag>();
 };
@@ -49,8 +53,59 @@ class Exports::Watch : public Progress {
   Stopwatch since_report_;
 };
 
-Exports::Exports(Report report, sources::SourceCache& cache, std::string program)
-    : report_(std::move(report)), cache_(cache), program_(std::move(program)), thread_([this] { run(); }) {}
+namespace {
+
+constexpr const char* state_names[] = {"waiting", "working", "paused", "done", "failed", "cancelled", "interrupted"};
+
+void put(DataMembers& members, const std::string& name, Data value) {
+  const auto found = std::ranges::find(members, name, [](const auto& member) { return member.first; });
+  if (found == members.end()) return void(members.emplace_back(name, std::move(value)));
+  found->second = std::move(value);
+}
+
+std::string text_in(const DataMembers& members, std::string_view name) {
+  const auto found = std::ranges::find(members, name, [](const auto& member) { return member.first; });
+  return found != members.end() && found->second.string() ? *found->second.string() : "";
+}
+
+// Returns true if the kind can go on with what an interrupted job has done.
+bool can_resume(const jobs::JobKind* kind) {
+  if (!kind) return true;  // slices
+  const auto& options = kind->options();
+  return std::ranges::find(options, "--resume", &options::Option::name) != options.end();
+}
+
+DataMembers describe_origin(const ExportRequest& request) {
+  if (!request.design) return {};
+  const DesignOrigin& origin = request.design->origin;
+  DataList definitions(origin.definitions.begin(), origin.definitions.end());
+  DataList rotate(origin.rotate.begin(), origin.rotate.end());
+  return {{"definitions", std::move(definitions)}, {"rotate", std::move(rotate)}};
+}
+
+// Returns the job as --save-job writes it, so that `ombre job` can run it.
+jobs::SavedJob saved_job(const ExportRequest& request) {
+  jobs::SavedJob saved{request.kind ? request.kind : jobs::find_job("slice"), request.members};
+  if (!request.design) return saved;
+  const DesignOrigin& origin = request.design->origin;
+  if (!request.kind) {
+    saved.options = request.choices.given;
+    put(saved.options, "design", request.design->loaded->path);
+    put(saved.options, "output", request.folder);
+  }
+  if (!origin.definitions.empty())
+    put(saved.options, "define", DataList(origin.definitions.begin(), origin.definitions.end()));
+  if (origin.rotate != std::array<double, 3>{})
+    put(saved.options, "rotate", DataList(origin.rotate.begin(), origin.rotate.end()));
+  return saved;
+}
+
+}  // namespace
+
+Exports::Exports(Report report, Keep keep, sources::SourceCache& cache, std::string program)
+    : report_(std::move(report)), keep_(std::move(keep)), cache_(cache), program_(std::move(program)), thread_([this] {
+        run();
+      }) {}
 
 Exports::~Exports() {
   {
@@ -66,20 +121,103 @@ Exports::~Exports() {
 }
 
 DataMembers Exports::describe(const Job& job) {
-  constexpr const char* names[] = {"waiting", "working", "paused", "done", "failed", "cancelled"};
-  return {{"id", number(job.id)},
-          {"state", names[static_cast<size_t>(job.state)]},
-          {"folder", job.request.name},
-          {"path", job.request.folder},
-          {"file", job.request.file},
-          {"kind", job.request.kind ? job.request.kind->name : "slice"},
-          {"options", job.request.kind ? job.request.shown : job.request.choices.given},
-          {"report", job.report},
-          {"layers", number(job.layers)},
-          {"done", number(job.how_far.done)},
-          {"total", number(job.how_far.total)},
-          {"seconds_left", job.how_far.seconds_left},
-          {"message", job.message}};
+  const char* const state = state_names[static_cast<size_t>(job.state)];
+  if (job.kept) {
+    DataMembers members = *job.kept;
+    put(members, "id", number(job.id));
+    put(members, "state", state);
+    put(members, "message", job.message);
+    return members;
+  }
+  DataMembers members{{"id", number(job.id)},
+                      {"state", state},
+                      {"folder", job.request.name},
+                      {"path", job.request.folder},
+                      {"file", job.request.file},
+                      {"kind", job.request.kind ? job.request.kind->name : "slice"},
+                      {"options", job.request.kind ? job.request.shown : job.request.choices.given},
+                      {"resumes", can_resume(job.request.kind)},
+                      {"is_download", job.request.holder != nullptr},
+                      {"report", job.report},
+                      {"layers", number(job.layers)},
+                      {"done", number(job.how_far.done)},
+                      {"total", number(job.how_far.total)},
+                      {"seconds_left", job.how_far.seconds_left},
+                      {"message", job.message}};
+  for (auto& member : describe_origin(job.request)) members.push_back(std::move(member));
+  return members;
+}
+
+// Returns a job's description without its report, and the job as `ombre job` runs it.
+DataMembers Exports::to_keep(const Job& job) const {
+  DataMembers members = describe(job);
+  if (job.kept) return members;
+  put(members, "report", DataList{});
+  put(members, "replace", job.request.replace);
+  Diagnostics ignored;
+  if (auto spec = parse_json(make_source("job", jobs::saved_text(saved_job(job.request), program_)), ignored))
+    put(members, "spec", std::move(*spec));
+  return members;
+}
+
+// The list is made and written under one lock, so that a newer list is never replaced by an older one.
+void Exports::keep_list() {
+  if (!keep_) return;
+  const std::lock_guard order(keep_mutex_);
+  DataList list;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const JobPtr& job : jobs_)
+      if (!job->request.holder) list.emplace_back(to_keep(*job));
+  }
+  keep_(list);
+}
+
+void Exports::adopt(const DataList& kept) {
+  constexpr size_t most = 100;
+  const std::lock_guard lock(mutex_);
+  for (const Data& data : kept) {
+    if (!data.members() || text_in(*data.members(), "folder").empty() || jobs_.size() >= most) continue;
+    auto job = std::make_shared<Job>();
+    job->id = ++count_;
+    job->kept = *data.members();
+    job->message = text_in(*job->kept, "message");
+    const std::string state = text_in(*job->kept, "state");
+    const auto name = std::ranges::find(state_names, state);
+    const auto known = name == std::end(state_names) ? State::interrupted : static_cast<State>(name - state_names);
+    const bool is_over = known == State::done || known == State::failed || known == State::cancelled;
+    job->state = is_over ? known : State::interrupted;
+    job->request.name = text_in(*job->kept, "folder");
+    job->request.folder = text_in(*job->kept, "path");
+    jobs_.push_back(std::move(job));
+  }
+}
+
+std::optional<Data> Exports::adopted(int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  const JobPtr job = find(id);
+  return job->kept ? std::optional<Data>(*job->kept) : std::nullopt;
+}
+
+void Exports::revive(int64_t id, const ExportRequest& request) {
+  {
+    const std::lock_guard lock(mutex_);
+    const JobPtr job = find(id);
+    if (job->state == State::waiting || job->state == State::working || job->state == State::done)
+      throw RequestError("state", "the job is not interrupted");
+    job->kept.reset();
+    job->request = request;
+    if (job->state != State::paused) job->state = State::paused;
+  }
+  resume(id);
+}
+
+Download Exports::output(int64_t id) const {
+  const std::lock_guard lock(mutex_);
+  const JobPtr job = find(id);
+  if (job->state != State::done || job->request.folder.empty())
+    throw RequestError("state", "the job has not written what it makes");
+  return {job->request.folder, job->request.holder};
 }
 
 DataMembers Exports::start(const ExportRequest& request) {
@@ -97,21 +235,20 @@ DataMembers Exports::start(const ExportRequest& request) {
     jobs_.push_back(job);
     made = describe(*job);
   }
+  keep_list();
   news_.notify_all();
   return made;
 }
 
 // Changes the request to one that continues earlier work, if its kind supports that.
 void Exports::go_on(ExportRequest& request) {
-  if (!request.kind) return;
-  const auto& options = request.kind->options();
-  if (std::ranges::find(options, "--resume", &options::Option::name) == options.end()) return;
+  if (!request.kind || !can_resume(request.kind)) return;
   std::erase_if(request.members,
                 [](const auto& member) { return member.first == "force" || member.first == "resume"; });
   request.members.emplace_back("resume", true);
 }
 
-Exports::JobPtr Exports::find(int64_t id) {
+Exports::JobPtr Exports::find(int64_t id) const {
   const auto found = std::ranges::find(jobs_, id, [](const JobPtr& job) { return job->id; });
   if (found == jobs_.end()) throw RequestError("gone", "there is no such job");
   return *found;
@@ -127,12 +264,13 @@ void Exports::stop(int64_t id, State state) {
       job->stop->request();
       return;
     }
-    if (job->state != State::waiting && job->state != State::paused)
+    if (job->state != State::waiting && job->state != State::paused && job->state != State::interrupted)
       throw RequestError("state", "the job is at its end already");
     job->state = state;
     now = describe(*job);
   }
   report_(now);
+  keep_list();
 }
 
 void Exports::pause(int64_t id) { stop(id, State::paused); }
@@ -153,6 +291,7 @@ void Exports::resume(int64_t id) {
     now = describe(*job);
   }
   report_(now);
+  keep_list();
   news_.notify_all();
 }
 
@@ -184,6 +323,7 @@ void Exports::run() {
     const DataMembers now = describe(*job);
     lock.unlock();
     report_(now);
+    keep_list();
     work(*job);
     lock.lock();
   }
@@ -198,6 +338,7 @@ void Exports::end(Job& job, State state, const std::string& message) {
     now = describe(job);
   }
   report_(now);
+  keep_list();
 }
 
 void Exports::work(Job& job) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/text/json.h"
+#include "formats/containers/zip_archive.h"
 #include "formats/images/png.h"
 #include "studio/job_choices.h"
 #include "studio/test_studio.h"
@@ -168,6 +169,135 @@ TEST_F(StudioTest, JobsGoOnWhenAFullDiskHasSpaceAgain) {
   EXPECT_TRUE(std::filesystem::exists(last));
   for (const auto& file : std::filesystem::directory_iterator(folder.path / "a_slices"))
     EXPECT_NE(file.path().extension(), ".part") << file.path();
+}
+
+// A studio that ends, and another one that begins the next day with the same state.
+class KeptJobs : public testing::Test {
+ protected:
+  struct Day {
+    Day(const std::filesystem::path& folder, const std::filesystem::path& state)
+        : studio(folder, {"ombre test", {}, "", 60, nullptr, state}, cache) {
+      studio.add(client);
+    }
+    Data ask(const std::string& what, const std::string& members = "") {
+      const double id = ++last;
+      studio.take(client, R"({"id": )" + std::to_string(last) + R"(, "do": ")" + what + '"' +
+                              (members.empty() ? "" : ", " + members) + "}");
+      return client->wait([&](const Data& data) { return data.find("id") && *data.find("id")->number() == id; }).first;
+    }
+    Data job_in(const std::string& wanted) {
+      return client
+          ->wait([&](const Data& data) {
+            const Data* job = data.find("job");
+            return data.find("event") && job && *job->find("state")->string() == wanted;
+          })
+          .first;
+    }
+    sources::SourceCache cache;
+    Studio studio;
+    std::shared_ptr<Listener> client = std::make_shared<Listener>();
+    int last = 0;
+  };
+  static std::string id_of(const Data& job) { return std::to_string(static_cast<int>(*job.find("id")->number())); }
+  TestFolder folder;
+  std::filesystem::path state = folder.path / ".state";
+};
+
+TEST_F(KeptJobs, GoOnTheNextDay) {
+  const std::string script = "size = 5;\n" + std::string(gyroid);
+  folder.write("a.vcad", script);
+  {
+    Day first(folder.path, state);
+    const Data loaded =
+        first.ask("load", R"("file": "a.vcad", "definitions": ["size=20"], "rotate": [0, 0, 90], "text": )" +
+                              print_json_line(script));
+    const std::string design = *loaded.find("design")->string();
+    first.ask("export", R"("printer": "j750", "folder": "a_slices", "file": "a.vcad", "design": ")" + design + '"');
+    ASSERT_FALSE(first.job_in("working").is_null());
+    first.ask("run", R"("kind": "mesh", "file": "a.vcad", "options": {"output": "a.stl"}, "design": ")" + design + '"');
+  }
+  Day next(folder.path, state);
+  const Data jobs = *next.ask("jobs").find("jobs");
+  ASSERT_EQ(jobs.list()->size(), 2U);
+  const Data slices = jobs.list()->front();
+  EXPECT_EQ(*slices.find("state"), Data("interrupted"));
+  EXPECT_EQ(*slices.find("folder"), Data("a_slices"));
+  EXPECT_EQ(*slices.find("definitions"), Data(DataList{"size=20"}));
+  const Data& spec = *slices.find("spec");  // as --save-job writes it
+  EXPECT_EQ(*spec.find("kind"), Data("slice"));
+  EXPECT_EQ(*spec.find("options")->find("output"), Data((folder.path / "a_slices").string()));
+  EXPECT_EQ(*spec.find("options")->find("printer"), Data("j750"));
+  ASSERT_FALSE(next.ask("change_export", R"("to": "resume", "job": )" + id_of(slices)).find("error"));
+  const Data done = next.job_in("done");
+  ASSERT_FALSE(done.is_null());
+  EXPECT_EQ(*done.find("job")->find("layers")->number(), std::ceil(20 / 0.027 - 1e-6));
+  // The other one was waiting, and is given up.
+  ASSERT_FALSE(next.ask("change_export", R"("to": "cancel", "job": )" + id_of(jobs.list()->back())).find("error"));
+}
+
+TEST_F(KeptJobs, AreThoseOfOneStudioAtATime) {
+  Day first(folder.path, state);
+  folder.write(".state/jobs.json", R"({"jobs": [{"folder": "a_slices", "state": "working"}]})");
+  Day second(folder.path, state);
+  EXPECT_TRUE(second.ask("jobs").find("jobs")->list()->empty());
+}
+
+TEST_F(KeptJobs, BadListsDoNoHarm) {
+  for (const char* text :
+       {"", "{", R"({"jobs": 3})", R"({"jobs": [3, {}, {"folder": 3}, {"folder": "x", "state": 7}]})"}) {
+    folder.write(".state/jobs.json", text);
+    Day day(folder.path, state);
+    const Data jobs = *day.ask("jobs").find("jobs");
+    for (const Data& job : *jobs.list())
+      EXPECT_TRUE(day.ask("change_export", R"("to": "resume", "job": )" + id_of(job)).find("error"));
+  }
+}
+
+TEST_F(KeptJobs, DraftsComeBackToo) {
+  folder.write("a.vcad", "cube(1);");
+  {
+    Day first(folder.path, state);
+    first.ask("keep_draft", R"("file": "a.vcad", "text": "cube(2);", "version": "v")");
+    first.ask("keep_draft", R"("file": "untitled.vcad", "text": "cube(3);")");
+    EXPECT_EQ(*first.ask("keep_draft", R"("file": "../a.vcad", "text": "")").find("error"), Data("name"));
+  }
+  Day next(folder.path, state);
+  EXPECT_EQ(*next.ask("hello").find("drafts"), Data(DataList{"untitled.vcad", "a.vcad"}));
+  const Data opened = next.ask("open", R"("file": "a.vcad")");
+  EXPECT_EQ(*opened.find("text"), Data("cube(1);"));
+  EXPECT_EQ(*opened.find("draft")->find("text"), Data("cube(2);"));
+  EXPECT_EQ(*opened.find("draft")->find("version"), Data("v"));
+  EXPECT_EQ(*next.ask("open", R"("file": "untitled.vcad")").find("draft")->find("text"), Data("cube(3);"));
+  next.ask("save", R"("file": "a.vcad", "text": "cube(2);", "version": )" + print_json_line(*opened.find("version")));
+  next.ask("drop_draft", R"("file": "untitled.vcad")");
+  EXPECT_TRUE(next.ask("hello").find("drafts")->list()->empty());
+}
+
+TEST_F(StudioTest, JobsForDownloadsLeaveNothingInTheFolder) {
+  const std::string design = load(ball);
+  ask("run", R"("kind": "mesh", "file": "a.vcad", "download": true, "options": {"output": "a.stl"}, "design": ")" +
+                 design + '"');
+  const Data done = job_in("done");
+  ASSERT_FALSE(done.is_null());
+  EXPECT_EQ(*done.find("is_download"), Data(true));
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "a.stl"));
+  const std::string id = std::to_string(static_cast<int>(number_in(done, "id")));
+  const Data address = ask("download", R"("job": )" + id).first;
+  EXPECT_EQ(text(address, "name"), "a.stl");
+  const auto file = studio.take_download(text(address, "address").substr(std::string("/download/").size()));
+  ASSERT_TRUE(file);
+  EXPECT_GT(std::filesystem::file_size(file->path), 1000U);
+}
+
+TEST_F(StudioTest, JobFoldersArePacked) {
+  if (!formats::can_write_zip()) GTEST_SKIP();
+  ask("export", R"("printer": "j750", "folder": "a_slices", "design": ")" + load("rectprism((2, 2, 2), red);") + '"');
+  const Data done = job_in("done");
+  ASSERT_FALSE(done.is_null());
+  const Data packed = ask("zip", R"("job": )" + std::to_string(static_cast<int>(number_in(done, "id")))).first;
+  EXPECT_EQ(text(packed, "name"), "a_slices.zip");
+  EXPECT_TRUE(studio.take_download(text(packed, "address").substr(std::string("/download/").size())));
+  EXPECT_EQ(text(ask("zip", R"("folder": "../x")").first, "error"), "name");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "studio/kind_request.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "jobs/all_jobs.h"
 #include "jobs/common/study_source.h"
@@ -42,6 +43,22 @@ Data placed(const options::Option& option, const Data& value, const Workspace& w
   return workspace.path(*value.string()).string();
 }
 
+// Returns the member that says where the job writes; null if there is none.
+Data* output_in(DataMembers& members) {
+  const auto found = std::ranges::find(members, "output", [](const auto& member) { return member.first; });
+  return found == members.end() || !found->second.string() ? nullptr : &found->second;
+}
+
+// Lets a job write into a folder of its own, from where the browser fetches the file.
+void place_for_download(ExportRequest& request) {
+  Data* output = output_in(request.members);
+  if (!output) throw RequestError("request", "a download needs \"output\", the name of the file");
+  auto folder = std::make_shared<const TemporaryFolder>();
+  const std::string name = std::filesystem::path(*output->string()).filename().string();
+  *output = folder->file(name.empty() ? "output" : name);
+  request.holder = std::move(folder);
+}
+
 }  // namespace
 
 DataList describe_kinds() {
@@ -76,10 +93,14 @@ ExportRequest kind_request(const Request& request, const Workspace& workspace,
     made.design = design();
   }
   if (made.replace && find(kind, "force")) made.members.emplace_back("force", true);
+  if (request.flag("download")) place_for_download(made);
   const auto output = std::ranges::find(made.shown, "output", [](const auto& member) { return member.first; });
   const bool has_output = output != made.shown.end() && output->second.string() && !output->second.string()->empty();
   made.name = has_output ? *output->second.string() : kind.name + " of " + made.file;
-  made.folder = has_output ? workspace.path(made.name).string() : made.name;
+  if (made.holder)
+    made.folder = *output_in(made.members)->string();
+  else
+    made.folder = has_output ? workspace.path(made.name).string() : made.name;
   const std::shared_ptr<void> tried = kind.make();
   try {
     options::read_members(kind.options(), tried.get(), made.members);

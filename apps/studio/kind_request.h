@@ -13,7 +13,8 @@ namespace ombre::studio {
 DataList describe_kinds();
 
 // Reads {"kind", "file", "options": {name: value}, "replace"}. Files among the options are in the workspace, and a
-// study may be given as text. `design` returns the open design. Throws RequestError.
+// study may be given as text. With "download": true the job writes into a temporary folder. `design` returns the open
+// design. Throws RequestError.
 ExportRequest kind_request(const Request& request, const Workspace& workspace,
                            const std::function<OpenDesignPtr()>& design);
 

@@ -46,8 +46,13 @@ void report(const openscad::Message& message, const SourcePtr& script, const com
   }
 }
 
-// Returns "names" if all solids have the name of a material, else "colours".
+// Returns the value of mesh(materials=...): "names" if all solids have the name of a material, else "colours" if one
+// has a colour, else "one", since nothing in the script says what the solids are made of.
 std::string naming(const solids::Pieces& pieces, const compile::LoadOptions& options, Diagnostics& diagnostics) {
+  const auto has_look = [](const solids::Piece& piece) {
+    return piece.attributes.colour || !piece.attributes.material.empty();
+  };
+  if (std::ranges::none_of(pieces, has_look)) return "one";
   const auto materials = compile::load_materials(options.materials, diagnostics);
   const bool are_named = materials && std::ranges::all_of(pieces, [&](const auto& piece) {
                            return materials->find(piece.attributes.material) != nullptr;

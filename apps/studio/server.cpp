@@ -29,6 +29,8 @@ using boost::system::error_code;
 using HttpRequest = http::request<http::string_body>;
 using HttpResponse = http::response<http::string_body>;
 
+constexpr std::string_view api_path = "/api", downloads_path = "/download/";
+
 std::string text_of(beast::string_view view) { return {view.data(), view.size()}; }
 
 std::chrono::milliseconds duration(double seconds) {
@@ -36,13 +38,13 @@ std::chrono::milliseconds duration(double seconds) {
 }
 
 RequestHead head_of(const HttpRequest& request) {
-  return {text_of(request.method_string()),      text_of(request.target()),
-          text_of(request[http::field::host]),   text_of(request[http::field::origin]),
-          text_of(request[http::field::cookie]), text_of(request[http::field::authorization])};
+  return {text_of(request.method_string()), text_of(request.target()), text_of(request[http::field::host]),
+          text_of(request[http::field::origin]), text_of(request[http::field::authorization])};
 }
 
 // The page loads nothing from other servers, cannot be embedded in other pages, and is not cached.
-void add_page_headers(HttpResponse& response) {
+template <class Response>
+void add_page_headers(Response& response) {
   response.set("Content-Security-Policy",
                "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
                "connect-src 'self' ws://127.0.0.1:* ws://localhost:*; font-src 'self'; base-uri 'none'; "
@@ -109,17 +111,15 @@ struct Shared {
   }
 };
 
+// Answers with the page's files, which hold nothing of the user. "/api" is there for clients that try a token.
 HttpResponse Shared::answer(const HttpRequest& request) const {
-  if (const auto refusal = guard.refuse(head_of(request))) return plain(request, refusal->status, refusal->text);
+  const std::string path(path_of(text_of(request.target())));
+  const bool needs_token = path == api_path;
+  const auto refusal = needs_token ? guard.refuse(head_of(request)) : Guard::refuse_foreign(head_of(request));
+  if (refusal) return plain(request, refusal->status, refusal->text);
   if (request.method() != http::verb::get && request.method() != http::verb::head)
     return plain(request, 405, "The studio's files are read, with GET.");
-  const std::string target = text_of(request.target()), path(path_of(target));
-  if (path == "/" && guard.brings_token(target)) {
-    HttpResponse response = plain(request, 303, "The page is at /");
-    response.set(http::field::set_cookie, guard.cookie());
-    response.set(http::field::location, "/");
-    return response;
-  }
+  if (needs_token) return plain(request, 200, "The studio's socket is here.");
   const Asset* asset = find_asset(options.assets, path == "/" ? "/index.html" : path);
   return asset ? response_of(request, 200, asset->type, asset->bytes) : plain(request, 404, "There is no such file.");
 }
@@ -247,15 +247,40 @@ class Visit : public Connection, public std::enable_shared_from_this<Visit> {
 
   void take(const HttpRequest& request) {
     if (websocket::is_upgrade(request)) return upgrade(request);
+    if (path_of(text_of(request.target())).starts_with(downloads_path)) return download(request);
     HttpResponse response = shared_->answer(request);
     was_let_in_ = was_let_in_ || response.result_int() < 400;
     answer(std::move(response));
   }
 
+  // Sends a file that the page has asked for by its socket. Its address is random and works once, so the browser can
+  // save the file piece by piece without a token.
+  void download(const HttpRequest& request) {
+    if (const auto refusal = Guard::refuse_foreign(head_of(request)))
+      return answer(plain(request, refusal->status, refusal->text));
+    if (request.method() != http::verb::get)
+      return answer(plain(request, 405, "The studio's files are read, with GET."));
+    const std::string target(path_of(text_of(request.target())));
+    download_ = shared_->studio.take_download(target.substr(downloads_path.size()));
+    if (!download_) return answer(plain(request, 404, "There is no such download any more; start it again."));
+    error_code error;
+    file_.emplace(http::status::ok, request.version());
+    file_->body().open(download_->path.c_str(), beast::file_mode::scan, error);
+    if (error) return answer(plain(request, 404, "The file is gone; start the download again."));
+    add_page_headers(*file_);
+    file_->set(http::field::content_type, "application/octet-stream");
+    file_->set(http::field::content_disposition, "attachment");
+    file_->keep_alive(false);
+    file_->prepare_payload();
+    stream_.expires_after(duration(shared_->options.limits.download_seconds));
+    was_let_in_ = is_answering_ = true;
+    http::async_write(stream_, *file_, [self = shared_from_this()](error_code, size_t) { self->close(); });
+  }
+
   void upgrade(const HttpRequest& request) {
     if (const auto refusal = shared_->guard.refuse(head_of(request)))
       return answer(plain(request, refusal->status, refusal->text));
-    if (path_of(text_of(request.target())) != "/api")
+    if (path_of(text_of(request.target())) != api_path)
       return answer(plain(request, 404, "The studio's socket is /api."));
     if (shared_->pages >= shared_->options.limits.pages)
       return answer(plain(request, 503, "The studio is open in too many windows; close some."));
@@ -280,21 +305,23 @@ class Visit : public Connection, public std::enable_shared_from_this<Visit> {
   beast::flat_buffer buffer_{64 << 10};
   std::optional<http::request_parser<http::string_body>> parser_;
   HttpResponse response_;
+  std::shared_ptr<const Download> download_;  // keeps the file that is being sent
+  std::optional<http::response<http::file_body>> file_;
   bool was_let_in_ = false, is_answering_ = false;
 };
 
 class Listener {
  public:
-  Listener(asio::io_context& context, uint16_t port) : acceptor_(context), pause_(context) {
-    const tcp::endpoint here(asio::ip::make_address("127.0.0.1"), port);
-    error_code error;
-    acceptor_.open(here.protocol(), error);
-    if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
-    if (!error) acceptor_.bind(here, error);
-    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-    if (error)
-      throw Error(Code::other_program, "cannot listen on port " + std::to_string(port) + ": " + error.message() +
-                                           "; choose another with --port, or leave it out");
+  // Listens on the port of the options; without one, on the usual port or the next free one after it.
+  Listener(asio::io_context& context, const ServerOptions& options) : acceptor_(context), pause_(context) {
+    constexpr uint16_t most_tries = 100;
+    if (options.port != 0 || options.usual_port == 0) {
+      if (const error_code error = listen(options.port)) refuse(options.port, error);
+      return;
+    }
+    for (uint16_t n = 0; n < most_tries; ++n)
+      if (!listen(static_cast<uint16_t>(options.usual_port + n))) return;
+    if (const error_code error = listen(0)) refuse(options.usual_port, error);
   }
 
   void close() {
@@ -318,6 +345,22 @@ class Listener {
   }
 
  private:
+  error_code listen(uint16_t port) {
+    const tcp::endpoint here(asio::ip::make_address("127.0.0.1"), port);
+    error_code error, ignored;
+    acceptor_.open(here.protocol(), error);
+    if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+    if (!error) acceptor_.bind(here, error);
+    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (error) acceptor_.close(ignored);
+    return error;
+  }
+
+  [[noreturn]] static void refuse(uint16_t port, const error_code& error) {
+    throw Error(Code::other_program, "cannot listen on port " + std::to_string(port) + ": " + error.message() +
+                                         "; choose another with --port, or leave it out");
+  }
+
   void accept_later(const std::shared_ptr<Shared>& shared) {
     pause_.expires_after(duration(0.1));
     pause_.async_wait([this, shared](error_code error) {
@@ -363,9 +406,10 @@ std::string Address::url() const { return "http://127.0.0.1:" + std::to_string(p
 void serve(Studio& studio, const ServerOptions& options, const StopFlag& stop,
            const std::function<void(const Address&)>& ready) {
   const auto context = std::make_shared<asio::io_context>(1);
-  Listener listener(*context, options.port);
-  const Address address{listener.port(), options.token.empty() ? random_token() : options.token};
-  const auto shared = std::make_shared<Shared>(Shared{studio, options, Guard(address.token, address.port), context});
+  Listener listener(*context, options);
+  const uint16_t wanted = options.port != 0 ? options.port : options.usual_port;
+  const Address address{listener.port(), options.token.empty() ? random_token() : options.token, wanted};
+  const auto shared = std::make_shared<Shared>(Shared{studio, options, Guard(address.token), context});
   Clock clock(*context, studio, options.idle_seconds, stop);
   listener.accept(shared);
   clock.tick();

@@ -84,7 +84,7 @@ class ServerTest : public testing::Test {
   void start(const ServerLimits& limits = {}) {
     std::promise<uint16_t> ready;
     thread_ = std::thread([&ready, limits, this] {
-      serve(studio, {0, page_token, page, limits}, stop,
+      serve(studio, {0, 0, page_token, page, limits}, stop,
             [&](const Address& address) { ready.set_value(address.port); });
     });
     port = ready.get_future().get();
@@ -105,7 +105,7 @@ class ServerTest : public testing::Test {
            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" + more + "\r\n";
   }
   static bool has(const std::string& answer, const std::string& part) { return answer.find(part) != std::string::npos; }
-  std::string cookie() const { return "Cookie: ombre_studio_" + std::to_string(port) + "=" + page_token + "\r\n"; }
+  static std::string key() { return "Authorization: Bearer " + page_token + "\r\n"; }
 
   TestFolder folder;
   sources::SourceCache cache;
@@ -117,36 +117,64 @@ class ServerTest : public testing::Test {
   std::thread thread_;
 };
 
-TEST_F(ServerTest, ServesThePageToThoseWithTheToken) {
+// No answer has a cookie, which a browser would send to the other ports of this machine as well.
+TEST_F(ServerTest, ServesThePageWithoutCookies) {
   start();
-  const std::string first = get("/?token=" + page_token);
-  EXPECT_TRUE(has(first, " 303 ")) << first;
-  EXPECT_TRUE(has(first, "HttpOnly; SameSite=Lax"));
-  const std::string second = get("/", cookie());
-  EXPECT_TRUE(has(second, " 200 ") && has(second, "<p>hello</p>")) << second;
-  EXPECT_TRUE(has(second, "Content-Security-Policy: default-src 'none'"));
-  EXPECT_TRUE(has(get("/app.js", cookie()), "text/javascript"));
+  for (const std::string& target : {"/?token=" + page_token, std::string("/")}) {
+    const std::string answer = get(target);
+    EXPECT_TRUE(has(answer, " 200 ") && has(answer, "<p>hello</p>")) << answer;
+    EXPECT_TRUE(has(answer, "Content-Security-Policy: default-src 'none'"));
+    EXPECT_FALSE(has(answer, "Set-Cookie"));
+  }
+  EXPECT_TRUE(has(get("/app.js"), "text/javascript"));
+}
+
+TEST_F(ServerTest, TellsWhetherATokenIsRight) {
+  start();
+  EXPECT_TRUE(has(get("/api", key()), " 200 "));
+  EXPECT_TRUE(has(get("/api?token=" + page_token), " 200 "));
+  EXPECT_TRUE(has(get("/api"), " 403 "));
+  EXPECT_TRUE(has(get("/api?token=guess"), " 403 "));
+  EXPECT_TRUE(has(get("/api", "Cookie: ombre_studio_" + std::to_string(port) + "=" + page_token + "\r\n"), " 403 "));
 }
 
 TEST_F(ServerTest, RefusesEverythingElse) {
   start();
   folder.write("secret.vcad", "secret");
-  EXPECT_TRUE(has(get("/"), " 403 "));
-  EXPECT_TRUE(has(get("/?token=guess"), " 403 "));
-  EXPECT_TRUE(has(get("/", cookie(), "evil.example"), " 403 "));
-  EXPECT_TRUE(has(get("/", cookie() + "Origin: http://evil.example\r\n"), " 403 "));
-  for (const char* path :
-       {"/secret.vcad", "/../secret.vcad", "/%2e%2e/secret.vcad", "//etc/passwd", "/index.html/..", "/api"})
-    EXPECT_TRUE(has(get(path, cookie()), " 404 ")) << path;
+  EXPECT_TRUE(has(get("/", key(), "evil.example"), " 403 "));
+  EXPECT_TRUE(has(get("/", key() + "Origin: http://evil.example\r\n"), " 403 "));
+  for (const char* path : {"/secret.vcad", "/../secret.vcad", "/%2e%2e/secret.vcad", "//etc/passwd", "/index.html/..",
+                           "/download/", "/download/00000000000000000000000000000000", "/download/../secret.vcad"})
+    EXPECT_TRUE(has(get(path, key()), " 404 ")) << path;
   const Caller caller(port);
-  caller.say("DELETE / HTTP/1.1\r\nHost: localhost\r\n" + cookie() + "\r\n");
+  caller.say("DELETE / HTTP/1.1\r\nHost: localhost\r\n" + key() + "\r\n");
   EXPECT_TRUE(has(caller.hear(), " 405 "));
+}
+
+// A prepared file is sent once, to the page that knows its random address.
+TEST_F(ServerTest, SendsAFileOnce) {
+  start();
+  folder.write("part.stl", std::string(300000, 's'));
+  const Caller caller(port);
+  caller.say(upgrade("/api", key()));
+  EXPECT_TRUE(has(caller.hear(), " 101 "));
+  caller.say(client_frame(0x81, R"({"id": 5, "do": "download", "file": "part.stl"})"));
+  const std::string answer = caller.hear("}");
+  const size_t at = answer.find("/download/");
+  ASSERT_NE(at, std::string::npos) << answer;
+  const std::string path = answer.substr(at, answer.find('"', at) - at);
+  const Caller first(port);
+  first.say("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  const std::string sent = first.hear("nothing: until it closes");
+  EXPECT_TRUE(has(sent, " 200 ") && has(sent, "Content-Length: 300000") && has(sent, "attachment"));
+  EXPECT_TRUE(has(sent, "\r\n\r\n" + std::string(300000, 's')));
+  EXPECT_TRUE(has(get(path), " 404 "));
 }
 
 TEST_F(ServerTest, TakesRequestsByTheSocket) {
   start();
   const Caller caller(port);
-  caller.say(upgrade("/api", cookie() + "Origin: http://localhost\r\n"));
+  caller.say(upgrade("/api", key() + "Origin: http://localhost\r\n"));
   EXPECT_TRUE(has(caller.hear(), " 101 "));
   caller.say(client_frame(0x81, R"({"id": 5, "do": "list"})"));
   EXPECT_TRUE(has(caller.hear("files"), R"("id":5)"));
@@ -157,13 +185,13 @@ TEST_F(ServerTest, TakesRequestsByTheSocket) {
 TEST_F(ServerTest, LetsNoOtherPageUseTheSocket) {
   start();
   for (const std::string& more :
-       {cookie() + "Origin: http://evil.example\r\n", cookie() + "Origin: null\r\n", std::string()}) {
+       {key() + "Origin: http://evil.example\r\n", key() + "Origin: null\r\n", std::string()}) {
     const Caller caller(port);
     caller.say(upgrade("/api", more));
     EXPECT_TRUE(has(caller.hear(), " 403 ")) << more;
   }
   const Caller caller(port);
-  caller.say(upgrade("/elsewhere", cookie()));
+  caller.say(upgrade("/elsewhere", key()));
   EXPECT_TRUE(has(caller.hear(), " 404 "));
 }
 
@@ -180,7 +208,7 @@ TEST_F(ServerTest, ClosesOnMalformedAndGiantFrames) {
                              "\x81" + std::string(9, '\xff') + std::string(4, '\0')};
   for (const std::string& frame : bad) {
     const Caller caller(port);
-    caller.say(upgrade("/api", cookie()));
+    caller.say(upgrade("/api", key()));
     ASSERT_TRUE(has(caller.hear(), " 101 "));
     caller.say(frame);
     const Stopwatch watch;
@@ -188,7 +216,7 @@ TEST_F(ServerTest, ClosesOnMalformedAndGiantFrames) {
     EXPECT_LT(last.size(), 200U);
     EXPECT_LT(watch.seconds(), 10);
   }
-  EXPECT_TRUE(has(get("/", cookie()), " 200 "));
+  EXPECT_TRUE(has(get("/", key()), " 200 "));
 }
 
 TEST_F(ServerTest, RefusesGiantHeadsAndBodies) {
@@ -200,7 +228,7 @@ TEST_F(ServerTest, RefusesGiantHeadsAndBodies) {
   }
   {
     const Caller caller(port);
-    caller.say("POST / HTTP/1.1\r\nHost: localhost\r\n" + cookie() + "Content-Length: 100000000000\r\n\r\n");
+    caller.say("POST / HTTP/1.1\r\nHost: localhost\r\n" + key() + "Content-Length: 100000000000\r\n\r\n");
     EXPECT_TRUE(has(caller.hear(), " 413 "));
   }
   for (const char* garbage : {"\r\n\r\n\r\n", "GET\r\n\r\n", "\x16\x03\x01\x02", "GET / HTTP/9.9\r\n\r\n"}) {
@@ -209,7 +237,7 @@ TEST_F(ServerTest, RefusesGiantHeadsAndBodies) {
     caller.say("\r\n\r\n");
     EXPECT_FALSE(has(caller.hear("nothing"), " 200 "));
   }
-  EXPECT_TRUE(has(get("/", cookie()), " 200 "));
+  EXPECT_TRUE(has(get("/", key()), " 200 "));
 }
 
 TEST_F(ServerTest, ClosesThoseWhoSayNothing) {
@@ -229,7 +257,7 @@ TEST_F(ServerTest, AnswersWhile200ConnectionsSayNothing) {
   start();
   std::vector<std::unique_ptr<Caller>> callers;
   for (int n = 0; n < 200; ++n) callers.push_back(std::make_unique<Caller>(port));
-  EXPECT_TRUE(has(get("/", cookie()), " 200 "));
+  EXPECT_TRUE(has(get("/", key()), " 200 "));
   const std::string words = callers.front()->hear("nothing: all of it");
   EXPECT_TRUE(has(words, " 503 ") && has(words, "Too many connections to the studio are open; close some.")) << words;
 }
@@ -238,7 +266,7 @@ TEST_F(ServerTest, Refuses200WindowsInClearWords) {
   start();
   const auto open_window = [&] {
     auto caller = std::make_unique<Caller>(port);
-    caller->say(upgrade("/api", cookie()));
+    caller->say(upgrade("/api", key()));
     return caller;
   };
   std::vector<std::unique_ptr<Caller>> windows, refused;
@@ -259,7 +287,7 @@ TEST_F(ServerTest, Refuses200WindowsInClearWords) {
     window->say(client_frame(0x81, R"({"id": 5, "do": "list"})"));
     EXPECT_TRUE(has(window->hear("files"), R"("id":5)"));
   }
-  EXPECT_TRUE(has(get("/", cookie()), " 200 "));
+  EXPECT_TRUE(has(get("/", key()), " 200 "));
   // After they are closed, there is room again as soon as the server has noticed.
   windows.clear();
   refused.clear();
@@ -281,10 +309,22 @@ TEST(Server, EndsWhenNobodyUsesIt) {
   EXPECT_GE(watch.seconds(), 0.3);
 }
 
+// Another server has the usual port, so this one takes a port after it.
+TEST_F(ServerTest, TakesTheNextPortIfTheUsualOneIsTaken) {
+  start();
+  ServerOptions options{0, port, page_token, page, {}};
+  options.idle_seconds = 0.1;
+  const StopFlag none;
+  Address found;
+  serve(studio, options, none, [&](const Address& address) { found = address; });
+  EXPECT_NE(found.port, port);
+  EXPECT_EQ(found.wanted_port, port);
+}
+
 TEST_F(ServerTest, SaysThatAPortIsTaken) {
   start();
   const StopFlag none;
-  EXPECT_THROW(serve(studio, {port, page_token, page, {}}, none, [](const Address&) {}), std::runtime_error);
+  EXPECT_THROW(serve(studio, {port, 0, page_token, page, {}}, none, [](const Address&) {}), std::runtime_error);
 }
 
 }  // namespace

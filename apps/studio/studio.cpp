@@ -21,16 +21,18 @@
 #include "studio/bundles.h"
 #include "studio/data_scripts.h"
 #include "studio/design_answer.h"
+#include "studio/kept_jobs.h"
 #include "studio/kind_request.h"
 #include "studio/python_design.h"
 #include "studio/scad_design.h"
 #include "studio/views.h"
 #include "studio/workspace/data_files.h"
+#include "studio/workspace/echo_log.h"
 
 namespace ombre::studio {
 namespace {
 
-constexpr size_t most_echo_lines = 200;
+constexpr double unlimited_seconds = 1e9;
 
 DataList texts(const std::vector<std::string>& list) { return {list.begin(), list.end()}; }
 
@@ -89,6 +91,7 @@ bool has_ending(const std::string& file, std::string_view ending) { return endin
 struct Studio::Kind {
   std::string_view name;
   Handler Studio::*answer;
+  bool may_take_long = false;  // it has no limit of time, but can be cancelled
 };
 
 const std::vector<Studio::Kind>& Studio::kinds() {
@@ -121,7 +124,19 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"run", &Studio::start_kind},
                                       {"change_export", &Studio::change_export},
                                       {"open_folder", &Studio::open_folder},
-                                      {"jobs", &Studio::jobs}};
+                                      {"jobs", &Studio::jobs},
+                                      {"keep_draft", &Studio::keep_draft},
+                                      {"drop_draft", &Studio::drop_draft},
+                                      {"rename", &Studio::rename},
+                                      {"duplicate", &Studio::duplicate},
+                                      {"delete", &Studio::remove_file},
+                                      {"make_folder", &Studio::make_folder},
+                                      {"is_there", &Studio::is_there},
+                                      {"upload", &Studio::upload},
+                                      {"import", &Studio::import},
+                                      {"download", &Studio::download},
+                                      {"zip", &Studio::zip, true},
+                                      {"example_picture", &Studio::of_folder<example_picture_answer>}};
   return list;
 }
 
@@ -131,13 +146,17 @@ Studio::Studio(const std::filesystem::path& folder, StudioOptions options, sourc
       workspace_(folder),
       scans_(workspace_),
       presets_(workspace_),
+      state_lock_(options_.state),
+      drafts_(options_.state.empty() ? options_.state : options_.state / "drafts"),
       exports_(
           [this](const DataMembers& job) {
             broadcast("job", {{"job", job}});
           },
-          cache, options_.program),
+          [this](const DataList& jobs) { keep_jobs(jobs); }, cache, options_.program),
       // Several run at once, so that short requests are answered during a long one; each uses all cores.
-      queue_(std::max(4, core_count())) {}
+      queue_(std::max(4, core_count())) {
+  if (state_lock_.is_held()) exports_.adopt(read_kept_jobs(options_.state));
+}
 
 Studio::~Studio() = default;
 
@@ -192,7 +211,7 @@ void Studio::answer(const ClientPtr& client, const Request& request, const Kind&
     client->send(frame_of_error(request.id, code, message));
   };
   has_answered_ = true;
-  const StopFlag stop(&cancelled, options_.most_seconds);
+  const StopFlag stop(&cancelled, kind.may_take_long ? unlimited_seconds : options_.most_seconds);
   try {
     if (stop.requested()) throw Cancelled();
     client->send(frame_of(request.id, (this->*kind.answer)(request, stop)));
@@ -241,6 +260,16 @@ double Studio::idle_seconds() {
   return idle_.seconds();
 }
 
+// A list that cannot be written does not stop jobs.
+void Studio::keep_jobs(const DataList& jobs) const {
+  if (!state_lock_.is_held()) return;
+  try {
+    write_kept_jobs(options_.state, jobs);
+  } catch (const std::exception&) {
+    return;
+  }
+}
+
 Answer Studio::hello(const Request&, const StopFlag&) {
   Answer answer{{{"program", options_.program},
                  {"folder", workspace_.root().string()},
@@ -252,26 +281,42 @@ Answer Studio::hello(const Request&, const StopFlag&) {
                  {"palettes", describe_palettes()},
                  {"nodes", describe_nodes()},
                  {"functions", describe_functions()},
-                 {"endings", read_endings()}},
+                 {"endings", read_endings()},
+                 {"drafts", draft_names()}},
                 {}};
   const DataMembers files = listed();
   answer.members.insert(answer.members.end(), files.begin(), files.end());
   return answer;
 }
 
+// Names the files that have a draft, the newest first.
+DataList Studio::draft_names() const {
+  DataList names;
+  for (const Draft& draft : drafts_.list()) names.emplace_back(draft.file);
+  return names;
+}
+
 Answer Studio::list(const Request&, const StopFlag&) { return {listed(), {}}; }
 
-// Answers "open". For a scan or results, the answer's text is a script that shows them.
+// Answers "open". For data that designs import, the answer's text is a script that shows them. A draft of a text that
+// is not in its file comes with it, also if there is no file yet.
 Answer Studio::open(const Request& request, const StopFlag&) {
   const std::string& name = request.text("file");
-  const std::filesystem::path path = workspace_.path(name);
+  const std::filesystem::path path = workspace_.plain_path(name);
   const DataKind kind = is_dicom_folder(path) ? DataKind::scan : data_kind(name);
   const DataMembers of_kind{{"kind", std::string(name_of(kind))}, {"version", ""}};
-  if (kind == DataKind::scan) return {joined({{"text", script_for_scan(name, path)}}, of_kind), {}};
-  if (kind == DataKind::results) return {joined({{"text", script_for_results(name, path)}}, of_kind), {}};
-  FileText file = workspace_.read(name);
-  return {{{"text", std::move(file.text)}, {"version", std::move(file.version)}, {"kind", std::string(name_of(kind))}},
-          {}};
+  if (kind != DataKind::none && kind != DataKind::table)
+    return {joined({{"text", importing_design(name, path).text}}, of_kind), {}};
+  const auto draft = drafts_.find(name);
+  std::error_code ignored;
+  const bool is_new = draft && !std::filesystem::exists(path, ignored);
+  FileText file = is_new ? FileText() : workspace_.read(name);
+  DataMembers members{
+      {"text", std::move(file.text)}, {"version", std::move(file.version)}, {"kind", std::string(name_of(kind))}};
+  if (draft)
+    members.emplace_back("draft",
+                         DataMembers{{"text", draft->text}, {"version", draft->version}, {"time", draft->time}});
+  return {std::move(members), {}};
 }
 
 Answer Studio::save(const Request& request, const StopFlag&) {
@@ -286,6 +331,7 @@ Answer Studio::save(const Request& request, const StopFlag&) {
     return {std::move(members), {}};
   }
   const std::string version = std::get<std::string>(saved);
+  drafts_.remove(name);
   broadcast("changed", {{"file", name}, {"version", version}});
   return {{{"saved", true}, {"version", version}}, {}};
 }
@@ -328,17 +374,39 @@ Answer Studio::presets_answer(const std::string& file, DataList presets) {
   return {{{"presets", std::move(presets)}}, {}};
 }
 
-// Loads a design. A Python script, which may do anything, is run only when the user requests it, not while it is
+// Reads a design. A Python script, which may do anything, is run only when the user requests it, not while it is
 // edited.
-compile::LoadedPtr Studio::read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
-                                Diagnostics& diagnostics) {
-  const std::string& file = request.text("file");
-  if (has_ending(file, ".scad")) return load_scad(text, options, diagnostics);
-  if (!has_ending(file, ".py"))
+compile::LoadedPtr Studio::read(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
+                                const compile::LoadOptions& options, Diagnostics& diagnostics) {
+  if (has_ending(origin.file, ".scad")) return load_scad(text, options, diagnostics);
+  if (!has_ending(origin.file, ".py"))
     return compile::load_text(std::string(text->text()), text->name(), options, diagnostics);
   if (options_.command.empty()) throw RequestError("unsupported", "this studio cannot run designs in Python");
-  if (!request.flag("run")) throw RequestError("unsupported", "Python scripts are shown when they are run: press Run");
+  if (!may_run) throw RequestError("unsupported", "Python scripts are shown when they are run: press Run");
   return load_python(text->name(), options_.command, options, diagnostics);
+}
+
+OpenDesignPtr Studio::load_design(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
+                                  compile::LoadOptions options, Diagnostics& diagnostics) {
+  options.definitions = origin.definitions;
+  options.cache = &cache_;
+  compile::LoadedPtr loaded = read(origin, may_run, text, options, diagnostics);
+  const auto& [x, y, z] = origin.rotate;
+  if (loaded && (x != 0 || y != 0 || z != 0)) loaded = compile::turned(loaded, {x, y, z}, diagnostics);
+  const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
+  if (!loaded || !bounds || diagnostics.has_errors()) return nullptr;
+  return designs_.add(origin, loaded, *bounds, options_.program);
+}
+
+// Loads the design of a kept job from the disk. The job was started by the user, so its script may run again.
+OpenDesignPtr Studio::load_again(const DesignOrigin& origin, const StopFlag& stop) {
+  compile::LoadOptions options;
+  options.stop = &stop;
+  Diagnostics diagnostics;
+  const SourcePtr text = make_source(workspace_.path(origin.file).string(), workspace_.read(origin.file).text);
+  OpenDesignPtr design = load_design(origin, true, text, options, diagnostics);
+  if (!design) throw design_error(diagnostics);
+  return design;
 }
 
 // Names the scans in the folder that the design reads.
@@ -351,35 +419,28 @@ DataList Studio::scans_of(const design::Design& design) const {
   return {names.begin(), names.end()};
 }
 
+// The lines of a Python script are sent while it runs, since it may take long.
 Answer Studio::load(const Request& request, const StopFlag& stop) {
-  const std::string& file = request.text("file");
-  const std::string path = workspace_.path(file).string();
-  const std::string& text = request.text("text");
-  DataList echo;
+  DesignOrigin origin{request.text("file"), request.texts("definitions"), {}};
+  if (request.body.find("rotate")) std::ranges::copy(request.numbers("rotate", 3), origin.rotate.begin());
+  const SourcePtr source = make_source(workspace_.plain_path(origin.file).string(), request.text("text"));
+  const bool is_python = has_ending(origin.file, ".py");
+  EchoLog echo;
   compile::LoadOptions options;
-  options.definitions = request.texts("definitions");
   options.echo = [&](const std::string& line) {
-    if (echo.size() < most_echo_lines) echo.emplace_back(line);
+    if (echo.add(line) && is_python)
+      broadcast("said", {{"file", origin.file}, {"line", beginning_of(line, EchoLog::most_line_bytes)}});
   };
   options.stop = &stop;
-  options.cache = &cache_;
   Diagnostics diagnostics;
-  const SourcePtr source = make_source(path, text);
-  compile::LoadedPtr loaded = read(request, source, options, diagnostics);
-  if (loaded && request.body.find("rotate")) {
-    const std::vector<double> angles = request.numbers("rotate", 3);
-    loaded = compile::turned(loaded, {angles[0], angles[1], angles[2]}, diagnostics);
-  }
-  const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
-  const bool is_right = loaded && bounds && !diagnostics.has_errors();
+  const OpenDesignPtr design = load_design(origin, request.flag("run"), source, options, diagnostics);
   Answer answer;
-  answer.members = {{"ok", is_right}, {"echo", std::move(echo)}};
-  if (!has_ending(file, ".py") && !has_ending(file, ".json"))
+  answer.members = {{"ok", design != nullptr}, {"echo", echo.lines()}};
+  if (!is_python && !has_ending(origin.file, ".json"))
     answer.members.emplace_back("variables", describe_variables(source));
-  if (is_right) {
-    const DataMembers design = describe_design(*designs_.add(loaded, *bounds, options_.program), source);
-    answer.members.insert(answer.members.end(), design.begin(), design.end());
-    answer.members.emplace_back("scans", scans_of(loaded->design));
+  if (design) {
+    answer.members = joined(answer.members, describe_design(*design, source));
+    answer.members.emplace_back("scans", scans_of(design->loaded->design));
   }
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));
   return answer;
@@ -413,13 +474,19 @@ Answer Studio::start_kind(const Request& request, const StopFlag&) {
   return {{{"job", exports_.start(kind_request(request, workspace_, [&] { return design_of(request); }))}}, {}};
 }
 
-Answer Studio::change_export(const Request& request, const StopFlag&) {
+void Studio::resume(int64_t job, const StopFlag& stop) {
+  const auto kept = exports_.adopted(job);
+  if (!kept) return exports_.resume(job);
+  exports_.revive(job, revived(*kept, workspace_, [&] { return load_again(origin_of(*kept), stop); }));
+}
+
+Answer Studio::change_export(const Request& request, const StopFlag& stop) {
   const int64_t id = request.whole("job", 0, int64_t{1} << 53);
   const std::string& to = request.text("to");
   if (to == "pause")
     exports_.pause(id);
   else if (to == "resume")
-    exports_.resume(id);
+    resume(id, stop);
   else if (to == "cancel")
     exports_.cancel(id);
   else

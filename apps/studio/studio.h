@@ -15,8 +15,12 @@
 #include "studio/exports.h"
 #include "studio/scans.h"
 #include "studio/work_queue.h"
+#include "studio/workspace/downloads.h"
+#include "studio/workspace/drafts.h"
 #include "studio/workspace/presets.h"
+#include "studio/workspace/state_folder.h"
 #include "studio/workspace/studio_messages.h"
+#include "studio/workspace/uploads.h"
 #include "studio/workspace/workspace.h"
 
 namespace ombre::studio {
@@ -37,6 +41,7 @@ struct StudioOptions {
   double most_seconds = 60;          // time limit of an answer
   // shows a folder to the user; empty without a display
   std::function<bool(const std::string& folder)> open_folder = nullptr;
+  std::filesystem::path state = {};  // folder for drafts and jobs; empty: they end with the studio
 };
 
 // Handles the requests of all clients. Thread-safe.
@@ -51,6 +56,8 @@ class Studio {
   void take(const ClientPtr& client, const std::string& text);
   // Tells clients which files other programs have changed; has to be called a few times per second.
   void check_disk();
+  // Returns a file that a client has asked for, once; null if there is no such key. Thread-safe.
+  std::shared_ptr<const Download> take_download(const std::string& key) { return downloads_.take(key); }
   // Returns the time since there was a client or a running job.
   double idle_seconds();
   // Returns how often something was made of a sub-design, and how often it was cached.
@@ -67,9 +74,18 @@ class Studio {
   using Handler = Answer(const Request& request, const StopFlag& stop);
   Handler hello, list, open, save, files_ending_in, presets, save_preset, delete_preset, load;
   Handler compare, estimate, start_export, start_kind, change_export, open_folder, jobs;
+  Handler keep_draft, drop_draft, rename, duplicate, remove_file, make_folder, upload, import, download, zip, is_there;
   Answer presets_answer(const std::string& file, DataList presets);
-  compile::LoadedPtr read(const Request& request, const SourcePtr& text, const compile::LoadOptions& options,
-                          Diagnostics& diagnostics);
+  compile::LoadedPtr read(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
+                          const compile::LoadOptions& options, Diagnostics& diagnostics);
+  // Loads a design and keeps it by a handle. Returns null, with diagnostics, if it is wrong.
+  OpenDesignPtr load_design(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
+                            compile::LoadOptions options, Diagnostics& diagnostics);
+  OpenDesignPtr load_again(const DesignOrigin& origin, const StopFlag& stop);
+  void resume(int64_t job, const StopFlag& stop);
+  void keep_jobs(const DataList& jobs) const;
+  DataList draft_names() const;
+  void tell_list();
   Answer scan(const Request& request, const StopFlag& stop) { return scans_.describe(request, stop); }
   Answer plane(const Request& request, const StopFlag& stop) { return scans_.plane(request, stop); }
   Answer voxel(const Request& request, const StopFlag& stop) { return scans_.voxel(request, stop); }
@@ -90,6 +106,10 @@ class Studio {
   Workspace workspace_;
   Scans scans_;
   Presets presets_;
+  StateLock state_lock_;
+  Drafts drafts_;
+  Uploads uploads_{workspace_};
+  Downloads downloads_;
   sources::SourceCache made_{size_t{256} << 20};  // what was made of sub-designs, separate from files
   compile::SubDesignCache memory_{made_};
   Designs designs_{memory_};

@@ -1,4 +1,6 @@
 // Tests of requests about the folder, about scripts and about their errors.
+#include <sys/stat.h>
+
 #include "base/text/json.h"
 #include "studio/test_studio.h"
 
@@ -98,6 +100,82 @@ TEST_F(StudioTest, ShowsOpenScadScripts) {
   ASSERT_FALSE(wrong.find("diagnostics")->list()->empty());
   EXPECT_EQ(number_in(wrong.find("diagnostics")->list()->front(), "line"), 2);
   EXPECT_EQ(*load_script("cube(").find("ok"), Data(false));
+}
+
+TEST_F(StudioTest, ShowsOpenScadScriptsWithoutColours) {
+  const Data loaded = ask("load", R"("file": "a.scad", "text": "cube(4); translate([6, 0, 0]) cube(1);")").first;
+  if (print_json(loaded).find("built without CGAL") != std::string::npos) GTEST_SKIP();
+  ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+  const Data measured = ask("measure", R"("design": ")" + text(loaded, "design") + '"').first;
+  EXPECT_NEAR(number_in(measured, "volume_mm3"), 65, 1);
+}
+
+// 100 echoes of 2 MiB each; what is left out is counted.
+TEST_F(StudioTest, BoundsWhatScriptsSay) {
+  const std::string giant = "function twice(s, n) = n == 0 ? s : twice(str(s, s), n - 1);\n";
+  const Data loaded =
+      ask("load", R"("file": "a.scad", "text": )" +
+                      print_json_line(giant + "s = twice(\"x\", 21); for (n = [1:300]) echo(s);\ncube(1);"))
+          .first;
+  const DataList& echo = *loaded.find("echo")->list();
+  EXPECT_LE(echo.size(), 201U);
+  size_t bytes = 0;
+  for (const Data& line : echo) bytes += line.string()->size();
+  EXPECT_LT(bytes, 200U << 10);
+  EXPECT_NE(echo.back().string()->find("more lines"), std::string::npos) << *echo.back().string();
+}
+
+TEST_F(StudioTest, ImportsWhatPeopleHave) {
+  const std::string solid = "OFF\n4 4 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const auto piece = [&](const std::string& file, const std::string& bytes, const std::string& more) {
+    return ask("upload", R"("upload": "u1", "at": 0, "last": true, "file": ")" + file + R"(", "bytes": ")" +
+                             to_base64(bytes) + '"' + more)
+        .first;
+  };
+  ASSERT_FALSE(piece("models/part.off", solid, "").find("error"));
+  EXPECT_EQ(text(piece("models/part.off", "other", ""), "error"), "exists");
+  EXPECT_EQ(folder.read("models/part.off"), solid);
+  EXPECT_EQ(*ask("is_there", R"("files": ["models/part.off", "b.off"])").first.find("files"),
+            Data(DataList{"models/part.off"}));
+  const Data listed = ask("list").first;
+  EXPECT_EQ(*listed.find("data"), Data(DataList{DataMembers{{"name", "models/part.off"}, {"kind", "model"}}}));
+  for (const char* name : {"models/part.vcad", "models/part_2.vcad"}) {
+    EXPECT_EQ(text(ask("import", R"("file": "models/part.off")").first, "file"), name);
+    const std::string script = folder.read(name);
+    const Data loaded = ask("load", R"("file": "models/part.vcad", "text": )" + print_json_line(script)).first;
+    ASSERT_EQ(*loaded.find("ok"), Data(true)) << print_json(loaded);
+    EXPECT_EQ(*loaded.find("bounds_mm"), Data(DataList{DataList{0.0, 0.0, 0.0}, DataList{4.0, 4.0, 4.0}}));
+  }
+  EXPECT_EQ(text(ask("open", R"("file": "models/part.off")").first, "text"), folder.read("models/part.vcad"));
+  EXPECT_EQ(text(ask("import", R"("file": "none.off")").first, "error"), "gone");
+  folder.write("notes.txt", "");
+  EXPECT_EQ(text(ask("import", R"("file": "notes.txt")").first, "error"), "unsupported");
+}
+
+TEST_F(StudioTest, RefusesPipes) {
+  ASSERT_EQ(::mkfifo((folder.path / "pipe.vcad").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder.path / "pipe.nrrd").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder.path / "pipe.off").c_str(), 0600), 0);
+  for (const char* name : {"pipe.vcad", "pipe.nrrd", "pipe.off"}) {
+    EXPECT_EQ(text(ask("open", R"("file": ")" + std::string(name) + '"').first, "error"), "name") << name;
+    EXPECT_EQ(text(ask("download", R"("file": ")" + std::string(name) + '"').first, "error"), "name") << name;
+  }
+  EXPECT_EQ(*ask("load", R"("file": "a.vcad", "text": "mesh(\"pipe.off\", red);")").first.find("ok"), Data(false));
+  EXPECT_EQ(*ask("load", R"("file": "a.vcad", "text": "volume_solid(\"pipe.nrrd\");")").first.find("ok"), Data(false));
+}
+
+TEST_F(StudioTest, FilesAreRenamedDuplicatedAndDeleted) {
+  folder.write("a.vcad", "text");
+  ask("rename", R"("from": "a.vcad", "to": "b.vcad")");
+  const Data event = client->wait([](const Data& data) { return text(data, "event") == "list"; }).first;
+  EXPECT_EQ(*event.find("files"), Data(DataList{"b.vcad"}));
+  ask("duplicate", R"("file": "b.vcad", "to": "c.vcad")");
+  EXPECT_EQ(*ask("list").first.find("files"), Data(DataList{"b.vcad", "c.vcad"}));
+  const Data deleted = ask("delete", R"("file": "b.vcad")").first;
+  EXPECT_EQ(*ask("list").first.find("files"), Data(DataList{"c.vcad"}));
+  EXPECT_TRUE(std::filesystem::exists(text(deleted, "trash")));
+  ask("make_folder", R"("name": "parts")");
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path / "parts"));
 }
 
 TEST_F(StudioTest, TurnsDesigns) {

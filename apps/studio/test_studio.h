@@ -22,6 +22,18 @@ namespace ombre::studio {
 inline constexpr const char* ball =
     "radius = 3;  // [1:5]\n"
     "fgrade([\"0.5 + x / 6\", \"0.5 - x / 6\"], [red, blue]) sphere(radius);\n";
+inline std::string to_base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t n = 0; n < bytes.size(); n += 3) {
+    unsigned group = 0;
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (n + k < bytes.size() ? static_cast<unsigned char>(bytes[n + k]) : 0);
+    for (size_t k = 0; k < 4; ++k) text += n + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
 // A client that records the frames sent to it.
 class Listener : public Client {
  public:

@@ -449,6 +449,14 @@ def test_examples_in_docstrings(name, tmp_path, monkeypatch):
     assert failures == 0
 
 
+def test_prints_of_a_design_stay_out_of_stdout(tmp_path):
+    (tmp_path / "loud.py").write_text("import ombre\nprint('loud')\nroot = ombre.sphere(3, 'blue')\n")
+    made = subprocess.run([sys.executable, "-m", "ombre", "slice", "loud.py", "--emit", "json"], cwd=tmp_path,
+                          capture_output=True, text=True, timeout=60, check=True)
+    assert json.loads(made.stdout)["format"] == "ombre-design"
+    assert made.stderr == "loud\n"
+
+
 def test_every_node_has_a_class_with_its_text():
     listed = subprocess.run([sys.executable, "-m", "ombre", "nodes", "--json"], capture_output=True, text=True,
                             check=True)

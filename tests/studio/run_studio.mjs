@@ -4,21 +4,15 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { appendFileSync, copyFileSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, realpathSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { join } from "node:path";
 import { gunzipSync, inflateSync } from "node:zlib";
+import { launch, ombre, require, runChecks, serve, source, stop, token } from "./studio_server.mjs";
 
-const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
-const require = createRequire(join(source, "apps/studio/web/package.json"));
-const { chromium } = require("playwright-core");
 const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
-const [ombre, browserPath] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "ombre-studio-"));
 const file = join(folder, "ball.vcad");
-const token = "5eed".repeat(8);
 const script = `// A ball, graded from red to blue.
 radius = 12;  // [5:20]
 fgrade(["0.5 + x / 40", "0.5 - x / 40"], [red, blue]) sphere(radius);
@@ -39,37 +33,17 @@ const solid = (side) => `OFF\n4 4 0\n0 0 0\n${side} 0 0\n0 ${side} 0\n0 0 ${side
 writeFileSync(join(folder, "small.off"), solid(4));
 writeFileSync(join(folder, "picked.vcad"), 'shape = "small.off";\nother = "";  // [*.off, *.obj]\nversion = "no.file";\nmesh(shape, red);\n');
 
-async function serve(place, port, key) {
-  const variables = { ...process.env, OMBRE_DATA: source, OMBRE_STUDIO_TOKEN: key };
-  const child = spawn(ombre, ["studio", place, "--json", "--no-browser", "--port", String(port)], { env: variables, stdio: ["ignore", "pipe", "inherit"] });
-  const url = await new Promise((resolve, reject) => {
-    let text = "";
-    child.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
-    child.stdout.on("data", (data) => {
-      text += data;
-      const found = /"url": ?"([^"]+)"/.exec(text);
-      if (found) resolve(found[1]);
-    });
-  });
-  child.removeAllListeners("exit");
-  return { child, url };
-}
-
 let server;
 async function startServer(port = 0, key = token) {
   const started = await serve(file, port, key);
   server = started.child;
   return started.url;
 }
-function stopServer(signal) {
-  const ended = new Promise((resolve) => server.once("exit", resolve));
-  server.kill(signal);
-  return ended;
-}
+const stopServer = (signal) => stop(server, signal);
 
 const url = await startServer();
 const port = new URL(url).port;
-const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] }).catch(async (error) => {
+const browser = await launch().catch(async (error) => {
   await stopServer("SIGINT");
   rmSync(folder, { recursive: true, force: true });
   console.log(String(error).split("\n").slice(0, 4).join("\n"));
@@ -103,6 +77,10 @@ const onDisk = () => readFileSync(file, "utf8");
 const untilOnDisk = async (part) => {
   for (let n = 0; n < 2400 && !onDisk().includes(part); ++n) await new Promise((done) => setTimeout(done, 50));
   assert.ok(onDisk().includes(part), `${part} is not in ${onDisk()}`);
+};
+const fromMenu = async (menu, action, of = page) => {
+  await of.click(`header summary:text-is('${menu}')`);
+  await of.click(`header .actions button:text-is('${action}')`);
 };
 const openInList = (name) => page.selectOption("select.file", name);
 const untilLonger = async (path, size) => {
@@ -302,7 +280,11 @@ const checks = {
     await page.focus(".preset");
     await page.waitForSelector("button:not([disabled]):has-text('Save as a preset')");
     await isReady("surface");
+    assert.equal(await radius(), "18.5"); // what a slider says survives as well
+    await page.click("button:text-is('Reset')");
     assert.equal(await radius(), "12.5");
+    await status("[data-old=false][data-busy=false]");
+    await isReady("surface");
   },
 
   async "opacity shows through"() {
@@ -765,11 +747,11 @@ const checks = {
   },
 
   async "a bundle goes out and comes in again"() {
-    const [made] = await Promise.all([page.waitForEvent("download"), page.click("text=Download bundle")]);
+    const [made] = await Promise.all([page.waitForEvent("download"), fromMenu("Download", "Bundle")]);
     assert.equal(made.suggestedFilename(), "ball.ombre");
     const bundle = join(folder, "ball.ombre");
     await made.saveAs(bundle);
-    await page.setInputFiles("[aria-label='Bundle to open']", bundle);
+    await page.setInputFiles("[aria-label='Files to open']", bundle);
     await status("[data-old=false][data-busy=false]");
     await page.waitForSelector("option[value='ball/ball.vcad']", { state: "attached" });
     assert.equal(await page.inputValue("select.file"), "ball/ball.vcad");
@@ -790,9 +772,9 @@ const checks = {
     assert.equal(await page.inputValue("select.file"), "dropped/ball.vcad");
     assert.equal(readFileSync(join(folder, "dropped/ball.vcad"), "utf8"), onDisk());
     await drop("notes.txt", "aGVsbG8=");
-    await page.waitForSelector(".problems:has-text('notes.txt is no bundle')");
+    await page.waitForSelector(".problems:has-text('notes.txt is no file that designs read')");
     writeFileSync(bundle, "no archive");
-    await page.setInputFiles("[aria-label='Bundle to open']", bundle);
+    await page.setInputFiles("[aria-label='Files to open']", bundle);
     await page.waitForSelector(".problems:has-text('this is no bundle')");
     assert.ok(!existsSync(join(folder, "ball_2")));
     rmSync(bundle);
@@ -894,22 +876,7 @@ const checks = {
 };
 
 const probed = [];
-let failed = 0;
-const watch = () => `${((performance.now() - begun) / 1000).toFixed(1)} s`;
-let begun = performance.now();
-for (const [name, check] of Object.entries(checks)) {
-  begun = performance.now();
-  try {
-    await check();
-    console.log(`${name}: ${watch()}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAILED ${name} (${watch()})\n    ${String(error.stack).split("\n").slice(0, 12).join("\n    ")}`);
-    await page.screenshot({ path: join(tmpdir(), "ombre-studio-failed.png") }).catch(() => undefined);
-    console.log(`    the page is in ${join(tmpdir(), "ombre-studio-failed.png")}`);
-    break;
-  }
-}
+const failed = await runChecks(checks, page);
 await browser.close();
 await stopServer("SIGINT");
 rmSync(folder, { recursive: true, force: true });

@@ -2,36 +2,20 @@
 // results of a simulation.
 //
 //     node tests/studio/take_pictures.mjs build/release/apps/ombre/ombre /usr/bin/chromium docs/user
-import { spawn } from "node:child_process";
 import { copyFileSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { join } from "node:path";
+import { launch, serve, source, stop, token } from "./studio_server.mjs";
 
-const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
-const require = createRequire(join(source, "apps/studio/web/package.json"));
-const { chromium } = require("playwright-core");
-
-const [ombre, browserPath, target] = process.argv.slice(2);
+const target = process.argv[4];
 const above = mkdtempSync(join(tmpdir(), "ombre-"));
 const folder = join(above, "my_parts");
 mkdirSync(folder);
 copyFileSync(join(source, "examples/knob.vcad"), join(folder, "knob.vcad"));
 for (const name of ["head.nrrd", "bent_beam.vtu"]) copyFileSync(join(source, "examples/models", name), join(folder, name));
 
-const server = spawn(ombre, ["studio", join(folder, "knob.vcad"), "--json", "--no-browser"], { env: { ...process.env, OMBRE_DATA: source }, stdio: ["ignore", "pipe", "inherit"] });
-const url = await new Promise((resolve, reject) => {
-  let text = "";
-  server.once("exit", (code) => reject(new Error(`the server ended with ${code}`)));
-  server.stdout.on("data", (data) => {
-    const found = /"url": ?"([^"]+)"/.exec((text += data));
-    if (found) resolve(found[1]);
-  });
-});
-server.removeAllListeners("exit");
-
-const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+const { child: server, url } = await serve(join(folder, "knob.vcad"), 0, token);
+const browser = await launch();
 try {
   const page = await browser.newPage({ viewport: { width: 1360, height: 800 }, colorScheme: "light" });
   const isReady = (view) => page.waitForSelector(`.${view} canvas[data-state=ready]`);

@@ -39,12 +39,20 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-// Starts a command in its own process group, with these ends of pipes as stdout and stderr (negative: those of this
-// program). Returns 0 if it cannot start.
-pid_t spawn(const std::vector<std::string>& command, int out, int err) {
+// Ends of pipes that a program gets as its streams. A negative stdin is empty; others are those of this program.
+struct Streams {
+  int in = -1, out = -1, err = -1;
+};
+
+// Starts a command in its own process group. Returns 0 if it cannot start.
+pid_t spawn(const std::vector<std::string>& command, const Streams& streams) {
+  const auto [in, out, err] = streams;
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  if (in >= 0)
+    ::posix_spawn_file_actions_adddup2(&actions, in, 0);
+  else
+    ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   if (out >= 0) ::posix_spawn_file_actions_adddup2(&actions, out, 1);
   if (err >= 0) ::posix_spawn_file_actions_adddup2(&actions, err, 2);
   ::posix_spawn_file_actions_addclosefrom_np(&actions, 3);
@@ -69,26 +77,65 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Appends the available bytes. Returns false at the end.
-bool read_some(int from, std::string& to) {
+// A small program that kills a process group as soon as this program is gone, however it ended: its stdin is a pipe,
+// which the system closes then.
+class Guardian {
+ public:
+  explicit Guardian(pid_t group) {
+    const std::string script = "read done || kill -s KILL -- \"-$1\"";
+    shell_ = spawn({"/bin/sh", "-c", script, "sh", std::to_string(group)}, {line_.end(0), -1, -1});
+    line_.close(0);
+  }
+  // Lets it end without killing anything.
+  ~Guardian() {
+    if (shell_ == 0) return;
+    [[maybe_unused]] const ssize_t written = ::write(line_.end(1), "\n", 1);
+    line_.close(1);
+    wait_for(shell_);
+  }
+  Guardian(const Guardian&) = delete;
+  Guardian& operator=(const Guardian&) = delete;
+
+ private:
+  Pipe line_;
+  pid_t shell_ = 0;
+};
+
+// Passes on the available bytes. Returns false at the end.
+template <class Take>
+bool read_some(int from, const Take& take) {
   std::array<char, 65536> block{};
   const ssize_t count = ::read(from, block.data(), block.size());
   if (count < 0) return errno == EINTR || errno == EAGAIN;
-  to.append(block.data(), static_cast<size_t>(count));
+  take(std::string_view(block.data(), static_cast<size_t>(count)));
   return count > 0;
+}
+
+// Keeps the end of a text that grows.
+void append_end(std::string& text, std::string_view piece) {
+  constexpr size_t most = 64 << 10;
+  text += piece;
+  if (text.size() > 2 * most) text.erase(0, text.size() - most);
 }
 
 }  // namespace
 
-bool start_program(const std::vector<std::string>& command) { return spawn(command, -1, -1) != 0; }
+bool start_program(const std::vector<std::string>& command) { return spawn(command, {}) != 0; }
 
-ProgramOutput run_program(const std::vector<std::string>& command, const StopFlag& stop, size_t most_bytes) {
+ProgramOutput run_program(const std::vector<std::string>& command, const StopFlag& stop, size_t most_bytes,
+                          const std::function<void(std::string_view)>& said) {
   Pipe out, err;
-  const pid_t child = spawn(command, out.end(1), err.end(1));
+  const pid_t child = spawn(command, {-1, out.end(1), err.end(1)});
   if (child == 0) throw Error(Code::other_program, "cannot run " + command.front());
+  const Guardian guardian(child);
   out.close(1);
   err.close(1);
   ProgramOutput output;
+  const auto take_out = [&](std::string_view piece) { output.out += piece; };
+  const auto take_err = [&](std::string_view piece) {
+    if (said) said(piece);
+    said ? append_end(output.err, piece) : void(output.err += piece);
+  };
   std::array<pollfd, 2> ends{pollfd{out.end(0), POLLIN, 0}, pollfd{err.end(0), POLLIN, 0}};
   constexpr int patience_ms = 50;
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
@@ -100,8 +147,8 @@ ProgramOutput run_program(const std::vector<std::string>& command, const StopFla
       throw Cancelled();
     }
     if (::poll(ends.data(), ends.size(), patience_ms) <= 0) continue;
-    if (ends[0].revents != 0 && !read_some(ends[0].fd, output.out)) ends[0].fd = -1;
-    if (ends[1].revents != 0 && !read_some(ends[1].fd, output.err)) ends[1].fd = -1;
+    if (ends[0].revents != 0 && !read_some(ends[0].fd, take_out)) ends[0].fd = -1;
+    if (ends[1].revents != 0 && !read_some(ends[1].fd, take_err)) ends[1].fd = -1;
   }
   output.status = wait_for(child);
   return output;

@@ -12,11 +12,13 @@ namespace fs = std::filesystem;
 DataKind data_kind(const std::string& name) {
   if (sources::is_read_as(name, Content::volume)) return DataKind::scan;
   if (sources::is_read_as(name, Content::results)) return DataKind::results;
-  return sources::is_read_as(name, Content::table) ? DataKind::table : DataKind::none;
+  if (sources::is_read_as(name, Content::table)) return DataKind::table;
+  const bool is_model = sources::is_read_as(name, Content::mesh) || sources::is_read_as(name, Content::cad);
+  return is_model ? DataKind::model : DataKind::none;
 }
 
 std::string_view name_of(DataKind kind) {
-  constexpr std::array<std::string_view, 4> names{"", "scan", "results", "table"};
+  constexpr std::array<std::string_view, 5> names{"", "scan", "results", "table", "model"};
   return names[static_cast<size_t>(kind)];
 }
 

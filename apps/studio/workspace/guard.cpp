@@ -6,7 +6,6 @@
 #include <array>
 
 #include "base/text/error.h"
-#include "base/text/text.h"
 
 namespace ombre::studio {
 namespace {
@@ -58,32 +57,22 @@ bool Guard::is_token(std::string_view text) const {
   return difference == 0;
 }
 
-bool Guard::brings_token(std::string_view target) const { return is_token(query_value(target, "token")); }
-
 bool Guard::knows_token(const RequestHead& head) const {
-  if (brings_token(head.target)) return true;
+  if (is_token(query_value(head.target, "token"))) return true;
   constexpr std::string_view bearer = "Bearer ";
-  if (head.authorization.starts_with(bearer) && is_token(std::string_view(head.authorization).substr(bearer.size())))
-    return true;
-  for (const std::string& part : split(head.cookie, ';')) {
-    const std::string_view pair = trim(part);
-    const std::string name = cookie_name() + "=";
-    if (pair.starts_with(name) && is_token(pair.substr(name.size()))) return true;
-  }
-  return false;
+  return head.authorization.starts_with(bearer) && is_token(std::string_view(head.authorization).substr(bearer.size()));
 }
 
-// The cookie is SameSite=Lax: links, and the file that directed the browser here, send it when they open the page;
-// requests by other pages do not.
-std::string Guard::cookie() const {
-  return cookie_name() + "=" + token_ + "; HttpOnly; SameSite=Lax; Path=/; Max-Age=31536000";
-}
-
-std::optional<Refusal> Guard::refuse(const RequestHead& head) const {
+std::optional<Refusal> Guard::refuse_foreign(const RequestHead& head) {
   if (!is_own_name(head.host))
     return Refusal{403, "The studio answers to 127.0.0.1 and localhost alone, not to this name."};
   if (!head.origin.empty() && head.origin != "http://" + head.host)
     return Refusal{403, "The studio answers to its own page alone, not to those of others."};
+  return std::nullopt;
+}
+
+std::optional<Refusal> Guard::refuse(const RequestHead& head) const {
+  if (auto foreign = refuse_foreign(head)) return foreign;
   if (!knows_token(head))
     return Refusal{403,
                    "The address lacks the studio's token. Open the one that ombre studio printed when it started."};

@@ -14,7 +14,7 @@ std::string random_token();
 
 // The parts of a request's head that decide about admission; empty if a header is missing.
 struct RequestHead {
-  std::string method, target, host, origin, cookie, authorization;
+  std::string method, target, host, origin, authorization;
 };
 
 struct Refusal {
@@ -22,28 +22,24 @@ struct Refusal {
   std::string text;       // text for the user
 };
 
+// The token is never in a cookie: browsers send cookies to every port of a host, so also to servers of other users.
 class Guard {
  public:
-  Guard(std::string token, uint16_t port) : token_(std::move(token)), port_(port) {}
+  explicit Guard(std::string token) : token_(std::move(token)) {}
 
-  // Returns null if the request is admitted. Checks in this order:
+  // Returns null if the request comes from this machine's own page or from a program. Checks in this order:
   //   Host    It must be a name of this machine (127.0.0.1, localhost, [::1]); any port is allowed, because a
   //           tunnel may have another. Foreign names that point here (DNS rebinding) are refused.
   //   Origin  It must be absent, or the page's own: http:// and the same host.
-  //   token   It must be in the cookie, in the address (?token=) or in "Authorization: Bearer".
+  static std::optional<Refusal> refuse_foreign(const RequestHead& head);
+  // Checks the same, and that the request has the token in its address (?token=) or in "Authorization: Bearer".
   std::optional<Refusal> refuse(const RequestHead& head) const;
 
-  // Returns true for GET /?token=..., whose answer sets the cookie.
-  bool brings_token(std::string_view target) const;
-  std::string cookie() const;  // the value of Set-Cookie
-
  private:
-  std::string cookie_name() const { return "ombre_studio_" + std::to_string(port_); }
   bool is_token(std::string_view text) const;
   bool knows_token(const RequestHead& head) const;
 
   std::string token_;
-  uint16_t port_;
 };
 
 // path_of() returns "/a/b" for "/a/b?c=d"; query_value() returns the value of a key in the query, or an empty text.

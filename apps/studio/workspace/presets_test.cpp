@@ -15,15 +15,6 @@ namespace fs = std::filesystem;
 
 const DataMembers values{{"width", 7.5}, {"name", "5\" µ"}, {"is_round", true}, {"size", DataList{1.0, 2.0, 3.0}}};
 
-std::string code_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const RequestError& error) {
-    return error.code();
-  }
-  return "";
-}
-
 Data parsed(const std::string& text) {
   Diagnostics diagnostics;
   const auto data = parse_json(make_source("presets", text), diagnostics);

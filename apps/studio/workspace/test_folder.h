@@ -1,4 +1,4 @@
-// A temporary folder of a test, which is removed with it.
+// A temporary folder of a test, which is removed with it, and the errors that it expects.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -6,7 +6,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
+
+#include "studio/workspace/studio_messages.h"
 
 namespace ombre::studio {
 
@@ -34,5 +37,15 @@ class TestFolder {
 
   std::filesystem::path path;
 };
+
+// Returns the code of the request error that the work throws; empty if it throws none.
+inline std::string code_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const RequestError& error) {
+    return error.code();
+  }
+  return "";
+}
 
 }  // namespace ombre::studio

@@ -124,8 +124,17 @@ fs::path Workspace::path(const std::string& name) const {
   return file;
 }
 
+fs::path Workspace::plain_path(const std::string& name) const {
+  fs::path file = path(name);
+  std::error_code ignored;
+  const fs::file_type type = fs::status(file, ignored).type();
+  if (type != fs::file_type::regular && type != fs::file_type::directory && type != fs::file_type::not_found)
+    throw RequestError("name", name + " is a pipe or a device, no file that the studio could read");
+  return file;
+}
+
 FileText Workspace::read(const std::string& name) {
-  const fs::path file = path(name);
+  const fs::path file = plain_path(name);
   std::error_code error;
   if (fs::is_regular_file(file, error) && fs::file_size(file, error) > most_bytes)
     throw RequestError(
@@ -143,7 +152,7 @@ std::variant<std::string, SaveConflict> Workspace::save(const std::string& name,
   if (!is_design_name(name))
     throw RequestError("name", name + " ends in none of .vcad, .scad, .py and .json, which the studio edits");
   if (text.size() > most_bytes) throw RequestError("size", "the text is too long to be saved from here");
-  const fs::path file = path(name);
+  const fs::path file = plain_path(name);
   const std::lock_guard lock(save_mutex_);
   if (fs::exists(file)) {
     FileText disk = read(name);

@@ -37,7 +37,7 @@ class Workspace {
   const std::filesystem::path& root() const { return root_; }
   // Lists designs and scripts, sorted, without presets, hidden folders and links to folders.
   std::vector<std::string> list() const;
-  // Lists scans, results and tables likewise; a folder of DICOM files is one scan.
+  // Lists scans, results, tables and models likewise; a folder of DICOM files is one scan.
   struct DataFile {
     std::string name;
     DataKind kind = DataKind::none;
@@ -46,6 +46,9 @@ class Workspace {
   // Lists the files whose names have one of these endings (such as ".stl", in lower case), sorted.
   std::vector<std::string> list_ending_in(const std::vector<std::string>& endings) const;
   std::filesystem::path path(const std::string& name) const;
+  // Returns the path of a file, which may not exist yet. Throws RequestError also for pipes, sockets and devices, whose
+  // reading might never end.
+  std::filesystem::path plain_path(const std::string& name) const;
   // Returns the name of the file at this path; empty if it is not in the folder.
   std::string name_of(const std::filesystem::path& file) const;
   // Reads a file. Throws Error if it cannot be read, and RequestError if it is too large or not text.

@@ -1,4 +1,5 @@
 """The command line, which runs designs that are Python scripts: python3 -m ombre slice part.py."""
+import contextlib
 import json
 import os
 import sys
@@ -17,11 +18,13 @@ def _definitions(texts):
 
 
 def _load(path, materials, definitions):
-    """Loads the design for the compiled part; returns None once the mistakes have been reported."""
+    """Loads the design for the compiled part; returns None once the mistakes have been reported. What the script prints
+    goes to stderr, since stdout may hold what the command makes: `--emit json`."""
     from ._errors import DesignError
     from ._script import load_script
     try:
-        return load_script(path, materials, _definitions(definitions))
+        with contextlib.redirect_stdout(sys.stderr):
+            return load_script(path, materials, _definitions(definitions))
     except DesignError as error:
         print(error, file=sys.stderr)
     except SystemExit as end:

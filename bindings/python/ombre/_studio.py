@@ -29,7 +29,7 @@ def _is_alive(url):
     """Does the server of this address answer to its token?"""
     address = urllib.parse.urlsplit(url)
     token = urllib.parse.parse_qs(address.query).get("token", [""])[0]
-    request = urllib.request.Request(f"http://{address.netloc}/app.css", method="HEAD",
+    request = urllib.request.Request(f"http://{address.netloc}/api", method="HEAD",
                                      headers={"Authorization": f"Bearer {token}"})
     try:
         with urllib.request.build_opener(urllib.request.ProxyHandler({})).open(request, timeout=5) as answer:

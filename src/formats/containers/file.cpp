@@ -28,6 +28,12 @@ struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+// True for a pipe that lies in a folder, whose reading may never end. Those of the shell, <(...), are files of /dev.
+bool is_named_pipe(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_fifo(path, ignored) && !path.starts_with("/dev/") && !path.starts_with("/proc/");
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -35,6 +41,7 @@ std::string read_file(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) throw_unreadable(path, "it is a directory");
   if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
     throw_unreadable(path, "it is a device");
+  if (is_named_pipe(path)) throw_unreadable(path, "it is a pipe; write <(cat PIPE) to read it");
   errno = 0;
   const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
   if (!file)

@@ -17,7 +17,8 @@ MappedFile::MappedFile(const std::string& path) {
     throw Error(Code::cannot_read, "cannot read " + path + ": " + std::generic_category().message(errno),
                 {{"file", path}});
   };
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // A pipe would wait for somebody who writes to it; without waiting, it has no size and maps to nothing.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) fail();
   struct stat status {};
   const bool has_size = ::fstat(file, &status) == 0;

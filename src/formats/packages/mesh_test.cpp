@@ -1,6 +1,8 @@
 #include "formats/mesh/mesh.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -185,6 +187,10 @@ TEST(File, SaysWhichFoldersWereSearched) {
   expect_error([&] { read_mesh("no/such.stl", diagnostics); },
                "cannot read no/such.stl: No such file or directory (looked for /");
   EXPECT_THROW(read_file(OMBRE_SOURCE_DIR), Error);
+  const std::string pipe = testing::TempDir() + "/ombre_pipe_" + std::to_string(::getpid());
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(read_file(pipe), Error);  // which nobody writes to
+  ::unlink(pipe.c_str());
   EXPECT_NE(read_file(std::string(OMBRE_SOURCE_DIR) + "/CMakeLists.txt").find("project(ombre"), std::string::npos);
 }
 

@@ -26,7 +26,9 @@ void Messages::add(Message message) {
   warnings_ += message.kind == Message::Kind::warning ? 1 : 0;
   errors_ += message.kind == Message::Kind::error ? 1 : 0;
   if (sink_) sink_(message);
-  if (list_.size() < most) list_.push_back(std::move(message));
+  if (list_.size() >= most || bytes_ >= most_bytes) return;
+  bytes_ += message.text.size();
+  list_.push_back(std::move(message));
 }
 
 std::string Messages::text() const {

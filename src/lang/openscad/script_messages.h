@@ -45,13 +45,14 @@ class Messages {
   Diagnostics details;
 
  private:
-  static constexpr size_t most = 1'000'000;  // messages that are kept; a script with more is stopped by its limits
+  // Messages that are kept, and their bytes; a script with more is stopped by its limits, or goes on unheard.
+  static constexpr size_t most = 1'000'000, most_bytes = size_t{64} << 20;
 
   std::function<void(const Message&)> sink_;
   std::vector<Message> list_;
   std::array<Message, 5> latest_;
   std::unordered_set<std::string> deprecated_;  // lines that were already reported
-  size_t next_ = 0;
+  size_t next_ = 0, bytes_ = 0;
   size_t warnings_ = 0, errors_ = 0;
 };
 

@@ -1,15 +1,20 @@
 // The page as a whole.
 import { render } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
+import { AskingDialog } from "./asking";
 import { ChartView } from "./chart";
 import { EditorPane } from "./editor";
-import { downloadBundle, openBundle, takeDroppedFiles } from "./files";
+import {
+  copyLink, deleteDesign, downloadBundle, downloadMesh, duplicateDesign, makeDesign, newFolder, openableEndings, openChosen, renameDesign, takeDroppedFiles, watchDownloads,
+} from "./files";
 import { GraphView } from "./graph";
+import { watchView } from "./kept";
 import { KeysDialog, listenToKeys } from "./keys";
+import { Menu } from "./menu";
 import { Panels, Tabs } from "./panels";
 import { makeTurntable, takePicture } from "./pictures";
 import { PlanesView, scansToSee } from "./planes";
-import { connection, isDirty, listFiles, newFile, openFile, runPython, save } from "./session";
+import { connection, isDirty, listFiles, openFile, runPython, save, stopPython } from "./session";
 import { SliceView } from "./slices";
 import { State, set, state, useStore } from "./store";
 import { SurfaceView } from "./surface";
@@ -30,99 +35,97 @@ function viewsToSee(): typeof designViews {
   return scansToSee().length > 0 ? [planes, ...designViews] : designViews;
 }
 
+function statusText(): string {
+  const { status, isBusy, isOld, isRunning, file, kind, design, transfer, turntable } = state;
+  if (transfer) return `${transfer.name}: ${Math.floor(100 * transfer.share)} %`;
+  if (turntable !== undefined) return `turntable: ${Math.round(100 * turntable)} %`;
+  if (status === "connecting") return "connecting…";
+  if (status === "lost") return "the server is gone; what you type is kept here, and it connects again when it comes back";
+  if (status === "refused") return "this address lacks the server's token; open the one that it printed, what you typed is kept";
+  if (!file || kind === "table") return "";
+  if (isRunning) return "running…";
+  if (isBusy) return "evaluating…";
+  if (isOld) return design ? "the views show the last design without mistakes" : "not yet a design";
+  return "up to date";
+}
+
 function Status() {
-  const { status, isBusy, isOld, saved, file, kind, design } = useStore();
-  const text =
-    status === "connecting" ? "connecting…"
-    : status === "lost" ? "the server is gone; what you type is kept here, and it connects again when it comes back"
-    : status === "refused" ? "the server was started again; open the address that it printed, what you typed is kept"
-    : !file || kind === "table" ? ""
-    : isBusy ? "evaluating…"
-    : isOld ? (design ? "the views show the last design without mistakes" : "not yet a design")
-    : "up to date";
+  const { status, isBusy, isOld, saved, file, kind, transfer } = useStore();
+  const text = statusText();
   const saving = { saved: "saved", unsaved: "not saved yet", saving: "saving…", failed: "not saved" }[saved];
   return (
-    <p class={`status ${status}`} role="status" data-status={status} data-busy={isBusy} data-old={isOld} data-saved={saved}>
-      {text}
+    <p class={`status ${status}`} role="status" title={text} data-status={status} data-busy={isBusy} data-old={isOld} data-saved={saved}>
+      {transfer && <progress value={transfer.share} max={1} aria-label={`Progress of ${transfer.name}`} />}
       {file && kind === "" && status === "open" && <span class="saving">{saving}</span>}
+      {text}
     </p>
   );
 }
 
 const groups = [
+  { kind: "model", title: "Models" },
   { kind: "scan", title: "Scans" },
   { kind: "results", title: "Results" },
   { kind: "table", title: "Tables" },
 ];
 
 function FileChoice() {
-  const { files, data, file } = useStore();
-  const [isAsking, ask] = useState(false);
-  const [problem, setProblem] = useState("");
-  const make = async (event: Event) => {
-    event.preventDefault();
-    const name = new FormData(event.currentTarget as HTMLFormElement).get("name") as string;
-    try {
-      await newFile(name.trim());
-      ask(false);
-      setProblem("");
-    } catch (error) {
-      setProblem((error as Error).message);
-    }
-  };
+  const { files, data, file, hello, isRunning } = useStore();
+  const unsaved = [...new Set([...(hello?.drafts ?? []), ...(file ? [file] : [])])].filter((name) => !files.includes(name) && !data.some((d) => d.name === name));
+  const shown = [...files, ...unsaved];
+  const designs = shown.map((name) => <option value={name}>{unsaved.includes(name) ? `${name} (not saved)` : name}</option>);
   return (
-    <span class="controls">
-      <label>
+    <>
+      <label class="design">
         <span class="quiet">Design</span>
-        <select class="file" value={file} onFocus={listFiles} onChange={(e) => openFile(e.currentTarget.value)}>
+        <select class="file" value={file} title={file} onFocus={listFiles} onChange={(e) => openFile(e.currentTarget.value)}>
           {!file && <option value="">choose…</option>}
-          {data.length === 0 && files.map((name) => <option value={name}>{name}</option>)}
-          {data.length > 0 && <optgroup label="Designs">{files.map((name) => <option value={name}>{name}</option>)}</optgroup>}
+          {data.length === 0 && designs}
+          {data.length > 0 && <optgroup label="Designs">{designs}</optgroup>}
           {groups.filter((g) => data.some((d) => d.kind === g.kind)).map((g) => (
             <optgroup label={g.title}>{data.filter((d) => d.kind === g.kind).map((d) => <option value={d.name}>{d.name}</option>)}</optgroup>
           ))}
         </select>
       </label>
-      {isAsking ? (
-        <form class="controls" onSubmit={make}>
-          <input name="name" type="text" aria-label="Name of the new design" placeholder="part.vcad" required autofocus />
-          <button>Make</button>
-          <button type="button" onClick={() => ask(false)}>Cancel</button>
-          {problem && <span class="error" role="alert">{problem}</span>}
-        </form>
-      ) : (
-        <button onClick={() => ask(true)}>New</button>
-      )}
-      {file.endsWith(".py") && <button class="main" onClick={runPython}>Run</button>}
-    </span>
+      {file.endsWith(".py") && !isRunning && <button class="main" onClick={runPython}>Run</button>}
+      {file.endsWith(".py") && isRunning && <button class="main" onClick={stopPython}>Stop</button>}
+    </>
   );
 }
 
-function PictureButtons() {
-  const { design, turntable, kind } = useStore();
+function FileMenu() {
+  const { file } = useStore();
+  const files = useRef<HTMLInputElement>(null), folder = useRef<HTMLInputElement>(null);
   return (
-    <span class="controls pictures">
-      <button disabled={!design || kind === "table"} onClick={takePicture} title="A picture of the view, as PNG (Alt P)">Picture</button>
-      <button disabled={!design || kind === "table"} onClick={() => makeTurntable("webm")} title="The design turned once around, as WebM (Alt T)">
-        {turntable === undefined ? "Turntable" : `Stop at ${Math.round(100 * turntable)} %`}
-      </button>
-      <button disabled={!design || kind === "table" || turntable !== undefined} onClick={() => makeTurntable("gif")} title="The design turned once around, as GIF (Alt G)">
-        GIF
-      </button>
-    </span>
+    <>
+      <Menu title="File">
+        <button onClick={makeDesign}>New…</button>
+        <button onClick={() => files.current!.click()} title="Designs, models, scans, results, images, bundles; they can also be dropped on the page">Open files…</button>
+        <button onClick={() => folder.current!.click()}>Open folder…</button>
+        <button disabled={!file} onClick={renameDesign}>Rename…</button>
+        <button disabled={!file} onClick={duplicateDesign}>Duplicate…</button>
+        <button disabled={!file} onClick={deleteDesign}>Delete…</button>
+        <button onClick={newFolder}>New folder…</button>
+        <button disabled={!file} onClick={copyLink} title="The file, view, cut, sliders and camera">Copy link</button>
+      </Menu>
+      <input ref={files} type="file" multiple hidden accept={openableEndings().join()} aria-label="Files to open" onChange={(e) => openChosen(e.currentTarget)} />
+      <input ref={folder} type="file" hidden aria-label="Folder to open" {...{ webkitdirectory: true }} onChange={(e) => openChosen(e.currentTarget)} />
+    </>
   );
 }
 
-function BundleButtons() {
-  const { file, kind } = useStore();
-  const input = useRef<HTMLInputElement>(null);
+function DownloadMenu() {
+  const { design, file, kind, isOld, turntable } = useStore();
+  const isShown = design !== undefined && kind !== "table", hasSolid = isShown && !isOld;
   return (
-    <span class="controls">
-      <button disabled={!file || kind !== "" || file.endsWith(".py")} onClick={downloadBundle} title="The design with the files that it reads, as one file (Alt B)">Download bundle</button>
-      <button onClick={() => input.current!.click()} title="A bundle, .ombre; it can also be dropped on the page">Open bundle</button>
-      <input ref={input} type="file" accept=".ombre" hidden aria-label="Bundle to open"
-             onChange={(e) => { const chosen = e.currentTarget.files?.[0]; if (chosen) openBundle(chosen); e.currentTarget.value = ""; }} />
-    </span>
+    <Menu title="Download">
+      <button disabled={!hasSolid} onClick={() => downloadMesh(".3mf")}>3MF</button>
+      <button disabled={!hasSolid} onClick={() => downloadMesh(".stl")}>STL</button>
+      <button disabled={!isShown} onClick={takePicture} title="The views that are seen (Alt P)">Picture (PNG)</button>
+      <button disabled={!isShown} onClick={() => makeTurntable("webm")} title="The design turned once around (Alt T)">{turntable === undefined ? "Turntable (WebM)" : "Stop the turntable"}</button>
+      <button disabled={!isShown || turntable !== undefined} onClick={() => makeTurntable("gif")} title="The design turned once around (Alt G)">Turntable (GIF)</button>
+      <button disabled={!file || kind !== "" || file.endsWith(".py")} onClick={downloadBundle} title="The design with the files that it reads, as one file (Alt B)">Bundle</button>
+    </Menu>
   );
 }
 
@@ -141,14 +144,14 @@ function Theme() {
 }
 
 function Views() {
-  const { view: wanted, isOld } = useStore();
+  const { view: wanted, isOld: isOldText, design } = useStore();
+  const isOld = isOldText && design !== undefined;
   const views = viewsToSee();
   const view = views.some((v) => v.name === wanted) ? wanted : views[0].name;
   const isShown = (name: State["view"]) => view === "all" || view === name;
   return (
     <section class={isOld ? "views old" : "views"} aria-label="Views">
       <Tabs label="Views" tabs={views} chosen={view} choose={(name) => set({ view: name })} />
-      <PictureButtons />
       {isOld && <p class="oldmark">of an earlier text</p>}
       <div class={view === "all" ? "grid four" : "grid"} role="tabpanel" aria-labelledby={`tab-${view}`}>
         {view === "planes" && <PlanesView />}
@@ -167,6 +170,8 @@ function App() {
   useEffect(() => {
     takeDroppedFiles();
     listenToKeys();
+    watchView();
+    watchDownloads();
     connection.connect();
   }, []);
   useEffect(() => {
@@ -180,12 +185,13 @@ function App() {
       <header>
         <h1>Ombre Studio</h1>
         <FileChoice />
-        <BundleButtons />
+        <FileMenu />
+        <DownloadMenu />
         <Status />
-        <span class="folder">{hello?.folder}</span>
+        <span class="folder" title={hello?.folder}>{hello?.folder}</span>
         <button onClick={() => set({ showsKeys: true })} title="Keys of the page (Alt K)">Keys</button>
         <Theme />
-        <a class="quiet" href="licences.txt" target="_blank" title="Licences of what the page is made of">{hello?.program}</a>
+        <a class="quiet program" href="licences.txt" target="_blank" title="Licences of what the page is made of">{hello?.program}</a>
       </header>
       <main>
         <EditorPane />
@@ -193,6 +199,7 @@ function App() {
         <Panels />
       </main>
       <KeysDialog />
+      <AskingDialog />
     </>
   );
 }

@@ -24,6 +24,21 @@ interface Waiting {
   reject: (error: Refused) => void;
 }
 
+// The token comes with the address that the server prints. The browser keeps it for this origin, to which the port
+// belongs, and takes it out of the address. A cookie would go to the other ports of this machine as well.
+const tokenKey = "ombre:token";
+const token = () => localStorage.getItem(tokenKey) ?? "";
+
+function keepToken() {
+  const query = new URLSearchParams(location.search);
+  const given = query.get("token");
+  if (!given) return;
+  localStorage.setItem(tokenKey, given);
+  query.delete("token");
+  history.replaceState(null, "", location.pathname + (query.size > 0 ? `?${query}` : ""));
+}
+keepToken();
+
 export interface Listener {
   opened(): void;
   lost(): void;
@@ -39,7 +54,7 @@ export class Connection {
   constructor(private listener: Listener) {}
 
   connect() {
-    const socket = new WebSocket(`ws://${location.host}/api`);
+    const socket = new WebSocket(`ws://${location.host}/api?token=${token()}`);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.socket = socket;
@@ -94,11 +109,12 @@ export class Connection {
     this.tryAgain();
   }
 
-  // Tries to connect again. A server that was restarted has another token, which this page does not know.
+  // Tries to connect again. A server that was restarted has another token, which this page knows once its new address
+  // was opened in any window.
   private async tryAgain() {
     await new Promise((done) => setTimeout(done, 700));
     try {
-      const answer = await fetch("/app.css", { method: "HEAD" });
+      const answer = await fetch("/api", { method: "HEAD", headers: { Authorization: `Bearer ${token()}` } });
       if (answer.status === 403) this.listener.refused();
       if (answer.ok) return this.connect();
     } catch {

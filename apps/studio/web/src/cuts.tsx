@@ -1,6 +1,7 @@
 // Controls of cuts, which show the inside of a design by removing the part behind a plane, in a wedge, or outside of a
 // box.
 import { axes } from "./camera";
+import { Slider } from "./slider";
 import { Cut, Design, set, state, useStore } from "./store";
 
 const axisNames = ["x", "y", "z"];
@@ -32,7 +33,7 @@ function choose(name: string, design: Design) {
 function Place({ label, axis, value, take }: { label: string; axis: number; value: number; take: (mm: number) => void }) {
   const { design } = useStore();
   const [lo, hi] = design!.bounds_mm.map((corner) => corner[axis]);
-  return <input type="range" aria-label={label} title={label} min={lo} max={hi} step={(hi - lo) / 200} value={value} onInput={(e) => take(+e.currentTarget.value)} />;
+  return <Slider label={label} min={lo} max={hi} step={(hi - lo) / 200} value={value} take={take} />;
 }
 
 function Wedge({ cut }: { cut: Cut }) {

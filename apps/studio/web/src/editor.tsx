@@ -11,7 +11,7 @@ import { classHighlighter } from "@lezer/highlight";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { formatted } from "./format";
 import { complete, hover, vcad } from "./language";
-import { edited, keepAsDesign, newFile, reveal, save, setEditor, settle } from "./session";
+import { edited, freeName, keepAsDesign, newFile, reveal, save, setEditor, settle } from "./session";
 import { Diagnostic, set, state, useStore } from "./store";
 
 const fromElsewhere = Annotation.define<boolean>();
@@ -74,19 +74,43 @@ function makeEditor(parent: HTMLElement): EditorView {
       if (update.docChanged && !update.transactions.some((t) => t.annotation(fromElsewhere))) edited();
     }),
   ];
+  // The states of other files, so that undo goes on where it was when a person comes back to a file.
+  const others = new Map<string, EditorState>();
+  const mostOthers = 40;
+  const leave = (file: string) => {
+    if (!file || view.state.readOnly) return;
+    others.delete(file);
+    others.set(file, view.state);
+    if (others.size > mostOthers) others.delete(others.keys().next().value!);
+  };
+  const change = (text: string) => {
+    const head = Math.min(view.state.selection.main.head, text.length);
+    view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text }, selection: { anchor: head }, annotations: fromElsewhere.of(true) });
+  };
   const extended = () => [...extensions, isPython() ? pythonLanguage : vcad, EditorState.readOnly.of(state.kind !== "")];
   const view: EditorView = new EditorView({ parent, state: EditorState.create({ extensions: extended() }) });
   setEditor({
     text: () => view.state.doc.toString(),
     replace(text) {
-      const isNew = view.state.doc.length === 0 && undoDepth(view.state) === 0;
-      const head = Math.min(view.state.selection.main.head, text.length);
-      if (isNew || view.dom.dataset.file !== state.file) {
-        view.setState(EditorState.create({ doc: text, extensions: extended() }));
-        view.dom.dataset.file = state.file;
+      const before = view.dom.dataset.file ?? "";
+      if (before === state.file) {
+        const isUntouched = view.state.doc.length === 0 && undoDepth(view.state) === 0;
+        if (isUntouched) view.setState(EditorState.create({ doc: text, extensions: extended() }));
+        else change(text);
         return;
       }
-      view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text }, selection: { anchor: head }, annotations: fromElsewhere.of(true) });
+      leave(before);
+      view.dom.dataset.file = state.file;
+      const known = state.kind === "" ? others.get(state.file) : undefined;
+      others.delete(state.file);
+      view.setState(known ?? EditorState.create({ doc: text, extensions: extended() }));
+      if (view.state.doc.toString() !== text) change(text);
+    },
+    rename(from, to) {
+      const known = others.get(from);
+      others.delete(from);
+      if (known) others.set(to, known);
+      if ((view.dom.dataset.file ?? "") === from) view.dom.dataset.file = to;
     },
     write: (from, to, insert) => view.dispatch({ changes: { from, to, insert } }),
     reveal(from, to) {
@@ -157,17 +181,10 @@ function Welcome() {
   return (
     <div class="bar">
       <span>{files.length > 0 ? "Choose a design above, or make a new one." : "There is no design in this folder yet."}</span>
-      <button class="main" onClick={() => newFile(freeName()).then(() => set({ panel: "variables" }))}>Begin with a ball</button>
+      <button class="main" onClick={() => newFile(freeName("part")).then(() => set({ panel: "variables" }))}>Begin with a ball</button>
       <button onClick={() => set({ panel: "examples" })}>See examples</button>
     </div>
   );
-}
-
-function freeName(): string {
-  for (let n = 1; ; ++n) {
-    const name = n === 1 ? "part.vcad" : `part_${n}.vcad`;
-    if (!state.files.includes(name)) return name;
-  }
 }
 
 export function EditorPane() {

@@ -1,5 +1,6 @@
 // The list of this server's jobs, of all kinds.
 import { useState } from "preact/hooks";
+import { downloadJob } from "./files";
 import { printerOf } from "./joboptions";
 import { changeJob, openFolder } from "./session";
 import { Job, useStore } from "./store";
@@ -39,10 +40,11 @@ function JobRow({ job }: { job: Job }) {
       </span>
       {job.message && <p class="error">{job.message}</p>}
       <Report job={job} />
-      {may("done") && job.path && job.path !== job.folder && <JobFolder job={job} />}
+      {may("done") && job.path && job.path !== job.folder && !job.is_download && <JobFolder job={job} />}
       <span class="controls">
+        {may("done") && job.path && job.path !== job.folder && <button onClick={() => downloadJob(job)}>{isSlice ? "Download as zip" : "Download"}</button>}
         {may("working", "waiting") && <button onClick={() => changeJob(job, "pause")}>Pause</button>}
-        {may("paused", "cancelled", "failed", "interrupted") && <button onClick={() => changeJob(job, "resume")}>Resume</button>}
+        {may("paused", "cancelled", "failed", "interrupted") && <button onClick={() => changeJob(job, "resume")}>{job.resumes ? "Resume" : "Start again"}</button>}
         {may("working", "waiting", "paused", "interrupted") && <button onClick={() => changeJob(job, "cancel")}>Cancel</button>}
       </span>
     </li>

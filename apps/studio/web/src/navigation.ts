@@ -1,31 +1,30 @@
 // Moves the camera by mouse, fingers and keys, for the views that share it.
 import { RefObject } from "preact";
 import { fitted, panned, turned, views, zoomed } from "./camera";
+import { followFingers } from "./fingers";
 import { set, state } from "./store";
 
 const degreesPerPixel = 0.4;
 
 export function moveByPointer(canvas: RefObject<HTMLCanvasElement>) {
-  let last: { x: number; y: number } | undefined;
+  const mm = () => state.camera!.height / canvas.current!.clientHeight;
   return {
-    onPointerDown(event: PointerEvent) {
-      last = { x: event.clientX, y: event.clientY };
-      canvas.current!.setPointerCapture(event.pointerId);
-    },
-    onPointerMove(event: PointerEvent) {
-      if (!last || !state.camera || event.buttons === 0) return;
-      const dx = event.clientX - last.x,
-        dy = event.clientY - last.y;
-      last = { x: event.clientX, y: event.clientY };
-      const isPan = event.buttons !== 1 || event.shiftKey || event.ctrlKey;
-      const mm = state.camera.height / canvas.current!.clientHeight;
-      set({ camera: isPan ? panned(state.camera, dx * mm, dy * mm) : turned(state.camera, -dx * degreesPerPixel, dy * degreesPerPixel) });
-    },
-    onPointerUp: () => (last = undefined),
+    ...followFingers({
+      one(dx, dy, event) {
+        if (!state.camera) return;
+        const isPan = event.buttons !== 1 || event.shiftKey || event.ctrlKey;
+        set({ camera: isPan ? panned(state.camera, dx * mm(), dy * mm()) : turned(state.camera, -dx * degreesPerPixel, dy * degreesPerPixel) });
+      },
+      two(dx, dy, by) {
+        if (state.camera) set({ camera: zoomed(panned(state.camera, dx * mm(), dy * mm()), by) });
+      },
+    }),
     onContextMenu: (event: Event) => event.preventDefault(),
     onWheel(event: WheelEvent) {
       event.preventDefault();
-      if (state.camera) set({ camera: zoomed(state.camera, Math.exp(-event.deltaY / 600)) });
+      // A pinch on a touchpad comes as a wheel with Ctrl, in smaller steps.
+      const pace = event.ctrlKey ? 100 : 600;
+      if (state.camera) set({ camera: zoomed(state.camera, Math.exp(-event.deltaY / pace)) });
     },
   };
 }

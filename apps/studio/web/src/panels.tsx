@@ -1,14 +1,15 @@
 // The panels beside the views: variables, materials, slicing, the reference of nodes.
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { FileMenu, mayNameFile } from "./filechoice";
 import { listExamples, openExample } from "./files";
 import { page } from "./language";
-import { compare, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
+import { compare, connection, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
 import { NodeForm } from "./nodeform";
 import { Presets } from "./presets";
 import { JobList } from "./joblist";
 import { OptionForm, optionWords } from "./joboptions";
 import { Kinds } from "./kinds";
+import { Slider } from "./slider";
 import { Amount, NodeType, State, Value, Variable, set, state, useStore } from "./store";
 
 function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
@@ -122,8 +123,8 @@ function Materials() {
           <div class="material">
             <span class="swatch" style={{ background: `rgb(${m.colour.slice(0, 3).join(",")})` }} />
             <label for={`opacity-${m.name}`}>{m.name}</label>
-            <input id={`opacity-${m.name}`} type="range" min={0} max={1} step={0.01} value={opacity[m.name] ?? usual} aria-label={`Opacity of ${m.name}`}
-                   onInput={(e) => set({ opacity: { ...state.opacity, [m.name]: +e.currentTarget.value } })} />
+            <Slider id={`opacity-${m.name}`} label={`Opacity of ${m.name}`} min={0} max={1} step={0.01} value={opacity[m.name] ?? usual}
+                    take={(value) => set({ opacity: { ...state.opacity, [m.name]: value } })} />
             {own && <span class="amount">{amountText(own)}</span>}
           </div>
         );
@@ -314,6 +315,24 @@ function Reference() {
   );
 }
 
+// The picture of an example, which is asked for when it comes into view.
+function ExamplePicture({ name }: { name: string }) {
+  const place = useRef<HTMLSpanElement>(null);
+  const [url, setUrl] = useState("");
+  useEffect(() => {
+    const observer = new IntersectionObserver(async ([entry]) => {
+      if (!entry.isIntersecting) return;
+      observer.disconnect();
+      const reply = await connection.ask("example_picture", { name }).answer.catch(() => undefined);
+      if (reply?.bytes) setUrl(URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })));
+    });
+    observer.observe(place.current!);
+    return () => observer.disconnect();
+  }, [name]);
+  useEffect(() => () => URL.revokeObjectURL(url), [url]);
+  return <span class="picture" ref={place}>{url && <img src={url} alt={`The example ${name}`} />}</span>;
+}
+
 function Examples() {
   const [examples, setExamples] = useState<{ name: string; sentence: string }[]>([]);
   const { status } = useStore();
@@ -326,9 +345,12 @@ function Examples() {
       {field}
       <ul class="examples">
         {found.map((e) => (
-          <li>
-            <strong>{e.name}</strong> {e.sentence}
-            <button aria-label={`Open a copy of ${e.name}`} onClick={() => openExample(e.name)}>Open a copy</button>
+          <li key={e.name}>
+            <ExamplePicture name={e.name} />
+            <span class="words">
+              <strong>{e.name}</strong> {e.sentence}
+              <button aria-label={`Open a copy of ${e.name}`} onClick={() => openExample(e.name)}>Open a copy</button>
+            </span>
           </li>
         ))}
       </ul>

@@ -3,6 +3,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Refused, Reply } from "./connection";
 import { connection } from "./session";
+import { Slider } from "./slider";
 import { state, useStore } from "./store";
 
 interface Scan {
@@ -197,16 +198,14 @@ function Planes({ scan }: { scan: Scan }) {
   return (
     <>
       <div class="viewbar">
-        <label class="grow">
+        <span class="grow">
           Level
-          <input type="range" id="scan-level" min={scan.least} max={scan.greatest} step={width / 500} value={level} onInput={(e) => show(+e.currentTarget.value, window)} />
-          <output>{short(+level.toPrecision(4))}</output>
-        </label>
-        <label class="grow">
+          <Slider id="scan-level" label="Level" min={scan.least} max={scan.greatest} step={width / 500} value={level} take={(value) => show(value, window)} />
+        </span>
+        <span class="grow">
           Window
-          <input type="range" id="scan-window" min={width / 500} max={width} step={width / 500} value={window} onInput={(e) => show(level, +e.currentTarget.value)} />
-          <output>{short(+window.toPrecision(4))}</output>
-        </label>
+          <Slider id="scan-window" label="Window" min={width / 500} max={width} step={width / 500} value={window} take={(value) => show(level, value)} />
+        </span>
         <button onClick={() => setShown(scan.shown)}>Most values</button>
         <button onClick={() => setShown([scan.least, scan.greatest])}>All values</button>
       </div>

@@ -1,8 +1,10 @@
 // Actions of the page: it opens, saves, evaluates, slices. Components call them; answers go into the store.
 import { Connection, Refused, Reply } from "./connection";
 import { listFileChoices } from "./filechoice";
+import { Draft, dropDraft, keepDraft, keptDraft, keptDrafts, keptView, renameKept, takeEarlyText } from "./kept";
+import { Link, takeLink } from "./links";
 import { hearPresets, listPresets } from "./presets";
-import { DataFile, Hello, Job, JobOption, JobOptions, Mark, Plan, State, Value, set, state } from "./store";
+import { DataFile, Diagnostic, Hello, Job, JobOption, JobOptions, Mark, Plan, State, Value, set, state } from "./store";
 
 // The part of the editor that the session needs.
 export interface Editor {
@@ -11,6 +13,7 @@ export interface Editor {
   write(from: number, to: number, text: string): void;
   reveal(from: number, to: number): void;
   setDiagnostics(): void;
+  rename(from: string, to: string): void; // what is kept of a file belongs to its new name
 }
 
 let editor: Editor | undefined;
@@ -33,8 +36,8 @@ export function setEditor(made: Editor) {
   editor = made;
 }
 
-const draftKey = (file: string) => `ombre:draft:${state.hello?.folder}:${file}`;
-const jobsKey = () => `ombre:jobs:${state.hello?.folder}`;
+let isNew = false; // the open file is not on the disk yet
+let link: Link | undefined = takeLink();
 
 // Keeps only options that the server knows, since another version of the program may have saved them.
 const knownOptions = (hello: Hello) =>
@@ -48,11 +51,47 @@ async function greet() {
   const hello = (await connection.ask("hello").answer) as any;
   const isFirst = !state.hello;
   set({ status: "open", hello, files: hello.files, data: hello.data, options: knownOptions(hello) });
-  adoptJobs((await connection.ask("jobs").answer).jobs);
+  hello.drafts = [...new Set([...hello.drafts, ...keptDrafts()])];
+  set({ jobs: (await connection.ask("jobs").answer).jobs });
   if (!isFirst) return comeBack();
-  const last = localStorage.getItem(`ombre:file:${hello.folder}`);
-  const first = hello.file || (last && (hello.files.includes(last) || hello.data.some((d: DataFile) => d.name === last)) ? last : hello.files.find((f: string) => f.endsWith(".vcad")));
+  if (await adoptEarlyText()) return;
+  const first = firstFile(hello);
   if (first) await openFile(first);
+}
+
+function firstFile(hello: Hello): string | undefined {
+  const isThere = (file: string) => hello.files.includes(file) || hello.data.some((d: DataFile) => d.name === file) || hello.drafts.includes(file);
+  const last = localStorage.getItem(`ombre:file:${hello.folder}`);
+  if (link) return link.file;
+  if (hello.file) return hello.file;
+  if (last && isThere(last)) return last;
+  return hello.files.find((file) => file.endsWith(".vcad")) ?? hello.drafts[0];
+}
+
+export function freeName(stem: string): string {
+  const isTaken = (name: string) => state.files.includes(name) || state.hello?.drafts.includes(name);
+  for (let n = 1; ; ++n) {
+    const name = n === 1 ? `${stem}.vcad` : `${stem}_${n}.vcad`;
+    if (!isTaken(name)) return name;
+  }
+}
+
+// Text that was typed before the server answered becomes a new file.
+async function adoptEarlyText(): Promise<boolean> {
+  const early = takeEarlyText();
+  const typed = isNew ? editor!.text() : "";
+  const text = typed || early;
+  if (!text) return false;
+  const name = freeName("untitled");
+  if (isNew) editor!.rename(state.file, name);
+  set({ file: name, kind: "" });
+  isNew = true;
+  if (!typed) editor!.replace(text);
+  keepDraft(name, text, "");
+  localStorage.setItem(`ombre:file:${state.hello?.folder}`, name);
+  await save();
+  evaluate();
+  return true;
 }
 
 // Continues after the server was away. Text typed meanwhile is kept, unless the disk has something new.
@@ -72,38 +111,56 @@ function fromDisk(text: string): string {
 }
 
 export function isDirty(): boolean {
-  return editor !== undefined && state.file !== "" && state.kind === "" && editor.text() !== savedText;
+  return editor !== undefined && state.file !== "" && state.kind === "" && (isNew || editor.text() !== savedText);
+}
+
+// Reads a file. One that was never saved has a draft alone.
+async function readFile(file: string): Promise<Reply> {
+  try {
+    return await connection.ask("open", { file }).answer;
+  } catch (error) {
+    const isMissing = !state.files.includes(file) && !state.data.some((d) => d.name === file);
+    if (isMissing && keptDraft(file)) return { text: "", version: "", kind: "" };
+    throw error;
+  }
 }
 
 export async function openFile(file: string) {
   if (isDirty()) await save();
   try {
-    const disk = await connection.ask("open", { file }).answer;
+    const disk = await readFile(file);
     version = disk.version;
     savedText = fromDisk(disk.text);
     sentText = undefined;
     ownTexts = [];
+    ++loads; // an answer about another file no longer counts
     const kind = disk.kind as State["kind"];
-    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], variables: [], plan: undefined,
-          probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", problem: "", z: NaN, isOld: false });
+    isNew = kind === "" && version === "";
+    const linked = link?.file === file ? link : undefined;
+    link = undefined;
+    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], opacity: {}, values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], echo: [], variables: [], plan: undefined,
+          planProblem: "", probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", saveProblem: "", problem: "", z: NaN, isOld: false, isBusy: false, isRunning: false,
+          ...keptView(file), ...linked?.view, ...(linked?.tab ? { view: linked.tab } : {}) });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
     listPresets();
     if (kind === "scan") set({ view: "planes" });
     if (kind === "results" && !["surface", "slices"].includes(state.view)) set({ view: "surface" });
     if (kind !== "") return showData(disk);
     let text = savedText;
-    const draft = JSON.parse(localStorage.getItem(draftKey(file)) ?? "null");
+    const draft = newest(keptDraft(file), disk.draft);
     if (draft && draft.text !== savedText) {
       text = draft.text;
       if (draft.version !== version) set({ conflict: { text: disk.text, version: disk.version }, saved: "unsaved" });
     }
     editor!.replace(text);
     evaluate();
-    if (text !== savedText && !state.conflict) save();
+    if ((text !== savedText || (isNew && draft)) && !state.conflict) save();
   } catch (error) {
     set({ problem: String((error as Error).message) });
   }
 }
+
+const newest = (a: Draft | null, b: Draft | undefined) => (a && b ? (a.time >= b.time ? a : b) : (a ?? b));
 
 // Shows a scan or results by the script that comes with them.
 function showData(disk: Reply) {
@@ -123,6 +180,43 @@ export async function newFile(name: string, text = firstText): Promise<string> {
   return name;
 }
 
+// Gives the open file another name. Its text, its undo and how it was seen go with it.
+export async function renameOpenFile(to: string) {
+  const from = state.file;
+  if (isDirty()) await save();
+  await connection.ask("rename", { from, to }).answer;
+  await connection.ask("open", { file: to }).answer; // the server tells changes of files that were opened
+  renameKept(from, to);
+  editor!.rename(from, to);
+  localStorage.setItem(`ombre:file:${state.hello?.folder}`, to);
+  set({ file: to });
+  await listFiles();
+  evaluate();
+  listPresets();
+}
+
+// Moves the open file into the trash, and shows another one. Returns its place there.
+export async function deleteOpenFile(): Promise<string> {
+  const file = state.file;
+  clearTimeout(saveTimer);
+  await saving;
+  const reply = await connection.ask("delete", { file }).answer;
+  dropDraft(file);
+  savedText = editor!.text(); // it is not written again
+  set({ saved: "saved", conflict: undefined });
+  await listFiles();
+  const other = state.files[0] ?? state.data[0]?.name;
+  if (other) await openFile(other);
+  else closeFile();
+  return reply.trash;
+}
+
+function closeFile() {
+  version = savedText = "";
+  set({ file: "", kind: "", design: undefined, plan: undefined, variables: [], values: {}, diagnostics: [], conflict: undefined, camera: undefined, saved: "saved", isOld: false });
+  editor!.replace("");
+}
+
 export async function listFiles() {
   const { files, data } = await connection.ask("list").answer;
   set({ files, data });
@@ -139,13 +233,45 @@ export async function keepAsDesign(): Promise<string> {
   }
 }
 
-let saveTimer = 0;
+let saveTimer = 0, draftTimer = 0;
+let sentDraft: { file: string; isKept: Promise<unknown> } | undefined;
 export function edited() {
-  localStorage.setItem(draftKey(state.file), JSON.stringify({ text: editor!.text(), version }));
+  if (!state.file) beginFile();
+  keepDraft(state.file, editor!.text(), version);
   set({ saved: "unsaved" });
   clearTimeout(saveTimer);
   saveTimer = window.setTimeout(save, 800);
+  draftTimer ||= window.setTimeout(sendDraft, 1000);
   evaluate(200);
+}
+
+// What is typed before a file is open belongs to a new one.
+function beginFile() {
+  const file = freeName("untitled");
+  version = savedText = "";
+  isNew = true;
+  editor!.rename("", file);
+  set({ file, kind: "" });
+  localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
+}
+
+// Gives the server a text that is not in its file yet, so that it also outlives this browser.
+async function sendDraft() {
+  draftTimer = 0;
+  if (!isDirty() || !connection.isOpen) return;
+  const { file } = state;
+  sentDraft = { file, isKept: connection.ask("keep_draft", { file, text: editor!.text(), version }).answer.catch(() => undefined) };
+  await sentDraft.isKept;
+}
+
+// Removes the draft from the server, once it is there, so that it does not come after the saved text.
+async function removeDrafts(file: string) {
+  dropDraft(file);
+  if (sentDraft?.file !== file) return;
+  const { isKept } = sentDraft;
+  sentDraft = undefined;
+  await isKept;
+  await connection.ask("drop_draft", { file }).answer.catch(() => undefined);
 }
 
 export function save(): Promise<void> {
@@ -170,12 +296,19 @@ async function saveNow() {
     version = reply.saved || onDisk === text || isOwn ? reply.version : version;
     // A version that this window, or another one with the same text, has just saved does not count as a change by others.
     if (isOwn && onDisk !== text) return await saveNow();
-    if (!reply.saved && onDisk !== text) return set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
+    if (!reply.saved && onDisk !== text) {
+      set({ saved: "unsaved", conflict: { text: reply.text, version: reply.version } });
+      return void sendDraft();
+    }
     savedText = text;
-    if (editor.text() === text) localStorage.removeItem(draftKey(file));
+    if (isNew) listFiles();
+    isNew = false;
+    if (editor.text() === text) removeDrafts(file);
     set({ saved: editor.text() === text ? "saved" : "unsaved", saveProblem: "" });
   } catch (error) {
+    if (file !== state.file) return;
     set({ saved: "failed", saveProblem: (error as Error).message });
+    sendDraft();
   }
 }
 
@@ -184,7 +317,7 @@ function takeFromDisk(disk: Reply) {
   if (fromDisk(disk.text) === editor!.text()) {
     version = disk.version;
     savedText = editor!.text();
-    localStorage.removeItem(draftKey(state.file));
+    removeDrafts(state.file);
     return set({ saved: "saved", saveProblem: "", conflict: undefined });
   }
   if (fromDisk(disk.text) === sentText) {
@@ -210,7 +343,9 @@ export function settle(mine: boolean) {
     return;
   }
   savedText = fromDisk(disk.text);
-  localStorage.removeItem(draftKey(state.file));
+  isNew = false;
+  dropDraft(state.file);
+  connection.ask("drop_draft", { file: state.file }).answer.catch(() => undefined);
   set({ conflict: undefined, saved: "saved" });
   editor!.replace(savedText);
   evaluate();
@@ -219,6 +354,9 @@ export function settle(mine: boolean) {
 async function heard(name: string, members: Reply) {
   if (name === "job") return takeJob(members.job);
   if (name === "presets") return hearPresets(members.file, members.presets);
+  if (name === "list") return set({ files: members.files, data: members.data });
+  if (name === "zipping") return set({ transfer: { name: members.name, share: members.share } });
+  if (name === "said") return hearScript(members.file, members.line);
   if (name !== "changed") return;
   await saving;
   if (members.file !== state.file) return evaluate(100);
@@ -232,6 +370,12 @@ async function heard(name: string, members: Reply) {
   }
   takeFromDisk(disk);
   evaluate();
+}
+
+// What a Python script says while it runs.
+function hearScript(file: string, line: string) {
+  const mostLines = 200;
+  if (state.isRunning && file === state.file && state.echo.length < mostLines) set({ echo: [...state.echo, line] });
 }
 
 // An edit cancels the running evaluation; a slider waits for it, so that something is seen while it moves.
@@ -277,6 +421,12 @@ export async function runPython() {
   if (!state.conflict) load(true);
 }
 
+export function stopPython() {
+  ++loads;
+  connection.cancelLane("load");
+  set({ isBusy: false, isRunning: false, problem: "The script was stopped." });
+}
+
 // Lists the values that the page sets instead of those in the text, for variables that the text still has.
 function definitions(): string[] {
   const known = new Set(state.variables.map((v) => v.name));
@@ -296,18 +446,21 @@ let shown = { file: "", text: "", definitions: [] as string[], rotate: [0, 0, 0]
 
 let loads = 0;
 
+// Mistakes stand in the order of the text; those of other files come first.
+const inOrder = (diagnostics: Diagnostic[]) => [...diagnostics].sort((a, b) => (a.from ?? -1) - (b.from ?? -1));
+
 async function load(isRun = false) {
   if (!editor || !state.file || !connection.isOpen || state.kind === "table") return;
   if (isPython() && !isRun) return set({ isOld: state.design !== undefined, problem: "" });
   isLoading = true;
   isWanted = false;
   const number = ++loads;
-  set({ isBusy: true });
+  set({ isBusy: true, ...(isRun ? { isRunning: true, echo: [], problem: "" } : {}) });
   const sent = { file: state.file, text: editor.text(), definitions: definitions(), rotate: state.rotate };
   try {
     const reply = await connection.ask("load", { ...sent, ...(isRun ? { run: true } : {}) }, "load").answer;
     if (number !== loads) return; // the answer crossed the cancelling by a newer one
-    const change: any = { isBusy: false, problem: "", diagnostics: reply.diagnostics, echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
+    const change: any = { isBusy: false, isRunning: false, problem: "", diagnostics: inOrder(reply.diagnostics), echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
     if (reply.ok && state.kind === "results") change.by = fieldToShow(reply.attributes);
     if (reply.ok) shown = sent;
@@ -319,7 +472,7 @@ async function load(isRun = false) {
   } catch (error) {
     const refused = error as Refused;
     if (refused.isCancelled || number !== loads) return;
-    set({ isBusy: false, isOld: state.design !== undefined, problem: refused.message, diagnostics: [], variables: refused.code === "unsupported" ? [] : state.variables });
+    set({ isBusy: false, isRunning: false, isOld: state.design !== undefined, problem: refused.message, diagnostics: [], variables: refused.code === "unsupported" ? [] : state.variables });
     editor.setDiagnostics();
   } finally {
     isLoading = false;
@@ -442,30 +595,21 @@ export async function probe(at: number[]) {
   }
 }
 
-// Takes over the jobs that were under way when a server ended, so that they can go on.
-function adoptJobs(jobs: Job[]) {
-  const before: Job[] = JSON.parse(localStorage.getItem(jobsKey()) ?? "[]");
-  const cut = before
-    .filter((job) => ["working", "waiting", "paused", "interrupted"].includes(job.state) && !jobs.some((j) => j.folder === job.folder))
-    .map((job) => ({ ...job, state: "interrupted" as const }));
-  setJobs([...jobs, ...cut]);
-}
-
-function setJobs(jobs: Job[]) {
-  set({ jobs });
-  localStorage.setItem(jobsKey(), JSON.stringify(jobs));
-}
-
 function takeJob(job: Job) {
-  const before = state.jobs.find((known) => known.folder === job.folder);
-  const others = state.jobs.filter((known) => known.folder !== job.folder);
-  setJobs([...others, { ...job, rotate: job.rotate ?? before?.rotate }]);
+  set({ jobs: [...state.jobs.filter((known) => known.id !== job.id && known.path !== job.path), job] });
+  dispatchEvent(new Event("jobs"));
+}
+
+// Takes a job that was just started. News of it may have come before.
+export function noteJob(job: Job) {
+  if (state.jobs.some((known) => known.id === job.id)) dispatchEvent(new Event("jobs"));
+  else takeJob(job);
 }
 
 export async function startExport(folder: string, replace: boolean): Promise<string> {
   try {
     const reply = await about("export", { folder, file: state.file, replace, ...state.options }, "");
-    takeJob({ ...reply.job, rotate: state.rotate });
+    noteJob(reply.job);
     return "";
   } catch (error) {
     return (error as Error).message;
@@ -476,8 +620,7 @@ export async function startExport(folder: string, replace: boolean): Promise<str
 export async function startKind(kind: string, options: JobOptions, replace: boolean): Promise<string> {
   try {
     const given = Object.fromEntries(Object.entries(options).filter(([, value]) => value !== "" && value !== false));
-    const reply = await about("run", { kind, file: state.file, options: given, replace }, "");
-    takeJob(reply.job);
+    noteJob((await about("run", { kind, file: state.file, options: given, replace }, "")).job);
     return "";
   } catch (error) {
     return (error as Error).message;
@@ -485,19 +628,7 @@ export async function startKind(kind: string, options: JobOptions, replace: bool
 }
 
 export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
-  if (job.state === "interrupted") {
-    if (to === "cancel") return setJobs(state.jobs.filter((known) => known !== job));
-    if (job.file && job.file !== state.file) return set({ problem: `open ${job.file} to go on with its layers` });
-    if (job.kind !== "slice") return startKind(job.kind, job.options, true);
-    set({ options: job.options });
-    if (job.rotate && job.rotate.join() !== state.rotate.join()) {
-      set({ rotate: job.rotate });
-      await load();
-    }
-    await plan();
-    return startExport(job.folder, false);
-  }
-  await connection.ask("change_export", { job: job.id, to }).answer.catch(() => undefined);
+  await connection.ask("change_export", { job: job.id, to }).answer.catch((error) => set({ problem: (error as Error).message }));
 }
 
 export const reveal = (from: number, to: number) => editor?.reveal(from, to);

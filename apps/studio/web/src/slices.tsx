@@ -1,8 +1,10 @@
 // Shows layers at the printer's resolution: pixels are those of the job's files.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { length } from "./camera";
+import { followFingers } from "./fingers";
 import { OptionControl } from "./joboptions";
 import { probe, reveal } from "./session";
+import { Slider } from "./slider";
 import { NodeCall, Plan, set, state, useStore } from "./store";
 import { Legend, ScaleBar } from "./surface";
 import { Tile, Tiles, tileSize } from "./tiles";
@@ -55,6 +57,15 @@ class Painter {
     const problem = tiles.find((tile) => tile.problem)?.problem;
     if (problem && state.planProblem !== problem) set({ planProblem: problem });
     Object.assign(canvas.dataset, { state: "ready", layer, level, design: state.design?.design });
+  }
+
+  // Forgets the layer of another file.
+  clear() {
+    if (state.design) return;
+    this.before = this.look = undefined;
+    this.canvas.getContext("2d")!.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    delete this.canvas.dataset.state;
+    delete this.canvas.dataset.design;
   }
 
   // Returns columns and rows of the tiles in view.
@@ -147,41 +158,51 @@ function ProbeCard() {
   );
 }
 
-function pointerMoves(painter: () => Painter) {
-  let last: { x: number; y: number; moved: number } | undefined;
+// A finger or the mouse moves the layer, two fingers also zoom it. A click that moves nothing probes.
+function pointerMoves(painter: () => Painter, zoom: (by: number, at: { x: number; y: number }) => void) {
+  let moved = 4;
+  const move = (dx: number, dy: number) => {
+    const { look } = painter();
+    if (!look) return;
+    painter().look = { ...look, x: look.x - dx * look.scale, y: look.y + dy * look.scale };
+    painter().paint();
+  };
+  const fingers = followFingers({
+    begin: () => (moved = 0),
+    one: (dx, dy) => {
+      moved += Math.abs(dx) + Math.abs(dy);
+      if (moved >= 4) move(dx, dy);
+    },
+    two: (dx, dy, by, at) => {
+      moved = 4;
+      move(dx, dy);
+      zoom(by, at);
+    },
+  });
   return {
-    onPointerDown(event: PointerEvent) {
-      last = { x: event.clientX, y: event.clientY, moved: 0 };
-      (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
-    },
-    onPointerMove(event: PointerEvent) {
-      const { look } = painter();
-      if (!last || !look || event.buttons === 0) return;
-      const dx = event.clientX - last.x, dy = event.clientY - last.y;
-      last = { x: event.clientX, y: event.clientY, moved: last.moved + Math.abs(dx) + Math.abs(dy) };
-      if (last.moved < 4) return;
-      painter().look = { ...look, x: look.x - dx * look.scale, y: look.y + dy * look.scale };
-      painter().paint();
-    },
+    ...fingers,
     onPointerUp(event: PointerEvent) {
-      if (last && last.moved < 4 && state.plan && painter().look) probe(painter().pointAt(event.offsetX, event.offsetY));
-      last = undefined;
+      if (moved < 4 && state.plan && painter().look) probe(painter().pointAt(event.offsetX, event.offsetY));
+      moved = 4;
+      fingers.onPointerUp(event);
     },
   };
 }
 
 export function SliceView() {
-  const { plan, planProblem, z, design, isOld } = useStore();
+  const { plan, planProblem, z, design, isOld, file } = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const painter = useRef<Painter>();
   const [, redraw] = useState({});
-  const pointer = useMemo(() => pointerMoves(() => painter.current!), []);
+  const zoomNow = useRef<(by: number, at?: { x: number; y: number }) => void>(() => undefined);
+  const pointer = useMemo(() => pointerMoves(() => painter.current!, (by, at) => zoomNow.current(by, at)), []);
   useEffect(() => {
     painter.current = new Painter(canvas.current!);
     const size = new ResizeObserver(() => painter.current!.paint());
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
+  useEffect(() => painter.current!.clear(), [file, design === undefined]);
   useEffect(() => {
     const p = painter.current!;
     if (plan && !p.look && canvas.current!.clientWidth > 0) {
@@ -200,6 +221,7 @@ export function SliceView() {
     p.paint();
     redraw({});
   };
+  zoomNow.current = zoom;
   const refit = () => {
     if (plan) painter.current!.look = fit(plan, canvas.current!);
     redraw({});
@@ -231,13 +253,13 @@ export function SliceView() {
       <div class="viewbar">
         <OptionControl name="printer" />
         <OptionControl name="dither" />
-        <label class="grow">
+        <span class="grow">
           Layer
-          <input type="range" min={0} max={plan ? plan.count[2] - 1 : 0} value={layer} disabled={!plan}
-                 onInput={(e) => setLayer(+e.currentTarget.value)} aria-valuetext={`layer ${layer}, z ${z.toFixed(3)} mm`} />
-        </label>
+          <Slider label="Layer" min={0} max={plan ? plan.count[2] - 1 : 0} step={1} value={layer} isDisabled={!plan}
+                  take={(value) => setLayer(Math.round(value))} valueText={`layer ${layer}, z ${z.toFixed(3)} mm`} />
+        </span>
         <output class="layer">
-          {layer} · z {isFinite(z) ? z.toFixed(3) : "–"} mm
+          z {isFinite(z) ? z.toFixed(3) : "–"} mm
         </output>
         <span class="controls">
           <button onClick={() => zoom(2)} aria-label="Zoom in">+</button>

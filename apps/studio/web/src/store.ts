@@ -80,7 +80,7 @@ export interface CurvePoint {
 }
 
 // The kind of a file beside designs.
-export type DataKind = "scan" | "results" | "table";
+export type DataKind = "scan" | "results" | "table" | "model";
 export interface DataFile {
   name: string;
   kind: DataKind;
@@ -103,6 +103,7 @@ export interface Hello {
   file: string;
   opens_folders: boolean;
   files: string[];
+  data: DataFile[];
   printers: { name: string; title: string }[];
   job_options: JobOption[]; // options of `ombre slice`
   kinds: JobKind[]; // kinds of other jobs
@@ -110,6 +111,7 @@ export interface Hello {
   nodes: NodeType[];
   functions: { name: string; signature: string }[];
   endings: string[]; // of files that designs read
+  drafts: string[]; // files with a text that is not on the disk
 }
 
 export interface Plan {
@@ -127,7 +129,8 @@ export interface Job {
   id: number;
   state: "waiting" | "working" | "paused" | "done" | "failed" | "cancelled" | "interrupted";
   path: string; // absolute path of the folder
-  rotate?: number[]; // kept by the page alone
+  resumes: boolean; // it goes on from where it was interrupted; others begin again
+  is_download: boolean; // its output is fetched by the browser
   kind: string; // "slice", "mesh", ...
   folder: string; // folder or file that it writes, or its subject
   file: string;
@@ -276,6 +279,18 @@ export interface State {
   theme: "system" | "light" | "dark";
   turntable?: number; // share of the turntable that is made, while one is under way
   showsKeys: boolean;
+  isRunning: boolean; // a Python script is run
+  transfer?: { name: string; share: number }; // a file that comes in or goes out
+  asking?: Asking;
+}
+
+// A question to the person, in a dialog. A question for a name has a field for it.
+export interface Asking {
+  title: string;
+  text?: string;
+  name?: string;
+  buttons: string[]; // the first is the usual one
+  answer: (button: string, name: string) => void;
 }
 
 // Choices of a person that stay when the page is loaded again.
@@ -318,6 +333,7 @@ export let state: State = {
   panel: "variables",
   theme: "system",
   showsKeys: false,
+  isRunning: false,
   ...known,
 };
 

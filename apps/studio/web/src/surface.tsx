@@ -52,19 +52,20 @@ export function renderMembers(camera: Camera): Record<string, unknown> {
   };
 }
 
+// The canvas gets the proportions of the picture, so that one for an earlier size of the view is never stretched.
 async function drawOne(canvas: HTMLCanvasElement, step: (typeof steps)[0]) {
-  const { camera } = state;
+  const { camera, file } = state;
   if (!camera) return;
   const colours = coloursKey();
-  const ratio = Math.min(devicePixelRatio, 2) * step.share;
-  const width = Math.max(1, Math.round(canvas.clientWidth * ratio)),
-    height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+  const [fullWidth, fullHeight] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * Math.min(devicePixelRatio, 2))));
+  const [width, height] = [fullWidth, fullHeight].map((side) => Math.max(1, Math.round(side * step.share)));
   const started = performance.now();
   const reply = await about("render", { width, height, samples: step.samples, ...renderMembers(camera) }, "surface");
   noteRange(colours, reply.range);
   const picture = await createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" }));
-  canvas.width = Math.round(canvas.clientWidth * Math.min(devicePixelRatio, 2));
-  canvas.height = Math.round(canvas.clientHeight * Math.min(devicePixelRatio, 2));
+  if (state.file !== file) return picture.close(); // another file was opened meanwhile
+  canvas.width = fullWidth;
+  canvas.height = fullHeight;
   const context = canvas.getContext("2d")!;
   context.imageSmoothingEnabled = true;
   context.drawImage(picture, 0, 0, canvas.width, canvas.height);
@@ -97,6 +98,15 @@ class Drawer {
     this.go();
   }
 
+  // Removes the picture of another file.
+  clear() {
+    if (state.design) return;
+    this.canvas.getContext("2d")!.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    delete this.canvas.dataset.state;
+    delete this.canvas.dataset.design;
+    this.tell("");
+  }
+
   private isLeft(): boolean {
     if (!state.design || !state.camera || this.canvas.clientWidth === 0 || !connection.isOpen) return false;
     if (pictureKey() !== this.key) this.step = this.first;
@@ -111,6 +121,7 @@ class Drawer {
     try {
       const begun = performance.now();
       await drawOne(this.canvas, steps[this.step]);
+      if (!state.design) return;
       if (this.step === 1) this.first = performance.now() - begun > longMilliseconds ? 0 : 1;
       this.canvas.dataset.design = design;
       this.tell("");
@@ -229,7 +240,7 @@ export function ViewBar({ others, children }: { others: ComponentChildren; child
 export const attributeOptions = (attributes: { name: string }[] = []) => attributes.map((a) => <option value={a.name}>{a.name}</option>);
 
 export function SurfaceView() {
-  const { design, camera, by, palette, hello } = useStore();
+  const { design, camera, by, palette, hello, file } = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const drawer = useRef<Drawer>();
   const [height, setHeight] = useState(1);
@@ -243,6 +254,7 @@ export function SurfaceView() {
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
+  useEffect(() => drawer.current!.clear(), [file, design === undefined]);
   useEffect(() => placeCamera(canvas.current!), [design]);
   const key = pictureKey();
   useEffect(() => void drawer.current?.go(), [key]);

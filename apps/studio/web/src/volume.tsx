@@ -178,6 +178,16 @@ class VolumePainter {
     this.grid = grid;
   }
 
+  // Removes the grid of another file.
+  clear() {
+    if (state.design) return;
+    this.grid = undefined;
+    this.gl.clearColor(0, 0, 0, 0);
+    this.gl.clear(this.gl.COLOR_BUFFER_BIT);
+    delete this.canvas.dataset.state;
+    delete this.canvas.dataset.design;
+  }
+
   paint() {
     const { gl, canvas, grid } = this;
     const camera = state.camera;
@@ -211,7 +221,7 @@ class VolumePainter {
 }
 
 export function VolumeView() {
-  const { design, camera, cut, perspective, opacity, by: chosen, palette, curves } = useStore();
+  const { design, camera, cut, perspective, opacity, by: chosen, palette, curves, file } = useStore();
   const by = isNumber(design, chosen) ? chosen : "";
   const [range, setRange] = useState<[number, number]>();
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -230,12 +240,14 @@ export function VolumeView() {
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
+  useEffect(() => painter.current?.clear(), [file, design === undefined]);
   useEffect(() => placeCamera(canvas.current!), [design]);
   useEffect(() => {
     if (!design || !painter.current) return;
     canvas.current!.dataset.state = "drawing";
     about("volume", { side, ...(by ? { by } : {}) }, "volume")
       .then((reply) => {
+        if (state.file !== file) return; // another file was opened meanwhile
         painter.current!.take({ ...(reply as any), design: design.design, by }, reply.bytes!);
         painter.current!.paint();
         setRange(reply.range);
