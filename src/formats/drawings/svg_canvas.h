@@ -24,7 +24,7 @@ class SvgCanvas {
   // Warns once of all that is left out, and notes how areas and strokes were chosen.
   void tell_left_out() const;
 
-  // What is drawn, and what is left out.
+  // Returns the shapes that were drawn, and the counts of things that were left out.
   PlaneShapes& drawn() { return drawn_; }
 
  private:

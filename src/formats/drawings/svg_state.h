@@ -1,4 +1,4 @@
-// What an element of an SVG file inherits. Only for builds with pugixml.
+// The style and place that an element of an SVG file inherits. Only for builds with pugixml.
 #pragma once
 
 #include <string_view>
