@@ -23,6 +23,12 @@ std::mutex& library_mutex() {
   return mutex;
 }
 
+// Returns a name that no other file has, since the library takes files in memory with equal names for the same one.
+std::string new_name() {
+  static uint64_t count = 0;
+  return "ombre" + std::to_string(++count) + ".h5";
+}
+
 // A turn to use the library, which prints nothing.
 class Turn {
  public:
@@ -246,7 +252,7 @@ bool ombre_hdf5_write(const std::vector<Hdf5Array>* arrays, std::string* bytes) 
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_fapl_core(access, growth, false);
   H5Pset_obj_track_times(creation, false);
-  const Handle file(H5Fcreate("ombre.h5", H5F_ACC_TRUNC, creation, access), H5Fclose);
+  const Handle file(H5Fcreate(new_name().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   return file.is_open() &&
          std::ranges::all_of(*arrays, [&](const Hdf5Array& array) { return write_array(file, array); }) &&
          take_image(file, *bytes);
@@ -258,6 +264,6 @@ Hdf5File* ombre_hdf5_open(std::string_view bytes) {
   H5Pset_fapl_core(access, growth, false);
   // The library copies the bytes, although it does not take them as constant.
   H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size());  // NOLINT
-  const hid_t file = H5Fopen("ombre.h5", H5F_ACC_RDONLY, access);
+  const hid_t file = H5Fopen(new_name().c_str(), H5F_ACC_RDONLY, access);
   return file < 0 ? nullptr : new OpenFile(file);
 }

@@ -50,11 +50,7 @@ class VtkHdfReader {
 
  private:
   std::unique_ptr<Hdf5File> opened(std::string_view bytes) const {
-    try {
-      if (auto file = open_hdf5(bytes)) return file;
-    } catch (const Error& error) {
-      fail(diagnostics_, name_, error.what());
-    }
+    if (auto file = open_hdf5(bytes)) return file;
     fail(diagnostics_, name_, "this is no file of HDF5, or it is damaged");
   }
 
@@ -302,7 +298,11 @@ class VtkHdfReader {
 }  // namespace
 
 Results read_vtkhdf(const std::string& name, std::string_view bytes, uint64_t step, Diagnostics& diagnostics) {
-  return VtkHdfReader(name, bytes, step, diagnostics).run();
+  try {
+    return VtkHdfReader(name, bytes, step, diagnostics).run();
+  } catch (const Error& error) {
+    fail(diagnostics, name, error.what());
+  }
 }
 
 }  // namespace ombre::formats

@@ -197,18 +197,18 @@ class XdmfReader {
           "the numbers lie in several files: " + formats::quoted(name_of_numbers_) + " and " + formats::quoted(name),
           "save them in one");
     std::string problem;
-    if (auto found = open_numbers(item).numbers(std::string(path), problem)) return std::move(found->values);
+    try {
+      if (auto found = open_numbers(item).numbers(std::string(path), problem)) return std::move(found->values);
+    } catch (const Error& error) {
+      file_.fail_at(item, numbers_->name + ": " + error.what());
+    }
     file_.fail_at(item, formats::quoted(numbers_->name) + " has no numbers at " + formats::quoted(path) +
                             (problem.empty() ? "" : ": " + problem));
   }
 
   // Opens the file of numbers when it is first needed.
   const Hdf5File& open_numbers(xml_node item) {
-    try {
-      if (!hdf5_) hdf5_ = open_hdf5(numbers_->bytes);
-    } catch (const Error& error) {
-      file_.fail_at(item, numbers_->name + ": " + error.what());
-    }
+    if (!hdf5_) hdf5_ = open_hdf5(numbers_->bytes);
     if (!hdf5_) file_.fail_at(item, numbers_->name + ": this is no file of HDF5, or it is damaged");
     return *hdf5_;
   }
