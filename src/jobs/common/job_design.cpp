@@ -21,7 +21,7 @@ std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions&
 }
 
 compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagnostics& diagnostics, int threads) {
-  compile::LoadOptions options{a.materials, a.definitions, a.needed};
+  compile::LoadOptions options = a.load();
   options.echo = [&](const std::string& text) { session.events.say(text); };
   options.stop = &session.stop;
   options.threads = threads;
