@@ -222,12 +222,11 @@ std::shared_ptr<const ScadSolids> ScadRequest::load(sources::Loading& loading) {
   const auto pieces = tree ? pieces_of(tree, *this, loading) : nullptr;
   if (!pieces || !check_pieces(*this, *pieces, reader) || !check_map(*this, *pieces, reader)) return nullptr;
   if (pieces->empty()) return std::make_shared<const ScadSolids>();
-  const solids::Pieces own = of_part(*this, *pieces, reader);
+  solids::Pieces own = of_part(*this, *pieces, reader);
+  std::erase_if(own, [](const solids::Piece& piece) { return !piece.solid(); });
   if (own.empty()) return nullptr;
   const MeshUse use{"", "nonzero", materials_of(*this, own), material, map_for(*this, own)};
-  SolidsRequest solids = sources::solids_request(own, file.path, use);
-  const auto parts = solids.load(loading);
-  return parts ? std::make_shared<const ScadSolids>(ScadSolids{*parts, part_names(own)}) : nullptr;
+  return sources::scad_solids(own, file.path, use, loading);
 }
 
 }  // namespace ombre::design
