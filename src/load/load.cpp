@@ -121,11 +121,11 @@ std::optional<openscad::Options> script_options(const LoadOptions& options, sour
 // Returns false, with a diagnostic, if a design that names its materials itself gets a map for those of a script.
 bool check_no_map(const SourcePtr& source, const LoadOptions& options, Diagnostics& diagnostics) {
   if (options.material_map.empty()) return true;
-  diagnostics.error(Code::option, {source, 0, 0},
-                    spelled::option("--material-map").text() + " is for OpenSCAD scripts without use <ombre>",
-                    "name materials of the materials file in the design, or write " +
-                        spelled::call("scad", {{"", "\"box.scad\""},
-                                               {"material_map", "[[\"PLA white\", \"white\"]]"}}));
+  diagnostics.error(
+      Code::option, {source, 0, 0},
+      spelled::option("--material-map").text() + " is for OpenSCAD scripts without use <ombre>",
+      "name materials of the materials file in the design, or write " +
+          spelled::call("scad", {{"", "\"box.scad\""}, {"material_map", "[[\"PLA white\", \"white\"]]"}}));
   return false;
 }
 
@@ -160,8 +160,7 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
   request.variables.values = values;
   request.material = {&materials->first()};
   for (const Data& pair : *map)
-    request.material_map.push_back(
-        {*pair.list()->front().string(), {materials->find(*pair.list()->back().string())}});
+    request.material_map.push_back({*pair.list()->front().string(), {materials->find(*pair.list()->back().string())}});
   const auto solids = loader.source(request, reader);
   if (!solids) return std::nullopt;
   design::Design design{*materials, {}, {}};

@@ -25,8 +25,7 @@ bool is_colour(const std::string& text, const Rgba& colour) {
   const auto found = lang::openscad::colour_of(text);
   if (!found) return false;
   const Rgba wanted = solids::bytes_of(*found);
-  return std::equal(wanted.begin(), wanted.begin() + 3, colour.begin()) &&
-         (wanted[3] == 255 || wanted[3] == colour[3]);
+  return std::equal(wanted.begin(), wanted.begin() + 3, colour.begin()) && (wanted[3] == 255 || wanted[3] == colour[3]);
 }
 
 class MaterialFinder {

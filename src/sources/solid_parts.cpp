@@ -31,8 +31,8 @@ std::vector<std::string> materials_of(const solids::Pieces& pieces, const std::s
     groups.push_back(std::move(group));
   }
   std::vector<std::string> names;
-  for (const design::Material* material :
-       find_materials({kind_of(name), "scad", name, {}}, groups, use, reader).value_or(std::vector<const design::Material*>()))
+  for (const design::Material* material : find_materials({kind_of(name), "scad", name, {}}, groups, use, reader)
+                                              .value_or(std::vector<const design::Material*>()))
     names.push_back(material->name);
   return names;
 }

@@ -30,8 +30,9 @@ enum class UsualRegions : uint8_t {
 
 struct MeshRequest : RegionRequest {
   UsualRegions usual = UsualRegions::as_requested;  // not with regions of other kinds
-  bool beams = false;                               // struts become beams if possible; not with bands
-  bool join_flat = true;                            // cells are joined where the surface is flat
+  bool keeps_polyhedra = false;  // solids that are polyhedra keep their triangles, without cells (exact_bodies.h)
+  bool beams = false;            // struts become beams if possible; not with bands
+  bool join_flat = true;         // cells are joined where the surface is flat
   int threads = 0;
   size_t memory_bytes = 0;                                       // memory limit of cells; 0: no limit
   std::function<void(const MeshPlan& plan)> announce = nullptr;  // called before each surface; may be empty
@@ -54,6 +55,7 @@ struct MeshedDesign {
   surface::ContourReport report;
   MaterialsInside materials;  // set if nobody chose regions
   bool is_by_bands = false;   // bodies are bands of a mixture
+  bool is_exact = false;      // the triangles are those of the design's polyhedra; tolerance and cells are then 0
 };
 
 // Makes the surfaces. Returns nothing, and adds diagnostics, when the design is empty, or cannot be cut so. Throws
