@@ -16,9 +16,8 @@ namespace ombre::compile {
 
 // Options that choose the design, and how it is read.
 struct DesignOptions {
-  std::string design, materials;
-  std::vector<std::string> material_map = {};
-  std::vector<std::string> definitions;
+  std::string design = {}, materials = {};
+  std::vector<std::string> material_map = {}, definitions = {};
   std::vector<std::string> needed = {};  // variables that the command sets later, so that a script must have them
   std::optional<Vec3> rotate = {};       // degrees about x, then y, then z
 
