@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/text/error.h"
 #include "base/text/json.h"
 
 namespace ombre::compile {
