@@ -44,8 +44,8 @@ class Scripts(program.Folder):
         result = program.run([self.ombre, "mesh", *arguments, "--json"], cwd=self.path)
         expect(result.returncode == 0, result.stderr)
         events = [json.loads(line) for line in result.stdout.splitlines() if line.startswith("{")]
-        (told,) = [event for event in events if event["event"] == "bodies"]
-        return {body["name"]: (body["triangles"], round(body["volume_mm3"], 6)) for body in told["bodies"]}
+        (reported,) = [event for event in events if event["event"] == "bodies"]
+        return {body["name"]: (body["triangles"], round(body["volume_mm3"], 6)) for body in reported["bodies"]}
 
 
 def volume(corners, triangles):
@@ -97,8 +97,8 @@ FEW = 36  # triangles of a box with a pocket
 
 def each_slicer_gets_one_object_of_two_volumes(scripts):
     for flavour in ("generic", "prusa", "bambu"):
-        told = scripts.run("scad", "inlay.scad", "-o", f"{flavour}.3mf", "--flavour", flavour)
-        expect("warning" not in told, told)
+        reported = scripts.run("scad", "inlay.scad", "-o", f"{flavour}.3mf", "--flavour", flavour)
+        expect("warning" not in reported, reported)
     for flavour in ("generic", "bambu"):
         package = Package(scripts.path / f"{flavour}.3mf")
         body, inset = package.bodies()
@@ -124,8 +124,8 @@ def bodies_with_a_colour_alone_are_named_by_it(scripts):
     result = program.run([scripts.ombre, "info", "two.3mf"], cwd=scripts.path)
     expect("red, #1234ab" in result.stdout, result.stdout)
     scripts.write("over.scad", 'color("red") cube(2); color("lime") cube(1);')
-    told = scripts.run("scad", "over.scad", "-o", "over.3mf")
-    expect("a solid in red and a solid in lime overlap" in told, told)
+    reported = scripts.run("scad", "over.scad", "-o", "over.3mf")
+    expect("a solid in red and a solid in lime overlap" in reported, reported)
 
 
 MAP = ["--material-map", "PLA white=white", "--material-map", "PLA red=red"]
@@ -201,11 +201,11 @@ def wrong_maps_get_remedies(scripts):
         (["words.scad", "--material-map", "a=red"], ["--material-map is for OpenSCAD scripts"]),
     ]
     for arguments, messages in cases:
-        told = scripts.run("mesh", *arguments, "-o", "wrong.3mf", status=1)
+        reported = scripts.run("mesh", *arguments, "-o", "wrong.3mf", status=1)
         for message in messages:
-            expect(message in told, f"{arguments}: {told}")
-    told = scripts.run("mesh", "inlay.scad", "--material-map", "none.json", "-o", "wrong.3mf", status=2)
-    expect("none.json" in told, told)
+            expect(message in reported, f"{arguments}: {reported}")
+    reported = scripts.run("mesh", "inlay.scad", "--material-map", "none.json", "-o", "wrong.3mf", status=2)
+    expect("none.json" in reported, reported)
 
 
 def extruded_places(code):

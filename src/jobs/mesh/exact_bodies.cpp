@@ -6,7 +6,7 @@
 
 #include "design/values.h"
 #include "jobs/mesh/beam_parts.h"
-#include "nodes/common/polyhedra.h"
+#include "nodes/common/node_polyhedra.h"
 #include "solids/booleans.h"
 #include "solids/kernel.h"
 

@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "jobs/mesh/mesh_job.h"
+#include "base/system/progress.h"
+#include "jobs/mesh/meshed_design.h"
 
 namespace ombre::compile {
 

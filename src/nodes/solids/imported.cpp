@@ -6,7 +6,7 @@
 #include "design/spec.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/part_label.h"
-#include "nodes/common/polyhedra.h"
+#include "nodes/common/node_polyhedra.h"
 
 namespace ombre::nodes {
 namespace {
