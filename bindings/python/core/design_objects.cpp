@@ -239,8 +239,7 @@ std::unique_ptr<DesignHandle> make_design(const PartList& parts,
 
 // Loads a design; `text`, if given, replaces that of the file.
 std::unique_ptr<DesignHandle> load(const CachePtr& cache, const std::string& path, const std::string& materials,
-                                   const std::vector<std::string>& definitions,
-                                   const std::optional<std::string>& text,
+                                   const std::vector<std::string>& definitions, const std::optional<std::string>& text,
                                    const std::vector<std::string>& material_map) {
   Diagnostics diagnostics;
   compile::LoadOptions options;

@@ -5,8 +5,8 @@
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/common/mixtures.h"
-#include "nodes/common/part_label.h"
 #include "nodes/common/node_polyhedra.h"
+#include "nodes/common/part_label.h"
 
 namespace ombre::nodes {
 namespace {
