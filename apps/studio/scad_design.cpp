@@ -9,6 +9,7 @@
 #include "jobs/scad/scad_job.h"
 #include "lang/openscad/run_script.h"
 #include "load/load.h"
+#include "load/material_map.h"
 
 namespace ombre::studio {
 namespace {
@@ -44,6 +45,16 @@ void report(const openscad::Message& message, const SourcePtr& script, const com
     case Kind::note:
       diagnostics.note(range_of(script, message), message.text);
   }
+}
+
+// Returns the argument of mesh() for the job's materials of the script's names; empty if there are none.
+std::string map_argument(const compile::LoadOptions& options, Diagnostics& diagnostics) {
+  const auto materials = compile::load_materials(options.materials, diagnostics);
+  if (!materials || options.material_map.empty()) return "";
+  sources::SourceCache own;
+  sources::SourceCache& cache = options.cache ? *options.cache : own;
+  const auto map = compile::read_material_map(options.material_map, *materials, cache, diagnostics);
+  return map ? ", material_map=" + print_json_line(Data(*map)) : "";
 }
 
 // Returns the value of mesh(materials=...): "names" if all solids have the name of a material, else "colours" if one
@@ -85,8 +96,11 @@ compile::LoadedPtr load_scad(const SourcePtr& script, const compile::LoadOptions
   if (diagnostics.has_errors()) return nullptr;
   compile::LoadOptions plain = options;
   plain.definitions.clear();
-  const std::string text =
-      "mesh(" + print_json_line(mesh) + ", gray, materials=\"" + naming(made.pieces, options, diagnostics) + "\");\n";
+  plain.material_map.clear();
+  const std::string text = "mesh(" + print_json_line(mesh) + ", gray, materials=\"" +
+                           naming(made.pieces, options, diagnostics) + '"' + map_argument(options, diagnostics) +
+                           ");\n";
+  if (diagnostics.has_errors()) return nullptr;
   return compile::load_text(text, folder.file("solids.vcad"), plain, diagnostics);
 }
 

@@ -17,6 +17,9 @@
 namespace ombre::sources {
 class Loading;
 }
+namespace ombre::solids {
+struct Piece;
+}
 
 namespace ombre::design {
 
@@ -103,11 +106,20 @@ struct SolidsRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
+// All solids of a script that have the same name: that of their part, else of their material or colour, else "".
+struct ScadBody {
+  std::string name;
+  program::SourceField source;  // has the channels of MeshPart; null if there is no other body
+};
 // The solids of an OpenSCAD script, divided by materials. The script sets their parts, materials and colours. Where
 // solids overlap, the first wins.
 struct ScadSolids {
   std::vector<MeshPart> parts;
   std::vector<std::string> part_names;  // each once, in the order of the script; "" for solids outside parts
+  std::vector<ScadBody> bodies = {};    // divided by names, in the order of the script
+  // The exact solids with, for each, its body's name and its material, which is as in MeshPart.
+  std::shared_ptr<const std::vector<solids::Piece>> pieces = {};
+  std::vector<std::string> piece_names = {}, piece_materials = {};
 };
 // Returns the word for a part in a request; solids outside parts are the "rest".
 inline std::string part_word(const std::string& name) { return name.empty() ? "rest" : name; }

@@ -13,6 +13,7 @@
 #include "load/bundle.h"
 #include "load/data_folder.h"
 #include "load/design_sources.h"
+#include "load/material_map.h"
 #include "load/scad_words_design.h"
 #include "nodes/all_nodes.h"
 
@@ -87,12 +88,14 @@ DataMembers script_values(const std::vector<std::string>& definitions, Diagnosti
 std::string file_name(const SourcePtr& source) { return std::filesystem::path(source->name()).filename().string(); }
 
 // Makes a node for the solids of a script, or of one of its parts.
-NodePtr scad_node(const SourcePtr& source, const std::string& part, const DataMembers& values, const Reader& reader) {
+NodePtr scad_node(const SourcePtr& source, const std::string& part, const DataMembers& values, const DataList& map,
+                  const Reader& reader) {
   const design::NodeType& type = *nodes::registry().find("scad");
   const auto parameter = [&](const char* name) { return &type.parameters[static_cast<size_t>(type.parameter(name))]; };
   std::vector<design::NamedValue> arguments{{parameter("path"), Data(file_name(source))}};
   if (!part.empty()) arguments.push_back({parameter("part"), Data(part)});
   if (!values.empty()) arguments.push_back({parameter("variables"), Data(values)});
+  if (!map.empty()) arguments.push_back({parameter("material_map"), Data(map)});
   return design::make_node(type, arguments, {}, reader);
 }
 
@@ -115,6 +118,17 @@ std::optional<openscad::Options> script_options(const LoadOptions& options, sour
   return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(run));
 }
 
+// Returns false, with a diagnostic, if a design that names its materials itself gets a map for those of a script.
+bool check_no_map(const SourcePtr& source, const LoadOptions& options, Diagnostics& diagnostics) {
+  if (options.material_map.empty()) return true;
+  diagnostics.error(
+      Code::option, {source, 0, 0},
+      spelled::option("--material-map").text() + " is for OpenSCAD scripts without use <ombre>",
+      "name materials of the materials file in the design, or write " +
+          spelled::call("scad", {{"", "\"box.scad\""}, {"material_map", "[[\"PLA white\", \"white\"]]"}}));
+  return false;
+}
+
 std::optional<design::Design> run_script_with_words(const SourcePtr& source, const openscad::Options& run,
                                                     const LoadOptions& options, sources::SourceCache& cache,
                                                     Diagnostics& diagnostics) {
@@ -130,10 +144,14 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
                                               sources::SourceCache& cache, Diagnostics& diagnostics) {
   const auto run = script_options(options, cache, diagnostics);
   if (!run) return std::nullopt;
-  if (openscad::uses_words(source, *run)) return run_script_with_words(source, *run, options, cache, diagnostics);
+  const bool has_words = openscad::uses_words(source, *run);
+  if (has_words && !check_no_map(source, options, diagnostics)) return std::nullopt;
+  if (has_words) return run_script_with_words(source, *run, options, cache, diagnostics);
   const auto materials = read_materials(options.materials, cache, diagnostics);
   const DataMembers values = script_values(options.definitions, diagnostics);
   if (!materials || diagnostics.has_errors()) return std::nullopt;
+  const auto map = read_material_map(options.material_map, *materials, cache, diagnostics);
+  if (!map) return std::nullopt;
   DesignSources loader(cache, options.stop, options.threads > 0 ? options.threads : core_count());
   const SourceRange whole{source, 0, 0};
   const Reader reader{*materials, diagnostics, &loader, whole, "scad", ""};
@@ -141,6 +159,8 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
   request.file.path = file_name(source);
   request.variables.values = values;
   request.material = {&materials->first()};
+  for (const Data& pair : *map)
+    request.material_map.push_back({*pair.list()->front().string(), {materials->find(*pair.list()->back().string())}});
   const auto solids = loader.source(request, reader);
   if (!solids) return std::nullopt;
   design::Design design{*materials, {}, {}};
@@ -148,7 +168,7 @@ std::optional<design::Design> run_scad_script(const SourcePtr& source, const Loa
   const Reader again{*materials, repeated, &loader, whole, "scad", ""};
   for (const std::string& name : solids->part_names) {
     const bool is_all = solids->part_names.size() == 1;
-    const NodePtr node = scad_node(source, is_all ? "" : design::part_word(name), values, again);
+    const NodePtr node = scad_node(source, is_all ? "" : design::part_word(name), values, *map, again);
     if (node) design.parts.push_back({name.empty() ? std::string(design::nameless_part) : name, node});
   }
   if (repeated.has_errors()) diagnostics.add_all(repeated);
@@ -177,6 +197,7 @@ LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, sourc
   const auto read = ends_with(source->name(), ".json")   ? read_json_design
                     : ends_with(source->name(), ".scad") ? run_scad_script
                                                          : run_script;
+  if (read != run_scad_script && !check_no_map(source, options, diagnostics)) return nullptr;
   auto design = read(source, options, cache, diagnostics);
   if (!design || diagnostics.has_errors() || !design::check_design(*design, diagnostics)) return nullptr;
   return std::make_shared<const Loaded>(Loaded{source->name(), source, std::move(*design)});

@@ -13,8 +13,11 @@
 namespace ombre::compile {
 
 struct LoadOptions {
-  std::string materials;                                   // path of a materials file; empty: the default set
-  std::vector<std::string> definitions;                    // "name=value", set before the script runs
+  std::string materials;                 // path of a materials file; empty: the default set
+  std::vector<std::string> definitions;  // "name=value", set before the script runs
+  // "NAME=MATERIAL", or a file of such pairs: materials for the names and colours of an OpenSCAD script
+  // (material_map.h)
+  std::vector<std::string> material_map = {};
   std::vector<std::string> needed = {};                    // names of variables that a script must have
   std::function<void(const std::string&)> echo = nullptr;  // receives the script's echo; may be empty
   const StopFlag* stop = nullptr;

@@ -16,7 +16,7 @@
 
 namespace ombre::solids {
 
-// A fault of a mesh that people gave.
+// A known fault of a mesh that people gave.
 enum class Flaw : uint8_t { none, crosses, open };
 
 // A closed polyhedron, which may consist of several pieces and have cavities. Immutable, cheap to copy, thread-safe. It

@@ -2,13 +2,16 @@
 #include <algorithm>
 
 #include "base/text/text.h"
+#include "lang/openscad/colours.h"
 #include "lang/openscad/definitions.h"
 #include "lang/openscad/run_script.h"
 #include "lang/openscad/script_diagnostics.h"
+#include "solids/colour_bytes.h"
 #include "solids/content.h"
 #include "solids/evaluate_tree.h"
 #include "solids/kernel.h"
 #include "sources/loading.h"
+#include "sources/mesh_materials.h"
 #include "sources/solid_parts.h"
 
 namespace ombre::design {
@@ -138,11 +141,56 @@ bool check_pieces(const ScadRequest& request, const solids::Pieces& pieces, cons
   return has_solids || (!has_areas && !request.script.empty());
 }
 
+std::optional<Rgba> colour_of(const solids::Piece& piece) {
+  const auto& colour = piece.attributes.colour;
+  return piece.solid() && colour ? std::optional(solids::bytes_of(*colour)) : std::nullopt;
+}
+
+bool means(const MaterialForName& entry, const solids::Piece& piece) {
+  return piece.solid() && sources::means(entry.name, piece.attributes.material, colour_of(piece));
+}
+
 Choice materials_of(const ScadRequest& request, const solids::Pieces& pieces) {
   if (request.materials != "auto") return request.materials;
   const auto any = [&](auto has) { return std::ranges::any_of(pieces, has); };
   if (any([](const solids::Piece& piece) { return !piece.attributes.material.empty(); })) return "names";
   return any([](const solids::Piece& piece) { return piece.attributes.colour.has_value(); }) ? "colours" : "one";
+}
+
+// Returns the names that a material map may have: those of materials, then colours.
+std::vector<std::string> material_names(const solids::Pieces& pieces) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const solids::Piece& piece : pieces) add(piece.attributes.material);
+  for (const solids::Piece& piece : pieces)
+    if (const auto colour = colour_of(piece)) add(openscad::colour_name(*colour));
+  return names;
+}
+
+// Returns false, with diagnostics, if the material map has names that no solid of the script has.
+bool check_map(const ScadRequest& request, const solids::Pieces& pieces, const Reader& reader) {
+  bool good = true;
+  for (const MaterialForName& entry : request.material_map) {
+    if (std::ranges::any_of(pieces, [&](const solids::Piece& piece) { return means(entry, piece); })) continue;
+    good = false;
+    reader.diagnostics.error(Code::unknown_material, reader.where,
+                             "the script \"" + request.file.path + "\" has no material or colour \"" + entry.name + '"',
+                             sources::hint_of_names(entry.name, material_names(pieces),
+                                                    "its solids have none: leave the names of materials out"),
+                             {{"material", entry.name}});
+  }
+  return good;
+}
+
+// Returns the entries of the material map for these solids.
+std::vector<MaterialForName> map_for(const ScadRequest& request, const solids::Pieces& pieces) {
+  std::vector<MaterialForName> entries = request.material_map;
+  std::erase_if(entries, [&](const MaterialForName& entry) {
+    return std::ranges::none_of(pieces, [&](const solids::Piece& piece) { return means(entry, piece); });
+  });
+  return entries;
 }
 
 solids::Pieces of_part(const ScadRequest& request, const solids::Pieces& pieces, const Reader& reader) {
@@ -172,14 +220,13 @@ std::shared_ptr<const ScadSolids> ScadRequest::load(sources::Loading& loading) {
   if (script.empty() && (!loading.find(file) || !loading.read_content(file))) return nullptr;
   const solids::TreePtr tree = tree_of(*this, loading);
   const auto pieces = tree ? pieces_of(tree, *this, loading) : nullptr;
-  if (!pieces || !check_pieces(*this, *pieces, reader)) return nullptr;
+  if (!pieces || !check_pieces(*this, *pieces, reader) || !check_map(*this, *pieces, reader)) return nullptr;
   if (pieces->empty()) return std::make_shared<const ScadSolids>();
-  const solids::Pieces own = of_part(*this, *pieces, reader);
+  solids::Pieces own = of_part(*this, *pieces, reader);
+  std::erase_if(own, [](const solids::Piece& piece) { return !piece.solid(); });
   if (own.empty()) return nullptr;
-  const MeshUse use{"", "nonzero", materials_of(*this, own), material, material_map};
-  SolidsRequest solids = sources::solids_request(own, file.path, use);
-  const auto parts = solids.load(loading);
-  return parts ? std::make_shared<const ScadSolids>(ScadSolids{*parts, part_names(own)}) : nullptr;
+  const MeshUse use{"", "nonzero", materials_of(*this, own), material, map_for(*this, own)};
+  return sources::scad_solids(own, file.path, use, loading);
 }
 
 }  // namespace ombre::design

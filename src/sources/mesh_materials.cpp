@@ -9,6 +9,8 @@
 #include "base/text/text.h"
 #include "design/nearest_material.h"
 #include "formats/mesh/mesh_objects.h"
+#include "lang/openscad/colours.h"
+#include "solids/colour_bytes.h"
 #include "sources/loading.h"
 
 namespace ombre::sources {
@@ -17,6 +19,14 @@ namespace {
 using design::Material;
 using design::Rgba;
 using formats::MeshGroup;
+
+// Returns true if the text is this colour. Opacity counts if the text gives it.
+bool is_colour(const std::string& text, const Rgba& colour) {
+  const auto found = lang::openscad::colour_of(text);
+  if (!found) return false;
+  const Rgba wanted = solids::bytes_of(*found);
+  return std::equal(wanted.begin(), wanted.begin() + 3, colour.begin()) && (wanted[3] == 255 || wanted[3] == colour[3]);
+}
 
 class MaterialFinder {
  public:
@@ -34,7 +44,7 @@ class MaterialFinder {
   // Returns false, with a diagnostic, if the file lacks the requested information, or a name of the map.
   bool check() const {
     const bool by_colours = use_.materials == "colours", has_names = any(&has_name), has_colours = any(&has_colour);
-    if (!(by_colours ? has_colours || has_mapped_name() : has_names)) {
+    if (!(by_colours ? has_colours || has_mapped_name() : has_names || has_mapped_name())) {
       Phrase hint = "leave materials out, or " + file_.remedy;
       if (by_colours && has_names)
         hint = "write " + spelled::parameter("materials", "\"names\"") + ": it names materials";
@@ -51,7 +61,7 @@ class MaterialFinder {
   static bool has_colour(const MeshGroup& group) { return group.colour.has_value(); }
   bool any(bool (*is_so)(const MeshGroup&)) const { return std::any_of(groups_.begin(), groups_.end(), is_so); }
   bool has_mapped_name() const {
-    return std::any_of(groups_.begin(), groups_.end(), [&](const MeshGroup& g) { return mapped(g.material); });
+    return std::any_of(groups_.begin(), groups_.end(), [&](const MeshGroup& g) { return mapped(g); });
   }
 
   bool fail(const std::string& message, const Phrase& hint) const {
@@ -59,33 +69,42 @@ class MaterialFinder {
     return false;
   }
 
+  // Returns the names that a material map may have: those of materials, then colours.
   std::vector<std::string> names_of_file() const {
     std::vector<std::string> names;
-    std::set<std::string_view> known;
+    std::set<std::string> known;
     for (const MeshGroup& group : groups_)
       if (has_name(group) && known.insert(group.material).second) names.push_back(group.material);
+    for (const MeshGroup& group : groups_) {
+      if (!has_colour(group)) continue;
+      const std::string colour = lang::openscad::colour_name(*group.colour);
+      if (known.insert(colour).second) names.push_back(colour);
+    }
     return names;
   }
 
   bool check_map() const {
-    const std::vector<std::string> names = names_of_file();
     bool good = true;
-    for (const auto& [name, material] : use_.material_map) {
-      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    for (const auto& entry : use_.material_map) {
+      const std::string& name = entry.name;
+      if (std::ranges::any_of(groups_, [&](const MeshGroup& g) { return means(name, g.material, g.colour); })) continue;
       good = fail("material_map of " + file_.node + ": " + file_name() + " has no material \"" + name + '"',
-                  hint_of_names(name, names, "it has no materials: leave material_map out"));
+                  hint_of_names(name, names_of_file(), "it has no materials: leave material_map out"));
     }
     return good;
   }
 
-  const Material* mapped(const std::string& name) const {
-    for (const auto& [known, material] : use_.material_map)
-      if (known == name) return material.material;
+  // Returns the material that the map gives to a group, or null. Names of materials count before colours.
+  const Material* mapped(const MeshGroup& group) const {
+    for (const auto& [name, material] : use_.material_map)
+      if (has_name(group) && name == group.material) return material.material;
+    for (const auto& [name, material] : use_.material_map)
+      if (means(name, "", group.colour)) return material.material;
     return nullptr;
   }
 
   const Material* find(const MeshGroup& group) {
-    if (const Material* material = mapped(group.material)) return material;
+    if (const Material* material = mapped(group)) return material;
     if (use_.materials == "colours")
       return group.colour ? &design::nearest_material(*group.colour, reader_.materials) : use_.material.material;
     if (group.material.empty()) return use_.material.material;
@@ -97,12 +116,18 @@ class MaterialFinder {
   void report_unknown(const MeshGroup& group) const {
     std::string message = file_name() + " has the material \"" + group.material + '"';
     if (!group.name.empty() && group.name != group.material) message += " (of \"" + group.name + "\")";
-    Phrase hint = "there are " + join(reader_.materials.names(), ", ") + ": write for example " +
-                  spelled::parameter("material_map",
-                                     "[[\"" + group.material + "\", \"" + reader_.materials.first().name + "\"]]");
+    Phrase hint = "there are " + join(reader_.materials.names(), ", ") + ": write for example " + example(group);
     if (group.colour)
       hint = hint + ", or " + spelled::parameter("materials", "\"colours\"") + " for those of the nearest colours";
     fail(message + ", which is not among the design's", hint);
+  }
+
+  // Returns what gives the group a material: an option if the script is the design, else a parameter of its call.
+  Phrase example(const MeshGroup& group) const {
+    const std::string& material = reader_.materials.first().name;
+    if (is_design_itself(file_.path, reader_))
+      return spelled::option("--material-map", '"' + group.material + '=' + material + '"');
+    return spelled::parameter("material_map", "[[\"" + group.material + "\", \"" + material + "\"]]");
   }
 
   const GroupedFile& file_;
@@ -128,6 +153,15 @@ Phrase remedy_of(const formats::Mesh& mesh) {
 }
 
 }  // namespace
+
+bool means(const std::string& name, const std::string& material, const std::optional<Rgba>& colour) {
+  return (!material.empty() && name == material) || (colour && is_colour(name, *colour));
+}
+
+bool is_design_itself(const std::string& path, const design::Reader& reader) {
+  const SourcePtr& design = reader.where.source;
+  return design && ending_of(path) == ".scad" && design->name().ends_with(path);
+}
 
 std::optional<std::vector<const Material*>> find_materials(const GroupedFile& file,
                                                            const std::vector<MeshGroup>& groups,

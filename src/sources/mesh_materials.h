@@ -36,6 +36,13 @@ std::optional<std::vector<const design::Material*>> find_materials(const Grouped
 std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, const formats::Mesh& mesh,
                                                      const design::MeshUse& use, const design::Reader& reader);
 
+// Returns true if this name in a material map means a body with this material and colour: it is the material's name, or
+// the colour, as #rrggbb or by its name in CSS.
+bool means(const std::string& name, const std::string& material, const std::optional<design::Rgba>& colour);
+
+// Returns true if the file is an OpenSCAD script that is the design, not one that the design calls.
+bool is_design_itself(const std::string& path, const design::Reader& reader);
+
 // Adds the options of a use that determine the parts of a file, including the design's materials if they matter.
 void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader);
 

@@ -24,3 +24,15 @@ def test_wrong_values_are_reported():
         ombre.scad(str(BOX), width=ombre.sphere(2))
     with pytest.raises(ombre.DesignError, match='has no part "lod"; did you mean "lid"'):
         ombre.scad(str(BOX), part="lod")
+
+
+def test_a_map_gives_materials_to_names_and_colours(tmp_path):
+    script = tmp_path / "two.scad"
+    script.write_text('material("PLA white") cube(2); color("#1234ab") translate([2, 0, 0]) cube(2);')
+    design = ombre.load(script, material_map={"PLA white": "white", "#1234ab": "cyan"})
+    points = [event for event in design.probe(at=[(1, 1, 1), (3, 1, 1)]).events if event["event"] == "point"]
+    assert [list(point["composition"]) for point in points] == [["white"], ["cyan"]]
+    with pytest.raises(ombre.DesignError, match="no material or colour"):
+        ombre.load(script, material_map={"PLA white": "white", "PLA": "red"})
+    with pytest.raises(ombre.DesignError, match='"PLA white"'):
+        ombre.load(script)

@@ -239,12 +239,13 @@ std::unique_ptr<DesignHandle> make_design(const PartList& parts,
 
 // Loads a design; `text`, if given, replaces that of the file.
 std::unique_ptr<DesignHandle> load(const CachePtr& cache, const std::string& path, const std::string& materials,
-                                   const std::vector<std::string>& definitions,
-                                   const std::optional<std::string>& text) {
+                                   const std::vector<std::string>& definitions, const std::optional<std::string>& text,
+                                   const std::vector<std::string>& material_map) {
   Diagnostics diagnostics;
   compile::LoadOptions options;
   options.materials = materials;
   options.definitions = definitions;
+  options.material_map = material_map;
   options.cache = cache.get();
   compile::LoadedPtr loaded;
   {
@@ -371,9 +372,11 @@ void add_designs(py::module_& module, const CachePtr& cache) {
       .def_static(
           "load",
           [cache](const std::string& path, const std::string& materials, const std::vector<std::string>& definitions,
-                  const std::optional<std::string>& text) { return load(cache, path, materials, definitions, text); },
+                  const std::optional<std::string>& text, const std::vector<std::string>& material_map) {
+            return load(cache, path, materials, definitions, text, material_map);
+          },
           py::arg("path"), py::arg("materials") = "", py::arg("definitions") = std::vector<std::string>{},
-          py::arg("text") = py::none())
+          py::arg("text") = py::none(), py::arg("material_map") = std::vector<std::string>{})
       .def_static("from_json", [cache](const std::string& text) { return from_json(cache, text); })
       .def("to_json", &to_json)
       .def("tree", [](const DesignHandle& h) { return design::to_tree(h.design()); })

@@ -379,20 +379,33 @@ def _voxel_texts(voxel):
     return texts * 3 if len(texts) == 1 else texts
 
 
-def load(path, materials=None, **variables):
-    """The design of a file: .vcad, .json, or a Python script (.py), whose `root` it is.
+def _map_texts(material_map):
+    """A dict as NAME=MATERIAL for each of its pairs; other values are texts or files of such pairs."""
+    if material_map is None:
+        return []
+    if isinstance(material_map, dict):
+        return [f"{name}={material}" for name, material in material_map.items()]
+    return [os.fspath(material_map)] if isinstance(material_map, (str, os.PathLike)) else [os.fspath(m) for m in material_map]
+
+
+def load(path, materials=None, material_map=None, **variables):
+    """The design of a file: .vcad, .json, .scad, or a Python script (.py), whose `root` it is.
 
     Args:
         path: the file.
         materials: a materials file, for scripts.
+        material_map: materials for the names and colours of an OpenSCAD script: {"PLA white": "white"}, or a .json file.
         **variables: of a script, set before it runs.
     """
     path = os.fspath(path)
     if path.endswith(".py"):
         from ._script import load_script
+        if material_map:
+            raise ValueError("material_map is for OpenSCAD scripts; a Python script names its materials itself")
         return Design._of(load_script(path, materials or "", variables))
     definitions = [f"{name}={_definition(value)}" for name, value in variables.items()]
-    return Design._of(_core.Design.load(path, "" if materials is None else os.fspath(materials), definitions))
+    return Design._of(_core.Design.load(path, "" if materials is None else os.fspath(materials), definitions,
+                                        material_map=_map_texts(material_map)))
 
 
 def load_text(text, name="design.vcad", folder="", materials=None, **variables):

@@ -1,5 +1,6 @@
 #include "jobs/common/job_design.h"
 
+#include "base/text/file_ending.h"
 #include "load/turned.h"
 
 namespace ombre::jobs {
@@ -21,7 +22,10 @@ std::optional<compile::PlanOptions> plan_options(const compile::SamplingOptions&
 }
 
 compile::LoadedPtr load_design(const DesignArguments& a, Session& session, Diagnostics& diagnostics, int threads) {
-  compile::LoadOptions options{a.materials, a.definitions, a.needed};
+  if (!a.material_map.empty() && ending_of(a.design) == ".py")
+    throw WrongArgument(spelled::option("--material-map") + " is for OpenSCAD scripts; " + a.design +
+                        " is a Python script, which names its materials itself");
+  compile::LoadOptions options = a.load();
   options.echo = [&](const std::string& text) { session.events.say(text); };
   options.stop = &session.stop;
   options.threads = threads;

@@ -4,6 +4,13 @@
 
 namespace ombre::compile {
 
+LoadOptions DesignOptions::load() const {
+  LoadOptions options{materials, definitions};
+  options.material_map = material_map;
+  options.needed = needed;
+  return options;
+}
+
 std::optional<PlanOptions> plan_options(const std::string& program, const SamplingOptions& sampling,
                                         const ImageOptions& images, Diagnostics& diagnostics) {
   const auto printer = find_printer(sampling.printer.empty() ? "generic" : sampling.printer, diagnostics);

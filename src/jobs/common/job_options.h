@@ -9,14 +9,15 @@
 #include "base/text/text.h"
 #include "jobs/common/plan_options.h"
 #include "jobs/common/sampling_rules.h"
+#include "load/loaded.h"
 #include "voxel/image_kinds.h"
 
 namespace ombre::compile {
 
 // Options that choose the design, and how it is read.
 struct DesignOptions {
-  std::string design, materials;
-  std::vector<std::string> definitions;
+  std::string design = {}, materials = {};
+  std::vector<std::string> material_map = {}, definitions = {};
   std::vector<std::string> needed = {};  // variables that the command sets later, so that a script must have them
   std::optional<Vec3> rotate = {};       // degrees about x, then y, then z
 
@@ -27,12 +28,18 @@ struct DesignOptions {
                "FILE")
             .required(),
         option("--materials", &DesignOptions::materials, kind::file, "Materials file (see: ombre materials)", "FILE"),
+        options::list("--material-map", &DesignOptions::material_map, kind::text,
+                      "A material for a name or a colour of an OpenSCAD script, or a JSON file of such pairs; may be "
+                      "repeated",
+                      "NAME=MATERIAL|FILE"),
         options::list("-D,--define", &DesignOptions::definitions, kind::text,
                       "Set a variable of the design; may be repeated", "NAME=VALUE"),
         option("--rotate", &DesignOptions::rotate, kind::angles, "Turn the design about x, then y, then z; degrees",
                "X,Y,Z")};
     return spec;
   }
+  // Returns the options with which the design is loaded, without those of the session.
+  LoadOptions load() const;
 };
 
 // Options that choose the voxels.

@@ -30,7 +30,7 @@ compile::LoadedPtr load_scan(const compile::DesignOptions& arguments, Session& s
   const std::string name = print_json_line(Data(file.filename().string()));
   const std::string script = "scan = volume(" + name + ");\nattribute(\"number\", scan.value) attribute(\"nearest\", " +
                              "scan.nearest) volume_solid(" + name + ", level=" + least_number + ");\n";
-  compile::LoadOptions options{arguments.materials, arguments.definitions};
+  compile::LoadOptions options = arguments.load();
   options.stop = &session.stop;
   options.threads = threads;
   options.cache = &session.cache;

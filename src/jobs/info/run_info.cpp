@@ -88,7 +88,7 @@ DataList coverage_data(const std::vector<compile::MeshCoverage>& coverage) {
 
 int show_design(const std::string& path, Session& session) {
   Diagnostics diagnostics;
-  const compile::LoadedPtr loaded = load_design({path, "", {}}, session, diagnostics);
+  const compile::LoadedPtr loaded = load_design({.design = path}, session, diagnostics);
   const auto attributes = loaded ? compile::survey_attributes(loaded->design, diagnostics) : std::nullopt;
   const auto coverage = attributes ? compile::survey_coverage(*loaded, diagnostics) : std::nullopt;
   session.events.diagnose(diagnostics);

@@ -76,11 +76,6 @@ std::optional<Affine> here_from_input(const Node& node) {
 
 bool is_a(const Node& node, std::string_view type) { return node.type().name == type; }
 
-bool is_sharp(const Node& node) {
-  const int blend = node.type().parameter("blend");
-  return blend < 0 || node.inputs().size() < 2 || node.type().get(node, static_cast<size_t>(blend), false) == Data(0.0);
-}
-
 // Returns the indices of the copies that may meet the box; empty if there are none.
 std::array<Interval, 3> copies_within(const TileCopies& copies, const Box& original, const Box& where) {
   std::array<Interval, 3> found = copies.indices;
@@ -445,6 +440,11 @@ class Splitter {
 };
 
 }  // namespace
+
+bool is_sharp(const Node& node) {
+  const int blend = node.type().parameter("blend");
+  return blend < 0 || node.inputs().size() < 2 || node.type().get(node, static_cast<size_t>(blend), false) == Data(0.0);
+}
 
 std::optional<BeamParts> split_beams(const design::Design& design, int threads, Diagnostics& diagnostics) {
   return Splitter(design, threads, diagnostics).make();

@@ -28,6 +28,9 @@ struct BeamParts {
 // struts, or too many.
 std::optional<BeamParts> split_beams(const design::Design& design, int threads, Diagnostics& diagnostics);
 
+// Returns true if the node does not blend its inputs where they meet.
+bool is_sharp(const design::Node& node);
+
 // Returns a bounded solid that clips the struts as the set's clip does: the clip, cut off around them.
 design::NodePtr clip_near_struts(const design::Design& design, const BeamSet& set, Diagnostics& diagnostics);
 

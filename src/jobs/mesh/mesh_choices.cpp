@@ -6,6 +6,7 @@ MeshRequest MeshChoices::request() const {
   MeshRequest request{regions.request()};
   request.beams = beams;
   request.join_flat = !keep_all;
+  request.keeps_polyhedra = !keep_all && !regions.cell_mm && colour_by.empty();
   request.threads = work.threads;
   request.memory_bytes = work.memory_bytes;
   return request;

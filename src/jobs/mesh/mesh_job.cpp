@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text/text.h"
+#include "jobs/mesh/exact_bodies.h"
 #include "questions/build.h"
 #include "questions/design_stages.h"
 #include "surface/cells/cell_grid.h"
@@ -247,6 +248,8 @@ class Mesher {
 
 std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
                                         Progress* progress, const StopFlag* stop) {
+  if (request.keeps_polyhedra)
+    if (auto exact = exact_bodies(loaded.design, request, stop)) return exact;
   const Loaded own{loaded.path, loaded.source, with_stages(loaded.design, loan(request, progress, stop))};
   MeshRequest chosen = request;
   MaterialsInside materials;

@@ -29,7 +29,8 @@ using compile::MeshChoices;
 constexpr const char* mesh_footer =
     ". Without -o the file is a .3mf. Bodies share their borders exactly: no gaps, no overlaps.\n\n"
     "Details thinner than a cell may be lost. Cells are cut finer where the surface would lie farther off than the\n"
-    "tolerance, and triangles are joined where it is flat within the tolerance. A warning tells what remains.\n\n"
+    "tolerance, and triangles are joined where it is flat within the tolerance. A warning tells what remains.\n"
+    "Polyhedra of OpenSCAD scripts keep their own triangles, unless --cell or --keep-all is given.\n\n"
     "Examples:\n"
     "  ombre mesh part.vcad                               a body for each material, in part.3mf\n"
     "  ombre mesh part.vcad --by whole -o part.stl        one body\n"
@@ -159,6 +160,7 @@ void warn_of_folds(const Events& events, const compile::MeshedDesign& made) {
 }
 
 void tell_distance(const Events& events, const compile::MeshedDesign& made) {
+  if (made.is_exact) return events.say("the triangles are those of the script's polyhedra");
   const double farthest = made.report.farthest_in_tolerances;
   if (farthest <= 1 && !made.bodies.empty())
     return events.say("triangles and design lie within " + format_rounded(made.tolerance_mm, 3) + " mm of each other" +

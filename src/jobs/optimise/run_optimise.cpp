@@ -336,7 +336,7 @@ int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, con
   history.read(store.finished());
   exporting::write_file(folder.history(), history.table());
 
-  compile::LoadOptions options{a.design.materials, a.design.definitions};
+  compile::LoadOptions options = a.design.load();
   options.cache = &session.cache;
   const auto load = [&](const compile::LoadOptions& with, Diagnostics& found) {
     const compile::LoadedPtr loaded = session.load(a.design.design, with, found);

@@ -21,7 +21,7 @@ constexpr std::string_view search_format = "ombre search";
 void add_files(const OptimiseChoices& choices, const OptimiseStudy& study, stores::JobKey& key) {
   std::vector<double> start;
   for (const DesignVariable& variable : study.variables) start.push_back(variable.start);
-  LoadOptions options{choices.design.materials, choices.design.definitions};
+  LoadOptions options = choices.design.load();
   for (std::string& definition : definitions_of(study, start)) options.definitions.push_back(std::move(definition));
   Diagnostics ignored;  // measuring the first design reports them
   const std::string& design = choices.design.design;

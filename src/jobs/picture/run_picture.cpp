@@ -82,7 +82,7 @@ std::vector<std::string> output_files(const PictureChoices& a) {
 // Loads a design, or the mesh of results as one.
 compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diagnostics& diagnostics) {
   if (is_results(a.design.design)) {
-    compile::LoadOptions options{a.design.materials, a.design.definitions};
+    compile::LoadOptions options = a.design.load();
     options.stop = &session.stop;
     options.threads = a.work.threads;
     options.cache = &session.cache;

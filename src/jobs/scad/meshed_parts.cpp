@@ -9,6 +9,7 @@ std::optional<solids::Pieces> meshed_parts(const LoadedPtr& loaded, Diagnostics&
   constexpr size_t memory = size_t{4} << 30;
   MeshRequest request;
   request.memory_bytes = memory;
+  request.keeps_polyhedra = true;
   // All parts are as fine as the whole would be.
   const auto box = design_box(loaded->design, diagnostics);
   const auto fineness = box ? choose_fineness(loaded->design, *box, request, diagnostics) : std::nullopt;

@@ -10,9 +10,10 @@
 #include "base/text/text.h"
 #include "export/mesh_file.h"
 #include "export/output_file.h"
-#include "formats/containers/xml_text.h"
 #include "formats/drawings/plane_writers.h"
 #include "formats/images/uncoloured.h"
+#include "lang/openscad/body_names.h"
+#include "lang/openscad/colours.h"
 #include "solids/booleans.h"
 #include "solids/colour_bytes.h"
 
@@ -31,7 +32,9 @@ constexpr std::string_view part_place = "{part}";
 std::string name_of(const Piece& piece) {
   const solids::Attributes& attributes = piece.attributes;
   if (!attributes.part.empty()) return "part \"" + attributes.part + '"';
-  return attributes.material.empty() ? "a solid without a name" : "a solid of \"" + attributes.material + '"';
+  if (!attributes.material.empty()) return "a solid of \"" + attributes.material + '"';
+  if (!attributes.colour) return "a solid without a name";
+  return "a solid in " + lang::openscad::colour_name(solids::bytes_of(*attributes.colour));
 }
 
 // Returns a point of an edge that triangles do not pass equally often in both directions: the surface is open there.
@@ -175,7 +178,7 @@ MeshDocument document_of(const Pieces& pieces, const std::string& title) {
     if (!piece.solid()) continue;
     const solids::TriangleMesh& mesh = piece.solid()->mesh();
     const auto& [material, part, colour] = piece.attributes;
-    MeshBody body{part, mesh.points, mesh.triangles};
+    MeshBody body{lang::openscad::body_name(piece.attributes), mesh.points, mesh.triangles};
     if (!material.empty() || colour) {
       const formats::Rgba bytes = colour ? solids::bytes_of(*colour) : formats::uncoloured;
       auto& list = document.materials;
@@ -201,26 +204,12 @@ std::vector<SolidsFile> solids_files(const Pieces& pieces, const SolidsExport& t
   return files;
 }
 
-namespace {
-
-// Gives bodies without a part the name of their material or colour, since slicers list them by their names.
-void name_bodies(MeshDocument& document) {
-  for (MeshBody& body : document.bodies) {
-    if (!body.name.empty() || !body.material) continue;
-    const formats::MeshMaterial& material = document.materials[*body.material];
-    body.name = material.name.empty() ? formats::hex_colour({material.colour.data(), 3}) : material.name;
-  }
-}
-
-}  // namespace
-
 void write_solids_file(const SolidsFile& file) {
   const std::string& path = file.to.path;
   const std::string title = file.to.title.empty() ? fs::path(path).stem().string() : file.to.title;
   if (const auto drawing = drawing_of(file.pieces, title, fs::path(path).extension().string()))
     return exporting::write_file(path, *drawing);
-  MeshDocument document = document_of(file.pieces, title);
-  if (file.to.flavour != formats::SlicerFlavour::generic) name_bodies(document);
+  const MeshDocument document = document_of(file.pieces, title);
   exporting::write_mesh_file(path, document, *formats::find_mesh_format(path), file.to.flavour);
 }
 

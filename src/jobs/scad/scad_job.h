@@ -37,7 +37,7 @@ std::vector<SolidsFile> solids_files(const solids::Pieces& pieces, const SolidsE
 // Throws Error if the file cannot be written.
 void write_solids_file(const SolidsFile& file);
 
-// Returns bodies named by their parts, with a material for each name and colour.
+// Returns bodies named by their parts, else by their materials or colours, with a material for each name and colour.
 formats::MeshDocument document_of(const solids::Pieces& pieces, const std::string& title);
 
 struct ScadRequest {

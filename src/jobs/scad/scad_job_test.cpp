@@ -72,6 +72,16 @@ TEST_F(ScadJob, AmfKeepsNamesMaterialsAndColours) {
   EXPECT_TRUE(described(imported("a.amf")).starts_with("1 red part left of PLA; 8 part right of TPU; 27"));
 }
 
+TEST_F(ScadJob, BodiesAreNamedByTheirPartOrMaterialOrColour) {
+  const Pieces pieces = evaluated(
+      group({part("left", {colour(red, {cube(1)})}), moved(9, 0, 0, {material("PLA", {colour(red, {cube(1)})})}),
+             moved(19, 0, 0, {colour(red, {cube(1)})}), moved(29, 0, 0, {colour({0.2, 0.4, 0.6, 1}, {cube(1)})}),
+             moved(39, 0, 0, {colour({1, 0, 0, 0.2}, {cube(1)})}), moved(49, 0, 0, {cube(1)})}));
+  std::vector<std::string> names;
+  for (const formats::MeshBody& body : document_of(pieces, "a").bodies) names.push_back(body.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"left", "PLA", "red", "#336699", "#ff000033", ""}));
+}
+
 TEST_F(ScadJob, EveryFormatHoldsTheVolume) {
   for (const std::string name : {"a.stl", "a.off", "a.obj", "a.ply"}) {
     run(two_parts(), name);
@@ -93,7 +103,7 @@ TEST_F(ScadJob, OverlapsAreReportedOrCut) {
   // Listing 4.1 of the thesis.
   const TreePtr tree = group({colour(red, {cube(10, 10, 20)}), colour(green, {cube(10, 20, 10)})});
   EXPECT_EQ(described(run(tree, "a.obj").pieces), "2000 red; 2000 green");
-  EXPECT_EQ(first_message(), "a solid without a name and a solid without a name overlap");
+  EXPECT_EQ(first_message(), "a solid in red and a solid in green overlap");
   EXPECT_EQ(described(run(tree, "a.obj", true).pieces), "2000 red; 1000 green");
   EXPECT_TRUE(messages_.list().empty());
 }

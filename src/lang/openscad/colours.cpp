@@ -195,6 +195,19 @@ std::optional<solids::Colour> from_digits(std::string_view digits) {
   return from_bytes(*rgb, *alpha);
 }
 
+std::string digits_of(const std::array<uint8_t, 4>& rgba) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text = "#";
+  for (size_t n = 0; n < (rgba[3] == 255 ? 3 : 4); ++n) {
+    text += digits[rgba[n] / 16];
+    text += digits[rgba[n] % 16];
+  }
+  return text;
+}
+
+// The names that CSS has twice; the other one of each pair is more usual.
+constexpr std::array<std::string_view, 2> unusual_names = {"aqua", "fuchsia"};
+
 }  // namespace
 
 std::optional<solids::Colour> colour_of(const std::string& text) {
@@ -206,6 +219,14 @@ std::optional<solids::Colour> colour_of(const std::string& text) {
   const auto* found = std::ranges::lower_bound(named_colours, name, {}, &NamedColour::name);
   if (found == named_colours.end() || found->name != name) return std::nullopt;
   return from_bytes(found->rgb, 255);
+}
+
+std::string colour_name(const std::array<uint8_t, 4>& rgba) {
+  const uint32_t rgb = uint32_t{rgba[0]} << 16 | uint32_t{rgba[1]} << 8 | rgba[2];
+  const auto* found = std::ranges::find_if(named_colours, [&](const NamedColour& named) {
+    return named.rgb == rgb && std::ranges::find(unusual_names, named.name) == unusual_names.end();
+  });
+  return rgba[3] == 255 && found != named_colours.end() ? std::string(found->name) : digits_of(rgba);
 }
 
 }  // namespace ombre::lang::openscad

@@ -2,10 +2,12 @@
 // compares whole scripts.
 #include <gtest/gtest.h>
 
+#include "lang/openscad/colours.h"
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/customizer.h"
 #include "lang/openscad/run_script.h"
 #include "lang/openscad/value_text.h"
+#include "solids/colour_bytes.h"
 
 namespace ombre::lang::openscad {
 namespace {
@@ -258,6 +260,21 @@ TEST(Openscad, ParameterSetsAreDefinitions) {
   EXPECT_NE(to_text(diagnostics).find("gone"), std::string::npos);
   EXPECT_FALSE(parameter_set(sets, "b", parameters, diagnostics));
   EXPECT_TRUE(diagnostics.has_errors());
+}
+
+TEST(OpenScadColours, HaveNamesOrDigits) {
+  EXPECT_EQ(colour_name({255, 0, 0, 255}), "red");
+  EXPECT_EQ(colour_name({0, 255, 0, 255}), "lime");
+  EXPECT_EQ(colour_name({0, 255, 255, 255}), "cyan");
+  EXPECT_EQ(colour_name({255, 0, 255, 255}), "magenta");
+  EXPECT_EQ(colour_name({128, 128, 128, 255}), "gray");
+  EXPECT_EQ(colour_name({0x12, 0x34, 0xab, 255}), "#1234ab");
+  EXPECT_EQ(colour_name({255, 0, 0, 0x80}), "#ff000080");
+  for (const char* name : {"rebeccapurple", "darkslategray", "tan", "#0a0b0c"}) {
+    const auto colour = colour_of(name);
+    ASSERT_TRUE(colour) << name;
+    EXPECT_EQ(colour_name(solids::bytes_of(*colour)), name);
+  }
 }
 
 }  // namespace

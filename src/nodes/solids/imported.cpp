@@ -5,6 +5,8 @@
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/common/mixtures.h"
+#include "nodes/common/node_polyhedra.h"
+#include "nodes/common/part_label.h"
 
 namespace ombre::nodes {
 namespace {
@@ -112,6 +114,20 @@ Box bounds_of(const AnyParts& parts) {
   return box;
 }
 
+// Returns the label of the first of several solids that contains the point; `names` are those of the solids.
+Field label_of(const Parts& parts, const std::vector<std::string>& names, const std::vector<std::string>& labels,
+               const Point& p, Demand demand) {
+  const auto number = [&](const std::string& name) {
+    const auto found = std::ranges::find(labels, name);
+    return found == labels.end() ? 0.0 : static_cast<double>(found - labels.begin() + 1);
+  };
+  if (parts.size() < 2) return p.constant(number(names[0]));
+  const std::vector<Field> shares = first_true(part_weights(parts, p, demand));
+  Field label = p.constant(0);
+  for (size_t n = 0; n < parts.size(); ++n) label = label + shares[n] * number(names[n]);
+  return label;
+}
+
 // A solid whose parts are known when the node is made.
 struct SolidOfParts {
   Parts parts;
@@ -184,7 +200,8 @@ struct Scad : SolidOfParts {
   Choice materials = "auto";
   std::vector<MaterialForName> material_map;
   ScriptVariables variables;
-  std::shared_ptr<const ScadSolids> loaded;  // set when the node is made
+  std::shared_ptr<const ScadSolids> loaded;      // set when the node is made
+  std::vector<const Material*> piece_materials;  // one for each of its exact solids; null for a mixture
 
   static Spec<Scad> spec() {
     return {
@@ -222,7 +239,31 @@ struct Scad : SolidOfParts {
     for (const MeshPart& one : loaded->parts)
       parts.push_back({material_of(one.material, material, reader), one.source});
     path.content = content_of(parts);
+    for (const std::string& one : loaded->piece_materials)
+      piece_materials.push_back(material_of(one, material, reader).material);
     return true;
+  }
+
+  // Returns the names of bodies, which are labels.
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const ScadBody& body : loaded->bodies) all.push_back(body.name);
+    return all;
+  }
+
+  std::optional<AttributeDeclaration> declares() const {
+    AttributeDeclaration declared{std::string(label_name), "", 0, Overlap::first};
+    declared.type = ValueType::label;
+    declared.labels = names();
+    std::erase(declared.labels, "");
+    return declared.labels.empty() ? std::nullopt : std::optional(std::move(declared));
+  }
+
+  Field attribute(const Inputs& in, std::string_view wanted, const Point& p, Demand demand) const {
+    ASSERT(wanted == label_name);
+    Parts bodies;
+    for (const ScadBody& body : loaded->bodies) bodies.push_back({material, body.source});
+    return label_of(bodies, names(), in.declaration(label_name).labels, p, demand);
   }
 
   // Walls between two parts may be nearer than the surface of the whole.
@@ -298,6 +339,12 @@ struct Cad {
 };
 
 }  // namespace
+
+std::optional<Polyhedra> polyhedra_of(const design::Node& node) {
+  const auto* scad = dynamic_cast<const NodeOf<Scad>*>(&node);
+  if (!scad || scad->data.material.mixture.node || !scad->data.loaded->pieces) return std::nullopt;
+  return Polyhedra{scad->data.loaded->pieces, scad->data.loaded->piece_names, scad->data.piece_materials};
+}
 
 void add_imported(Registry& registry) { registry.add<Mesh, Scad, Cad>("imported"); }
 

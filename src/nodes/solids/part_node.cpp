@@ -3,13 +3,12 @@
 
 #include "base/system/assert.h"
 #include "design/spec.h"
+#include "nodes/common/part_label.h"
 
 namespace ombre::nodes {
 namespace {
 
 using namespace design;
-
-constexpr std::string_view label_name = "part";
 
 struct Part {
   std::string name;
