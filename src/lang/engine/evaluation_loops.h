@@ -3,6 +3,7 @@
 
 #include "base/text/utf8.h"
 #include "lang/engine/evaluation.h"
+#include "lang/engine/record.h"
 
 namespace ombre::lang {
 
@@ -27,6 +28,11 @@ void Evaluation<Language, Product>::for_each(const Value& values, const ast::Spa
       const size_t size = character_size(text->text, at);
       body(make_text(text->text.substr(at, size), meter_));
       at += size;
+    }
+  } else if (const Record* record = values.record()) {
+    for (const auto& [name, member] : record->members) {
+      meter_.spend();
+      body(make_text(name, meter_));
     }
   } else if (self().is_one_pass(values, where, expected)) {
     body(values);

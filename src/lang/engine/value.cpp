@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "lang/engine/record.h"
 #include "lang/engine/scope.h"
 
 namespace ombre::lang {
@@ -12,20 +13,32 @@ namespace ombre::lang {
 List::List(std::vector<Value> i, const ast::List* o, Meter& m)
     : items(std::move(i)), origin(o), weight(items.size()), depth(1), meter(m) {
   for (const Value& item : items) {
-    const List* inner = item.list();
-    if (!inner) continue;
-    weight += inner->weight;
-    depth = std::max(depth, inner->depth + 1);
+    weight += weight_of(item);
+    depth = std::max(depth, depth_of(item) + 1);
   }
+}
+
+uint64_t weight_of(const Value& value) {
+  if (const List* list = value.list()) return list->weight;
+  return value.record() ? value.record()->weight : 0;
+}
+
+int depth_of(const Value& value) {
+  if (const List* list = value.list()) return list->depth;
+  return value.record() ? value.record()->depth : 0;
+}
+
+void check_nesting(uint64_t weight, int depth, const Meter& meter) {
+  if (weight > meter.limits().elements) meter.too_many_elements();
+  if (depth > meter.limits().list_depth)
+    throw LimitReached{"lists nest deeper than " + std::to_string(meter.limits().list_depth) + " levels",
+                       "join lists with concat or each instead of putting them into each other"};
 }
 
 Value ListBuilder::finish(const ast::List* origin) {
   auto list = std::make_shared<const List>(std::move(items_), origin, meter_);
   items_.clear();  // the elements are now counted with the list
-  if (list->weight > meter_.limits().elements) meter_.too_many_elements();
-  if (list->depth > meter_.limits().list_depth)
-    throw LimitReached{"lists nest deeper than " + std::to_string(meter_.limits().list_depth) + " levels",
-                       "join lists with concat or each instead of putting them into each other"};
+  check_nesting(list->weight, list->depth, meter_);
   return ListPtr(std::move(list));
 }
 
@@ -66,6 +79,7 @@ bool is_true(const Value& value) {
   if (const double* n = value.number()) return *n != 0;
   if (const Text* t = value.text()) return !t->text.empty();
   if (const List* l = value.list()) return !l->items.empty();
+  if (const Record* r = value.record()) return !r->members.empty();
   return true;
 }
 
@@ -76,6 +90,17 @@ bool equal_lists(const List& a, const List& b, Meter& meter) {
   if (a.items.size() != b.items.size()) return false;
   for (size_t i = 0; i < a.items.size(); ++i)
     if (!equal(a.items[i], b.items[i], meter)) return false;
+  return true;
+}
+
+// The order of members does not matter.
+bool equal_records(const Record& a, const Record& b, Meter& meter) {
+  if (&a == &b) return true;
+  if (a.members.size() != b.members.size()) return false;
+  for (const auto& [name, value] : a.members) {
+    const Value* other = b.find(name);
+    if (!other || !equal(value, *other, meter)) return false;
+  }
   return true;
 }
 
@@ -95,6 +120,7 @@ bool equal(const Value& a, const Value& b, Meter& meter) {
     const Range* y = b.range();
     return y && x->begin == y->begin && x->step == y->step && x->end == y->end;
   }
+  if (const Record* x = a.record()) return b.record() && equal_records(*x, *b.record(), meter);
   if (a.object()) return a.object() == b.object();
   return a.closure() && a.closure() == b.closure();
 }
@@ -107,6 +133,7 @@ std::string describe(const Value& value) {
     return list->items.empty() ? "an empty list" : "a list of " + std::to_string(list->items.size());
   if (value.range()) return "a range";
   if (value.closure()) return "a function";
+  if (value.record()) return "an object";
   if (const Object* object = value.object()) return object->describe();
   return "undef";
 }
@@ -143,6 +170,14 @@ void append_text(std::string& text, const Value& value, bool quoted, Meter& mete
         '[' + style.number(range->begin) + " : " + style.number(range->step) + " : " + style.number(range->end) + ']';
   } else if (const Closure* closure = value.closure()) {
     text += style.function(*closure);
+  } else if (const Record* record = value.record()) {
+    text += "{ ";
+    for (const auto& [name, member] : record->members) {
+      text += name + " = ";
+      append_text(text, member, true, meter, style);
+      text += "; ";
+    }
+    text += '}';
   } else if (const Object* object = value.object()) {
     text += object->text();
   } else {
@@ -158,6 +193,11 @@ Value from_data(const Data& data, Meter& meter) {
   if (const bool* b = data.boolean()) return *b;
   if (const double* n = data.number()) return *n;
   if (const std::string* s = data.string()) return make_text(*s, meter);
+  if (const DataMembers* members = data.members()) {
+    RecordBuilder builder(meter);
+    for (const auto& [name, member] : *members) builder.set(name, from_data(member, meter));
+    return builder.finish();
+  }
   const DataList* list = data.list();
   if (!list) return {};
   ListBuilder builder(meter);

@@ -18,6 +18,7 @@ struct Text;
 struct List;
 struct Range;
 struct Closure;
+struct Record;
 class Object;
 struct Undef {};
 // The value of a variable whose assignment failed and was reported. Reading it fails without a diagnostic.
@@ -27,6 +28,7 @@ using TextPtr = std::shared_ptr<const Text>;
 using ListPtr = std::shared_ptr<const List>;
 using RangePtr = std::shared_ptr<const Range>;
 using ClosurePtr = std::shared_ptr<const Closure>;
+using RecordPtr = std::shared_ptr<const Record>;
 using ObjectPtr = std::shared_ptr<const Object>;
 
 class Value {
@@ -38,6 +40,7 @@ class Value {
   Value(ListPtr v) : value_(std::move(v)) {}     // NOLINT
   Value(RangePtr v) : value_(std::move(v)) {}    // NOLINT
   Value(ClosurePtr v) : value_(std::move(v)) {}  // NOLINT
+  Value(RecordPtr v) : value_(std::move(v)) {}   // NOLINT
   Value(ObjectPtr v) : value_(std::move(v)) {}   // NOLINT
   Value(Broken v) : value_(v) {}                 // NOLINT
 
@@ -49,6 +52,7 @@ class Value {
   const List* list() const { return pointee<ListPtr>(); }
   const Range* range() const { return pointee<RangePtr>(); }
   const Closure* closure() const { return pointee<ClosurePtr>(); }
+  const Record* record() const { return pointee<RecordPtr>(); }
   const Object* object() const { return pointee<ObjectPtr>(); }
   const ClosurePtr& closure_ptr() const { return std::get<ClosurePtr>(value_); }
 
@@ -59,7 +63,7 @@ class Value {
     return pointer ? pointer->get() : nullptr;
   }
 
-  std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, ObjectPtr, Broken> value_;
+  std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, RecordPtr, ObjectPtr, Broken> value_;
 };
 
 // A value that only a vocabulary understands, such as a number that varies in space.
@@ -110,6 +114,12 @@ struct List {
   int depth;                // 1 for a list without inner lists
   Meter& meter;
 };
+
+// Returns the number of elements that a value holds, and the levels of lists and records; 0 for other values.
+uint64_t weight_of(const Value& value);
+int depth_of(const Value& value);
+// Throws LimitReached if a list or a record is too large or too deep.
+void check_nesting(uint64_t weight, int depth, const Meter& meter);
 
 struct Range {
   double begin, step, end;
