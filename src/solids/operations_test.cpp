@@ -460,11 +460,11 @@ TEST_F(Operations, Texts) {
 
 // The box of a text's area is that which measures_of() gives.
 TEST_F(Operations, MeasuresOfTexts) {
-  if (!draw::can_outline_text() || !draw::search_font("Liberation Sans", false, false)) GTEST_SKIP();
+  if (!draw::can_outline_text() || !draw::search_font("DejaVu Sans", false, false)) GTEST_SKIP();
   Diagnostics messages;
   for (const char* side : {"left", "center", "right"})
     for (const char* level : {"baseline", "top", "center", "bottom"}) {
-      Text text{"Hg", 10, "", side, level};
+      Text text{"Hg", 10, "DejaVu Sans", side, level};
       text.spacing = 1.2;
       const auto measures = measures_of(text, {}, messages);
       ASSERT_TRUE(measures);
