@@ -14,7 +14,7 @@ namespace ombre::solids {
 namespace {
 
 // Rings with further corners, and for each corner the number of the point of the region at which it lies.
-struct Outline {
+struct FineOutline {
   std::vector<Ring> rings;
   std::vector<uint32_t> point;
 };
@@ -50,8 +50,8 @@ class Corner {
 
 // Rounds inward corners on a scale that nobody sees: the planes that rise from the sides of such a round touch the cone
 // that rises from the corner.
-Outline rounded(const Region& region, const Fragments& fragments) {
-  Outline outline;
+FineOutline rounded(const Region& region, const Fragments& fragments) {
+  FineOutline outline;
   const double step = fragments.count > 0 ? 360 / std::max(3.0, fragments.count) : std::max(0.01, fragments.angle);
   uint32_t number = 0;
   for (const Ring& ring : region.rings) {
@@ -70,8 +70,8 @@ Outline rounded(const Region& region, const Fragments& fragments) {
   return outline;
 }
 
-Outline as_it_is(const Region& region) {
-  Outline outline{region.rings, {}};
+FineOutline as_it_is(const Region& region) {
+  FineOutline outline{region.rings, {}};
   for (const Ring& ring : region.rings)
     for (size_t n = 0; n < ring.size(); ++n) outline.point.push_back(static_cast<uint32_t>(outline.point.size()));
   return outline;
@@ -94,7 +94,7 @@ bool are_apart(const std::vector<Ring>& rings, const PlaneTriangles& filling) {
 }
 
 TriangleMesh closed_roof(const Region& region, const PlaneTriangles& filling, const Roof& by) {
-  const Outline outline = by.method == RoofMethod::straight ? as_it_is(region) : rounded(region, by.fragments);
+  const FineOutline outline = by.method == RoofMethod::straight ? as_it_is(region) : rounded(region, by.fragments);
   TriangleMesh above = kernel().roof(outline.rings);
   TriangleMesh mesh;
   for (const Ring& ring : region.rings)

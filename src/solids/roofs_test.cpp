@@ -25,7 +25,7 @@ struct Measures {
   std::string messages;
 };
 
-Measures measures_of(const TreePtr& tree) {
+Measures roof_measures(const TreePtr& tree) {
   Diagnostics messages;
   Measures result;
   for (const Piece& piece : evaluate(tree, {}, messages)) {
@@ -41,7 +41,7 @@ Measures measures_of(const TreePtr& tree) {
 }
 
 void expect_roof(const TreePtr& tree, double volume, double height, double tolerance = 1e-7) {
-  const Measures found = measures_of(tree);
+  const Measures found = roof_measures(tree);
   EXPECT_NEAR(found.volume, volume, tolerance * volume);
   EXPECT_NEAR(found.height, height, tolerance * height);
   EXPECT_EQ(found.messages, "");
@@ -97,7 +97,7 @@ double summed_distance(const Region& region, double size, int steps) {
 
 void expect_distances(const TreePtr& shape, double size) {
   const double expected = summed_distance(*evaluated(shape)[0].region(), size, 200);
-  const Measures found = measures_of(roof(distance_roof, {shape}, {360}));
+  const Measures found = roof_measures(roof(distance_roof, {shape}, {360}));
   EXPECT_NEAR(found.volume, expected, 1e-3 * expected);
   EXPECT_EQ(found.messages, "");
 }
@@ -108,7 +108,7 @@ TEST_F(Roofs, OfAnL) {
   const TreePtr hook = node(Polygon{{{0, 0}, {a, 0}, {a, w}, {w, w}, {w, a}, {0, a}}, {}});
   expect_roof(roof(straight_roof, {hook}), (a * a * a - std::pow(notch, 3)) / 6 - notch * notch * w / 2, w / 2);
   // The highest point is as far from the inner corner as from the outer sides.
-  EXPECT_NEAR(measures_of(roof(distance_roof, {hook}, {360})).height, w * (2 - std::numbers::sqrt2), 1e-4);
+  EXPECT_NEAR(roof_measures(roof(distance_roof, {hook}, {360})).height, w * (2 - std::numbers::sqrt2), 1e-4);
   expect_distances(hook, a);
 }
 
@@ -152,8 +152,8 @@ TEST_F(Roofs, OfRandomStars) {
       polygon.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
     const TreePtr shape = node(polygon);
-    const Measures straight = measures_of(roof(straight_roof, {shape}));
-    const Measures rounded = measures_of(roof(distance_roof, {shape}));
+    const Measures straight = roof_measures(roof(straight_roof, {shape}));
+    const Measures rounded = roof_measures(roof(distance_roof, {shape}));
     EXPECT_EQ(straight.messages + rounded.messages, "");
     EXPECT_GE(rounded.volume, straight.volume * (1 - 1e-6));
     // Shrinking by a step of the height gives the same section as cutting the roof.

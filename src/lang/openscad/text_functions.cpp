@@ -62,19 +62,19 @@ Value told(const FunctionCall& call, const Diagnostics& found) {
   return {};
 }
 
-Value vector(const FunctionCall& call, Vec2 v) { return make_list({v.x, v.y}, call.meter); }
+Value pair_of(const FunctionCall& call, Vec2 v) { return make_list({v.x, v.y}, call.meter); }
 
 Value textmetrics(const FunctionCall& call) {
   Diagnostics found;
   const auto measures = solids::measures_of(text_of(NamedArguments(call, text_names, other_text_names)), {}, found);
   if (!measures) return told(call, found);
   RecordBuilder result(call.meter);
-  result.set("position", vector(call, measures->low));
-  result.set("size", vector(call, measures->high - measures->low));
+  result.set("position", pair_of(call, measures->low));
+  result.set("size", pair_of(call, measures->high - measures->low));
   result.set("ascent", measures->ascent);
   result.set("descent", measures->descent);
-  result.set("offset", vector(call, measures->offset));
-  result.set("advance", vector(call, measures->advance));
+  result.set("offset", pair_of(call, measures->offset));
+  result.set("advance", pair_of(call, measures->advance));
   return result.finish();
 }
 
