@@ -3,7 +3,6 @@
 
 #include "base/text/utf8.h"
 #include "lang/engine/evaluation.h"
-#include "lang/engine/record.h"
 
 namespace ombre::lang {
 

@@ -3,7 +3,6 @@
 
 #include "base/text/json.h"
 #include "base/text/text.h"
-#include "lang/engine/record.h"
 #include "lang/openscad/script_functions.h"
 #include "lang/openscad/value_text.h"
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <span>
 
-#include "lang/engine/record.h"
 #include "lang/openscad/script_functions.h"
 #include "lang/openscad/text_parameters.h"
 #include "solids/texts.h"
