@@ -31,6 +31,8 @@ TextLevel level_called(std::string_view word) {
 
 #include <algorithm>
 #include <memory>
+#include <tuple>
+#include <utility>
 
 #include "base/math/curves.h"
 #include "base/text/text.h"
@@ -75,6 +77,12 @@ class Face {
   double em() const { return face_->units_per_EM; }
   double line_height() const { return face_->height > 0 ? face_->height : 1.2 * em(); }
   hb_font_t* shaper() const { return shaper_.get(); }
+  FontMeasures measures() const {
+    const auto ems = [&](auto length) { return static_cast<double>(length) / em(); };
+    const auto name = [](const char* text) { return std::string(text ? text : ""); };
+    return {ems(face_->ascender), ems(face_->descender),    ems(face_->bbox.yMax),  ems(face_->bbox.yMin),
+            line_height() / em(), name(face_->family_name), name(face_->style_name)};
+  }
 
   // Returns the outline, or null if the glyph cannot be loaded.
   FT_Outline* outline(uint32_t glyph) const {
@@ -238,17 +246,24 @@ std::vector<RunGlyph> shape_run(const Face& face, const std::string& text, const
   return run;
 }
 
+// Returns the box around the points that define a letter, or nothing for a blank.
+std::optional<FT_BBox> box_of(const Face& face, uint32_t glyph) {
+  FT_Outline* const outline = face.outline(glyph);
+  if (!outline || outline->n_points == 0) return std::nullopt;
+  FT_BBox box;
+  FT_Outline_Get_CBox(outline, &box);
+  return box;
+}
+
 // Returns the lowest and the highest extent of the letters, in the font's units.
 std::pair<double, double> reach_of(const Face& face, const std::vector<RunGlyph>& run) {
   double low = 0, high = 0;
   bool is_first = true;
   for (const RunGlyph& placed : run) {
-    FT_Outline* const outline = face.outline(placed.glyph);
-    if (!outline || outline->n_points == 0) continue;
-    FT_BBox box;
-    FT_Outline_Get_CBox(outline, &box);
-    low = is_first ? static_cast<double>(box.yMin) : std::min(low, static_cast<double>(box.yMin));
-    high = is_first ? static_cast<double>(box.yMax) : std::max(high, static_cast<double>(box.yMax));
+    const auto box = box_of(face, placed.glyph);
+    if (!box) continue;
+    low = is_first ? static_cast<double>(box->yMin) : std::min(low, static_cast<double>(box->yMin));
+    high = is_first ? static_cast<double>(box->yMax) : std::max(high, static_cast<double>(box->yMax));
     is_first = false;
   }
   return {low, high};
@@ -268,28 +283,73 @@ double rise_of(TextLevel level, double low, double high) {
   return 0;
 }
 
+// A run whose letters have their places, in the font's units.
+struct PlacedRun {
+  struct Letter {
+    uint32_t glyph;
+    Vec2 at;
+  };
+  std::vector<Letter> letters;
+  double low = 0, high = 0;
+  Vec2 offset, advance;
+};
+
+PlacedRun placed_run(const Face& face, const std::string& text, const RunLayout& layout) {
+  constexpr double measure = 1000.0 / 1024;
+  const std::vector<RunGlyph> run = shape_run(face, text, layout);
+  PlacedRun result;
+  for (const RunGlyph& placed : run) result.advance = result.advance + (measure * layout.spacing) * placed.advance;
+  std::tie(result.low, result.high) = reach_of(face, run);
+  const double rise = rise_of(layout.level, result.low, result.high);
+  result.offset = {left_end(layout.side, result.advance.x), measure * rise};
+  Vec2 at = result.offset;
+  for (const RunGlyph& placed : run) {
+    result.letters.push_back({placed.glyph, at + measure * placed.offset});
+    at = at + (measure * layout.spacing) * placed.advance;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<TextOutlines> outline_run(const std::string& font_bytes, int font_index, const std::string& text,
                                         const RunLayout& layout) {
-  constexpr double measure = 1000.0 / 1024;
   const Face face(font_bytes, font_index);
   if (!face.has_outlines()) return std::nullopt;
-  const std::vector<RunGlyph> run = shape_run(face, text, layout);
-  Vec2 whole;
-  for (const RunGlyph& placed : run) whole = whole + (measure * layout.spacing) * placed.advance;
-  const auto [low, high] = reach_of(face, run);
-  Vec2 at{left_end(layout.side, whole.x), measure * rise_of(layout.level, low, high)};
   TextOutlines outlines;
-  for (const RunGlyph& placed : run) {
-    append_rings(face, placed.glyph, at + measure * placed.offset, outlines.rings, layout.chords_per_curve);
-    at = at + (measure * layout.spacing) * placed.advance;
-  }
+  for (const auto& [glyph, at] : placed_run(face, text, layout).letters)
+    append_rings(face, glyph, at, outlines.rings, layout.chords_per_curve);
   const double mm = layout.em_mm / face.em();
   for (Ring& ring : outlines.rings)
     for (Vec2& p : ring) p = mm * p;
   tidy(outlines.rings);
   return outlines;
+}
+
+std::optional<RunMeasures> measure_run(const std::string& font_bytes, int font_index, const std::string& text,
+                                       const RunLayout& layout) {
+  const Face face(font_bytes, font_index);
+  if (!face.has_outlines()) return std::nullopt;
+  const PlacedRun run = placed_run(face, text, layout);
+  const double mm = layout.em_mm / face.em();
+  RunMeasures measures{{}, {}, mm * run.high, mm * run.low, mm * run.offset, mm * run.advance};
+  bool is_first = true;
+  for (const auto& [glyph, at] : run.letters) {
+    const auto box = box_of(face, glyph);
+    if (!box) continue;
+    const Vec2 low = mm * (at + Vec2{static_cast<double>(box->xMin), static_cast<double>(box->yMin)});
+    const Vec2 high = mm * (at + Vec2{static_cast<double>(box->xMax), static_cast<double>(box->yMax)});
+    const auto& [least, most] = is_first ? std::pair(low, high) : std::pair(measures.low, measures.high);
+    measures.low = {std::min(low.x, least.x), std::min(low.y, least.y)};
+    measures.high = {std::max(high.x, most.x), std::max(high.y, most.y)};
+    is_first = false;
+  }
+  return measures;
+}
+
+std::optional<FontMeasures> measure_font(const std::string& font_bytes, int font_index) {
+  const Face face(font_bytes, font_index);
+  return face.has_outlines() ? std::optional(face.measures()) : std::nullopt;
 }
 
 std::optional<TextOutlines> outline_text(const std::string& font_bytes, int font_index, const std::string& text,
@@ -329,6 +389,12 @@ std::optional<TextOutlines> outline_text(const std::string&, int, const std::str
 std::optional<TextOutlines> outline_run(const std::string&, int, const std::string&, const RunLayout&) {
   return std::nullopt;
 }
+
+std::optional<RunMeasures> measure_run(const std::string&, int, const std::string&, const RunLayout&) {
+  return std::nullopt;
+}
+
+std::optional<FontMeasures> measure_font(const std::string&, int) { return std::nullopt; }
 
 }  // namespace ombre::draw
 

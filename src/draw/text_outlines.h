@@ -60,4 +60,27 @@ struct RunLayout {
 std::optional<TextOutlines> outline_run(const std::string& font_bytes, int font_index, const std::string& text,
                                         const RunLayout& layout);
 
+// The place of such a line, in mm. The box holds all letters, `offset` is where the line begins on its baseline, and
+// `advance` leads from there to where the next line would begin.
+struct RunMeasures {
+  Vec2 low, high;
+  double ascent = 0, descent = 0;  // of the highest and the lowest letter above the baseline
+  Vec2 offset, advance;
+};
+
+// Null if the bytes are not a font with outlines.
+std::optional<RunMeasures> measure_run(const std::string& font_bytes, int font_index, const std::string& text,
+                                       const RunLayout& layout);
+
+// The measures of a font whose em is 1.
+struct FontMeasures {
+  double ascent = 0, descent = 0;  // as the font's designer set them
+  double highest = 0, lowest = 0;  // of all letters
+  double line_height = 0;
+  std::string family, style;
+};
+
+// Null if the bytes are not a font with outlines.
+std::optional<FontMeasures> measure_font(const std::string& font_bytes, int font_index);
+
 }  // namespace ombre::draw

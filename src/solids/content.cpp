@@ -83,6 +83,7 @@ struct Adder {
     w.add(v.height, v.twist, v.direction, v.scale, v.centred, v.slices, v.segments, v.fragments);
   }
   void operator()(const RotateExtrude& v) const { w.add(v.angle, v.start, v.fragments); }
+  void operator()(const Roof& v) const { w.add(static_cast<int>(v.method), v.fragments); }
   void operator()(const Projection& v) const { w.add(v.cut); }
   void operator()(const SetColour& v) const { w.add(v.colour); }
   void operator()(const SetPart& v) const { w.add(v.name); }

@@ -48,6 +48,9 @@ class Kernel {
   // Returns triangles between the points of rings, counter-clockwise; a point is inside if an odd number of rings
   // encloses it.
   virtual PlaneTriangles triangulate(std::span<const Ring> rings) const = 0;
+  // Returns planes that rise at 45 degrees inward from the sides of rings, up to where they meet. Outlines are
+  // counter-clockwise, holes clockwise, and rings neither cross nor touch. The first points are those of the rings.
+  virtual TriangleMesh roof(std::span<const Ring> rings) const = 0;
 };
 
 // Returns the kernel of this build. Throws Error if there is none.

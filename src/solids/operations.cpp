@@ -10,6 +10,7 @@
 #include "solids/mended_solid.h"
 #include "solids/piece_attributes.h"
 #include "solids/regions.h"
+#include "solids/roofs.h"
 
 namespace ombre::solids {
 namespace {
@@ -90,6 +91,9 @@ class Applier {
     return for_regions(apart(), [&](const Region& region) {
       return checked(revolved(region, by, tree_.where, *context_.messages), true);
     });
+  }
+  Pieces operator()(const Roof& by) {
+    return for_regions(apart(), [&](const Region& region) { return checked(roof_of(region, by), false, "the roof"); });
   }
   Pieces operator()(const Projection& by) {
     return for_solids(apart(),
@@ -293,10 +297,10 @@ class Applier {
   }
 
   // Returns the solid of a mesh, repaired by the kernel if the mesh may cross itself.
-  Solid checked(TriangleMesh mesh, bool is_sound) const {
+  Solid checked(TriangleMesh mesh, bool is_sound, const char* name = "the extrusion") const {
     if (!is_finite(mesh)) return Solid(TriangleMesh{});
     if (is_sound || mesh.triangles.empty()) return Solid(std::move(mesh));
-    const auto solid = mended_solid(std::move(mesh), "the extrusion", tree_.where, *context_.messages);
+    const auto solid = mended_solid(std::move(mesh), name, tree_.where, *context_.messages);
     return solid ? *solid : Solid(TriangleMesh{});
   }
 

@@ -7,6 +7,7 @@
 #include "draw/text_outlines.h"
 #include "solids/kernel.h"
 #include "solids/test_trees.h"
+#include "solids/texts.h"
 
 namespace ombre::solids {
 namespace {
@@ -455,6 +456,25 @@ TEST_F(Operations, Texts) {
   EXPECT_NEAR(area_of(written("O", "left", "bottom", 0)), 35.926843, 0.02);
   EXPECT_NEAR(area_of(written("O", "left", "bottom", 100)), 36.136056, 0.02);
   EXPECT_NEAR(area_of(written("O", "left", "bottom", 4)), 35.234009, 0.02);
+}
+
+// The box of a text's area is that which measures_of() gives.
+TEST_F(Operations, MeasuresOfTexts) {
+  if (!draw::can_outline_text() || !draw::search_font("DejaVu Sans", false, false)) GTEST_SKIP();
+  Diagnostics messages;
+  for (const char* side : {"left", "center", "right"})
+    for (const char* level : {"baseline", "top", "center", "bottom"}) {
+      Text text{"Hg", 10, "DejaVu Sans", side, level};
+      text.spacing = 1.2;
+      const auto measures = measures_of(text, {}, messages);
+      ASSERT_TRUE(measures);
+      const Box box = bounds_of(region_of_text(text, {}, messages));
+      EXPECT_NEAR(measures->low.x, box.lo.x, 0.01);
+      EXPECT_NEAR(measures->low.y, box.lo.y, 0.01);
+      EXPECT_NEAR(measures->high.x, box.hi.x, 0.01);
+      EXPECT_NEAR(measures->high.y, box.hi.y, 0.01);
+    }
+  EXPECT_TRUE(messages.list().empty());
 }
 
 TEST_F(Operations, DimensionsAreNotMixed) {

@@ -33,8 +33,9 @@ FontName font_name(const std::string& text) {
   return name;
 }
 
+constexpr double em_of_size = 100.0 / 72;
+
 draw::RunLayout layout_of(const Text& text) {
-  constexpr double em_of_size = 100.0 / 72;
   draw::RunLayout layout{em_of_size * text.size, text.spacing};
   layout.chords_per_curve = std::max(2, edges_of_circle(text.size, text.fragments) / 8 + 1);
   layout.direction = text.direction;
@@ -45,30 +46,53 @@ draw::RunLayout layout_of(const Text& text) {
   return layout;
 }
 
-}  // namespace
-
-Region region_of_text(const Text& text, const SourceRange& where, Diagnostics& messages) {
+// Returns the font of a text. If there is none, or the text is too long, adds an error and returns nothing.
+std::optional<draw::FoundFont> font_of(const Text& text, const SourceRange& where, Diagnostics& messages) {
   constexpr size_t most_bytes = 100'000;
-  if (text.text.empty() || !(text.size > 0)) return {};
   if (text.text.size() > most_bytes) {
     messages.error(where, "a text has at most " + std::to_string(most_bytes) + " bytes");
-    return {};
+    return std::nullopt;
   }
   if (!draw::can_outline_text()) {
     messages.error(where, "this ombre was built without HarfBuzz and fontconfig, which texts need",
                    "install libharfbuzz-dev and libfontconfig-dev, configure with -DOMBRE_TEXT=ON and build again");
-    return {};
+    return std::nullopt;
   }
   const FontName name = font_name(text.font);
   auto font = draw::search_font_files(text.font_files, name.family, name.is_bold, name.is_italic);
   if (!font) font = draw::search_font(name.family, name.is_bold, name.is_italic);
-  if (!font) {
+  if (!font)
     messages.error(where, "there is no font \"" + name.family + "\", and none to take its place",
                    "install fonts-liberation or fonts-dejavu-core");
-    return {};
-  }
+  return font;
+}
+
+}  // namespace
+
+Region region_of_text(const Text& text, const SourceRange& where, Diagnostics& messages) {
+  if (text.text.empty() || !(text.size > 0)) return {};
+  const auto font = font_of(text, where, messages);
+  if (!font) return {};
   const auto outlines = draw::outline_run(formats::read_file(font->file), font->index, text.text, layout_of(text));
   return outlines ? wound_region_of(outlines->rings) : Region{};
+}
+
+std::optional<draw::RunMeasures> measures_of(const Text& text, const SourceRange& where, Diagnostics& messages) {
+  if (text.text.empty() || !(text.size > 0)) return draw::RunMeasures{};
+  const auto font = font_of(text, where, messages);
+  if (!font) return std::nullopt;
+  return draw::measure_run(formats::read_file(font->file), font->index, text.text, layout_of(text));
+}
+
+std::optional<draw::FontMeasures> font_measures_of(const Text& text, const SourceRange& where, Diagnostics& messages) {
+  const auto font = font_of(text, where, messages);
+  if (!font) return std::nullopt;
+  auto measures = draw::measure_font(formats::read_file(font->file), font->index);
+  if (!measures) return std::nullopt;
+  for (double* length :
+       {&measures->ascent, &measures->descent, &measures->highest, &measures->lowest, &measures->line_height})
+    *length *= em_of_size * text.size;
+  return measures;
 }
 
 }  // namespace ombre::solids

@@ -124,6 +124,15 @@ struct RotateExtrude {
   int convexity = 2;
   Fragments fragments = {};
 };
+enum class RoofMethod : uint8_t {
+  distance,  // the height of a point is its distance from the outline: cones rise from inward corners
+  straight,  // planes rise from the sides alone
+};
+struct Roof {
+  RoofMethod method = RoofMethod::distance;
+  int convexity = 1;
+  Fragments fragments = {};
+};
 struct Projection {
   bool cut = false;
   int convexity = 0;
@@ -148,9 +157,10 @@ struct Word {
   std::shared_ptr<const void> solid;
 };
 
-using Operation = std::variant<Group, Cube, Sphere, Cylinder, Polyhedron, Square, Circle, Polygon, Text, Import,
-                               Surface, Union, Difference, Intersection, Hull, Minkowski, Fill, Transform, Resize,
-                               Offset, LinearExtrude, RotateExtrude, Projection, SetColour, SetPart, SetMaterial, Word>;
+using Operation =
+    std::variant<Group, Cube, Sphere, Cylinder, Polyhedron, Square, Circle, Polygon, Text, Import, Surface, Union,
+                 Difference, Intersection, Hull, Minkowski, Fill, Transform, Resize, Offset, LinearExtrude,
+                 RotateExtrude, Roof, Projection, SetColour, SetPart, SetMaterial, Word>;
 
 // The rule for solids of different parts or materials in an operation.
 enum class Semantics : uint8_t { standard, strict, permissive };

@@ -255,6 +255,11 @@ Data Evaluation<Language, Product>::to_data(const Value& value, const SourceRang
   if (const bool* boolean = value.boolean()) return {*boolean, where};
   if (value.list() || value.range()) return to_list(value, where, argument);
   if (value.closure()) self().stop_at_function(argument);
+  if (const Record* record = value.record()) {
+    DataMembers members;
+    for (const auto& [name, member] : record->members) members.emplace_back(name, to_data(member, where, argument));
+    return {std::move(members), where};
+  }
   Data data = value.object() ? value.object()->data() : Data();
   data.where = where;
   return data;

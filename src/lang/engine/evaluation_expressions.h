@@ -124,6 +124,10 @@ template <class Language, class Product>
 Value Evaluation<Language, Product>::eval_index(const ast::Index& index, const ScopePtr& scope) {
   const Value base = eval(*index.base, scope);
   const Value at = eval(*index.index, scope);
+  if (base.record() && at.text()) {
+    const Value* member = base.record()->find(at.text()->text);
+    return member ? *member : Value();
+  }
   const double* number = at.number();
   if (!number) return self().mistaken(index.index->span, "an index needs to be a number", at);
   const double place = std::trunc(*number);

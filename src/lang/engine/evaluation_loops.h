@@ -28,6 +28,11 @@ void Evaluation<Language, Product>::for_each(const Value& values, const ast::Spa
       body(make_text(text->text.substr(at, size), meter_));
       at += size;
     }
+  } else if (const Record* record = values.record()) {
+    for (const auto& [name, member] : record->members) {
+      meter_.spend();
+      body(make_text(name, meter_));
+    }
   } else if (self().is_one_pass(values, where, expected)) {
     body(values);
   }

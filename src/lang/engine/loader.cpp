@@ -18,16 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t largest_file = 256u << 20;
 
-std::optional<std::string> read_real_file(const std::string& path) {
-  std::error_code status;
-  if (!fs::is_regular_file(path, status) || fs::file_size(path, status) > largest_file) return std::nullopt;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return std::nullopt;
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 class Loader {
  public:
   Loader(const Options& options, Diagnostics& diagnostics)
@@ -181,6 +171,16 @@ class Loader {
 };
 
 }  // namespace
+
+std::optional<std::string> read_real_file(const std::string& path) {
+  std::error_code status;
+  if (!fs::is_regular_file(path, status) || fs::file_size(path, status) > largest_file) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
 
 Program load(const SourcePtr& source, const Options& options, Diagnostics& diagnostics) {
   return Loader(options, diagnostics).run(source);

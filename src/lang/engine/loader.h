@@ -29,6 +29,9 @@ struct Program {
   std::vector<std::string> fonts;  // paths of font files that OpenSCAD scripts use
 };
 
+// Returns the content of a file, or nothing if it is not a regular file of a size that scripts may have.
+std::optional<std::string> read_real_file(const std::string& path);
+
 Program load(const SourcePtr& source, const Options& options, Diagnostics& diagnostics);
 
 }  // namespace ombre::lang

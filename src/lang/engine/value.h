@@ -1,10 +1,12 @@
 // Values of expressions.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct Text;
 struct List;
 struct Range;
 struct Closure;
+struct Record;
 class Object;
 struct Undef {};
 // The value of a variable whose assignment failed and was reported. Reading it fails without a diagnostic.
@@ -27,6 +30,7 @@ using TextPtr = std::shared_ptr<const Text>;
 using ListPtr = std::shared_ptr<const List>;
 using RangePtr = std::shared_ptr<const Range>;
 using ClosurePtr = std::shared_ptr<const Closure>;
+using RecordPtr = std::shared_ptr<const Record>;
 using ObjectPtr = std::shared_ptr<const Object>;
 
 class Value {
@@ -38,6 +42,7 @@ class Value {
   Value(ListPtr v) : value_(std::move(v)) {}     // NOLINT
   Value(RangePtr v) : value_(std::move(v)) {}    // NOLINT
   Value(ClosurePtr v) : value_(std::move(v)) {}  // NOLINT
+  Value(RecordPtr v) : value_(std::move(v)) {}   // NOLINT
   Value(ObjectPtr v) : value_(std::move(v)) {}   // NOLINT
   Value(Broken v) : value_(v) {}                 // NOLINT
 
@@ -49,6 +54,7 @@ class Value {
   const List* list() const { return pointee<ListPtr>(); }
   const Range* range() const { return pointee<RangePtr>(); }
   const Closure* closure() const { return pointee<ClosurePtr>(); }
+  const Record* record() const { return pointee<RecordPtr>(); }
   const Object* object() const { return pointee<ObjectPtr>(); }
   const ClosurePtr& closure_ptr() const { return std::get<ClosurePtr>(value_); }
 
@@ -59,7 +65,7 @@ class Value {
     return pointer ? pointer->get() : nullptr;
   }
 
-  std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, ObjectPtr, Broken> value_;
+  std::variant<Undef, bool, double, TextPtr, ListPtr, RangePtr, ClosurePtr, RecordPtr, ObjectPtr, Broken> value_;
 };
 
 // A value that only a vocabulary understands, such as a number that varies in space.
@@ -111,6 +117,12 @@ struct List {
   Meter& meter;
 };
 
+// Returns the number of elements that a value holds, and the levels of lists and records; 0 for other values.
+uint64_t weight_of(const Value& value);
+int depth_of(const Value& value);
+// Throws LimitReached if a list or a record is too large or too deep.
+void check_nesting(uint64_t weight, int depth, const Meter& meter);
+
 struct Range {
   double begin, step, end;
 
@@ -137,6 +149,45 @@ class ListBuilder {
  private:
   Meter& meter_;
   std::vector<Value> items_;
+};
+
+// A value with named members, which OpenSCAD calls an object. Its builder sees to it that each name occurs once.
+struct Record {
+  using Members = std::vector<std::pair<std::string, Value>>;  // in the order in which they were set first
+
+  Record(Members m, uint64_t bytes, Meter& counter);
+  ~Record();
+  Record(const Record&) = delete;
+  Record& operator=(const Record&) = delete;
+
+  const Value* find(const std::string& name) const;  // null if there is none
+
+  Members members;
+  std::map<std::string, size_t> places;  // of the members
+  uint64_t weight;                       // as that of a list
+  int depth;
+  uint64_t name_bytes;
+  Meter& meter;
+};
+
+// Collects members within the limits.
+class RecordBuilder {
+ public:
+  explicit RecordBuilder(Meter& meter) : meter_(meter) {}
+  ~RecordBuilder();
+  RecordBuilder(const RecordBuilder&) = delete;
+  RecordBuilder& operator=(const RecordBuilder&) = delete;
+
+  void set(const std::string& name, Value value);  // an older value of the name is replaced in its place
+  void set_all(const Record& other);
+  void remove(const std::string& name);
+  Value finish();
+
+ private:
+  Meter& meter_;
+  Record::Members members_;
+  std::map<std::string, size_t> places_;
+  uint64_t name_bytes_ = 0;
 };
 
 Value make_text(std::string text, Meter& meter);

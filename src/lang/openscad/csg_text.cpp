@@ -145,6 +145,10 @@ class Head {
     return "rotate_extrude(angle = " + stream(extrude.angle) + start +
            ", convexity = " + std::to_string(extrude.convexity) + ", " + fragments(extrude.fragments) + ')';
   }
+  std::string operator()(const solids::Roof& roof) const {
+    return std::string("roof(method = \"") + (roof.method == solids::RoofMethod::straight ? "straight" : "voronoi") +
+           "\", convexity = " + std::to_string(roof.convexity) + ", " + fragments(roof.fragments) + ')';
+  }
   std::string operator()(const solids::Projection& projection) const {
     return std::string("projection(cut = ") + truth_text(projection.cut) +
            ", convexity = " + std::to_string(projection.convexity) + ')';

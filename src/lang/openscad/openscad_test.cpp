@@ -2,6 +2,7 @@
 // compares whole scripts.
 #include <gtest/gtest.h>
 
+#include "draw/font_search.h"
 #include "lang/openscad/colours.h"
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/customizer.h"
@@ -212,6 +213,119 @@ TEST(Openscad, MistakesInTheTextHaveTheLineOfOpenscadAndMoreWords) {
   EXPECT_FALSE(run(make_source("t.scad", "x = 1\ny = 2;\n"), {}, messages));
   EXPECT_EQ(to_line(messages.list().front()), "ERROR: Parser error: syntax error in file t.scad, line 2");
   EXPECT_NE(to_text(messages.details).find("expected \";\""), std::string::npos);
+}
+
+// The texts are those of OpenSCAD's development snapshots.
+TEST(Openscad, ObjectsHaveNamedMembers) {
+  EXPECT_EQ(value_of("object(a = 1, b = [1, \"t\"])"), "ECHO: { a = 1; b = [1, \"t\"]; }\n");
+  EXPECT_EQ(value_of("[object(), str(object(t = \"u\"))]"), "ECHO: [{ }, \"{ t = \"u\"; }\"]\n");
+  EXPECT_EQ(value_of("object([[\"x\", 1], [\"y y\", 2]])"), "ECHO: { x = 1; y y = 2; }\n");
+  EXPECT_EQ(run_text("o = object(a = 1, x = [4, 5], f = function(n) n + 1, o = object(z = 7));"
+                     "echo(o.a, o[\"a\"], o.x.y, o.f(2), o.o.z, o.b, o[\"b\"], o[0]);")
+                .lines,
+            "ECHO: 1, 1, 5, 3, 7, undef, undef, undef\n");
+  EXPECT_EQ(value_of("[for (k = object(a = 1, b = 2)) k]"), "ECHO: [\"a\", \"b\"]\n");
+  EXPECT_EQ(run_text("for (k = object(a = 1, b = 2)) echo(k);").lines, "ECHO: \"a\"\nECHO: \"b\"\n");
+  EXPECT_EQ(value_of("[is_object(object()), is_object([]), is_list(object()), is_undef(object())]"),
+            "ECHO: [true, false, false, false]\n");
+  EXPECT_EQ(value_of("[has_key(object(a = undef), \"a\"), has_key(object(a = 1), \"b\")]"), "ECHO: [true, false]\n");
+}
+
+TEST(Openscad, ObjectsAreMergedAndCompared) {
+  EXPECT_EQ(value_of("object(object(a = 1, b = 2), c = 3)"), "ECHO: { a = 1; b = 2; c = 3; }\n");
+  EXPECT_EQ(value_of("object(object(a = 1, b = 2), a = 4)"), "ECHO: { a = 4; b = 2; }\n");
+  EXPECT_EQ(value_of("object(object(a = 1, b = 2, c = 3), [[\"b\"], [\"d\", 4]])"), "ECHO: { a = 1; c = 3; d = 4; }\n");
+  EXPECT_EQ(value_of("object(object(a = 1, b = 2, c = 3), [[\"a\"]]).c"), "ECHO: 3\n");
+  EXPECT_EQ(value_of("[object(a = [1]) == object(a = [1]), object(a = 1) != object(a = 1, b = 2), "
+                     "object(a = 1) == object(b = 1), [object(a = 1)] == [object(a = 1)], object() == []]"),
+            "ECHO: [true, true, false, true, false]\n");
+  EXPECT_EQ(value_of("object() ? 1 : 2"), "ECHO: 2\n");
+}
+
+TEST(Openscad, ObjectsSayWhatIsWrong) {
+  EXPECT_EQ(
+      value_of("object(7)"),
+      "WARNING: object() cannot take 7; write name = value, an object, or a list of entries [\"name\", value], or "
+      "[\"name\"] to remove a member in file t.scad, line 1\nECHO: undef\n");
+  EXPECT_NE(value_of("object([[]])").find("entry [] is no pair of a name and a value"), std::string::npos);
+  EXPECT_NE(value_of("object([[\"a\", 1, 2]])").find("is no pair"), std::string::npos);
+  EXPECT_EQ(value_of("object(a = 1) < object(a = 1)"),
+            "WARNING: undefined operation (object < object) in file t.scad, line 1\nECHO: undef\n");
+  EXPECT_NE(
+      run_text("function f(n, o) = n == 0 ? o : f(n - 1, object(o = o)); echo(f(5000, 1));").lines.find("nest deeper"),
+      std::string::npos);
+}
+
+TEST(Openscad, ScriptsMayDefineNewerWords) {
+  EXPECT_EQ(run_text("function object(x) = x + 1; echo(object(1));").lines, "ECHO: 2\n");
+  EXPECT_EQ(run_text("function textmetrics(x) = 5; has_key = 3; echo(textmetrics(1), has_key);").lines, "ECHO: 5, 3\n");
+  EXPECT_EQ(run_text("module roof() square(3); roof() square(1);").tree,
+            "group() {\n\tsquare(size = [3, 3], center = false);\n}\n");
+}
+
+TEST(Openscad, RoofsHaveTwoMethods) {
+  EXPECT_EQ(run_text("roof() square(1);").tree,
+            "roof(method = \"voronoi\", convexity = 1, $fn = 0, $fa = 12, $fs = 2) {\n"
+            "\tsquare(size = [1, 1], center = false);\n}\n");
+  EXPECT_EQ(run_text("roof(\"straight\", convexity = 4, $fn = 9);").tree,
+            "roof(method = \"straight\", convexity = 4, $fn = 9, $fa = 12, $fs = 2);\n");
+  EXPECT_EQ(run_text("roof(method = \"flat\") square(1);").lines,
+            "WARNING: Unknown roof method 'flat'. Using 'voronoi'. in file t.scad, line 1\n");
+}
+
+Said run_beside(const std::string& text, const std::string& json) {
+  Options options;
+  options.read_file = [&](const std::string& path) { return path == "data.json" ? std::optional(json) : std::nullopt; };
+  return run_text(text, options);
+}
+
+TEST(Openscad, JsonFilesAreValues) {
+  const std::string json =
+      "{\"number\": 2, \"float\": 3.5e-10, \"bool\": true, \"string\": \"hallo world!\", \"none\": null, "
+      "\"array-mixed\": [\"one\", 1, false], \"object\": {\"name\": \"n\", \"nested\": {\"value\": 42}}}";
+  EXPECT_EQ(run_beside("j = import(\"data.json\"); echo(j.number, j.float, j.bool, j.string, j.none, "
+                       "j[\"array-mixed\"], j.object.nested.value, j.object);",
+                       json)
+                .lines,
+            "ECHO: 2, 3.5e-10, true, \"hallo world!\", undef, [\"one\", 1, false], 42, { name = \"n\"; nested = { "
+            "value = 42; }; }\n");
+  EXPECT_EQ(run_beside("echo(import(file = \"data.json\"));", "[1, 2]").lines, "ECHO: [1, 2]\n");
+  EXPECT_EQ(run_beside("echo(import(\"other.json\"));", "1").lines,
+            "WARNING: Can't open import file '\"other.json\"'. in file t.scad, line 1\nECHO: undef\n");
+}
+
+TEST(Openscad, WrongJsonStopsTheScript) {
+  const std::string lines = run_beside("echo(import(\"data.json\"));", "{\n  \"a\": ]}").lines;
+  EXPECT_TRUE(lines.starts_with("ERROR: data.json:2:8: ")) << lines;
+  EXPECT_TRUE(run_beside("echo(import(\"data.stl\"));", "")
+                  .lines.starts_with("ERROR: import(\"data.stl\") in an expression reads .json files alone"));
+}
+
+TEST(Openscad, JsonFilesAreDependencies) {
+  Options options;
+  options.read_file = [](const std::string&) { return std::optional<std::string>("[1]"); };
+  Messages messages;
+  const Outcome outcome =
+      run_with_files(make_source("parts/t.scad", "a = import(\"d.json\"); b = import(\"d.json\"); import(\"e.stl\");"),
+                     options, messages);
+  EXPECT_EQ(outcome.files, (std::vector<std::string>{"parts/t.scad", "parts/d.json", "parts/e.stl"}));
+}
+
+// In DejaVu Sans, whose em has 2048 units, "Hog" is 4093 wide, from 201 to 3907, and from -426 to 1493 high, by
+// fontTools and HarfBuzz. text() of OpenSCAD 2021.01 multiplies widths and alignment by 1000/1024.
+TEST(Openscad, TextsAndFontsAreMeasured) {
+  const auto font = draw::search_font("DejaVu Sans", false, false);
+  if (!font || !font->has_name) GTEST_SKIP();
+  EXPECT_EQ(
+      value_of("fontmetrics(size = 20, font = \"DejaVu Sans\")"),
+      "ECHO: { nominal = { ascent = 25.784; descent = -6.55111; }; max = { ascent = 34.2339; descent = -12.8581; }; "
+      "interline = 32.3351; font = { family = \"DejaVu Sans\"; style = \"Book\"; }; }\n");
+  EXPECT_EQ(value_of("textmetrics(\"Hog\", 20, \"DejaVu Sans\", halign = \"right\", valign = \"top\")"),
+            "ECHO: { position = [-51.4875, -25.5535]; size = [49.378, 26.0281]; ascent = 20.2501; descent = -5.77799; "
+            "offset = [-54.2137, -19.7755]; advance = [54.2137, 0]; }\n");
+  EXPECT_EQ(value_of("textmetrics(\"\").size"), "ECHO: [0, 0]\n");
+  EXPECT_EQ(value_of("textmetrics(\"a\", colour = 1) == textmetrics(\"a\")"),
+            "WARNING: variable colour not specified as parameter in file t.scad, line 1\nECHO: true\n");
 }
 
 TEST(Openscad, CommentsDescribeParameters) {

@@ -99,6 +99,16 @@ TreePtr rotate_extrude(ModuleCall& call) {
   return extruded(call, result);
 }
 
+TreePtr roof(ModuleCall& call) {
+  solids::Roof result{solids::RoofMethod::distance, std::max(1, whole(call.number("convexity", 1))), call.fragments()};
+  const std::string method = call.text("method", "voronoi");
+  if (method == "straight")
+    result.method = solids::RoofMethod::straight;
+  else if (method != "voronoi")
+    call.warn("Unknown roof method '" + method + "'. Using 'voronoi'.");
+  return call.with_children(result);
+}
+
 // A module of old scripts, whose name has the prefix "dxf_".
 template <TreePtr (*extrude)(ModuleCall& call)>
 TreePtr old(ModuleCall& call) {
@@ -127,6 +137,7 @@ std::vector<Module> operation_modules() {
           {"resize", {"newsize", "auto", "convexity"}, {}, resize},
           {"offset", {"r"}, {"delta", "chamfer"}, offset},
           {"projection", {"cut"}, {"convexity"}, projection},
+          {"roof", {"method"}, {"convexity"}, roof},
           linear,
           {"dxf_linear_extrude", linear.positional, linear.named, old<linear_extrude>},
           turned,

@@ -152,10 +152,12 @@ Outcome run_with_files(const SourcePtr& source, const Options& options, Messages
     const lang::Options engine = engine_options(options);
     const auto program = load_script(source, options, engine, messages);
     if (!program) return;
-    outcome.tree = Evaluator(*program, options, messages).run();
+    Evaluator evaluator(*program, options, messages);
+    outcome.tree = evaluator.run();
     if (outcome.tree && sets_view(*program))
       messages.add({Message::Kind::warning, "Viewall and autocenter disabled in favor of $vp*", "", 0});
     for (const ast::File& file : program->files) outcome.files.push_back((*file.source)->name());
+    outcome.files.insert(outcome.files.end(), evaluator.read_files().begin(), evaluator.read_files().end());
     if (outcome.tree) add_imports(*outcome.tree, outcome.files);
   });
   return outcome;

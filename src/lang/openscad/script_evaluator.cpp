@@ -9,13 +9,19 @@ namespace ombre::lang::openscad {
 
 Evaluator::Evaluator(const Program& program, const Options& options, Messages& messages)
     : Evaluation(program, options.limits, options.stop), options_(options), messages_(messages) {
+  files_.read = [this](const std::string& path) {
+    auto content = options_.read_file ? options_.read_file(path) : read_real_file(path);
+    if (content && std::ranges::find(read_files_, path) == read_files_.end()) read_files_.push_back(path);
+    return content;
+  };
   children_name_ = symbol("children"), child_name_ = symbol("child");
   intersection_for_name_ = symbol("intersection_for"), assign_name_ = symbol("assign");
   children_count_ = symbol("$children"), parent_modules_ = symbol("$parent_modules");
   fa_ = symbol("$fa"), fs_ = symbol("$fs"), semantics_ = symbol("$semantics");
   for (const auto& [name, parameters, is_variadic, function] : common_functions<FunctionCall>())
     functions_[symbol(name)] = {name, function, parameters.size(), is_variadic ? any_number : parameters.size()};
-  for (const auto& table : {math_functions(), value_functions(), drawing_functions()})
+  for (const auto& table :
+       {math_functions(), value_functions(), drawing_functions(), object_functions(), text_functions()})
     for (const NamedFunction& function : table) functions_[symbol(function.name)] = function;
   module_table_ = operation_modules();
   for (Module& module : module_table_) module.is_operation = true;
@@ -111,7 +117,11 @@ void Evaluator::warn(std::string text, const ast::Span& where) {
 }
 
 void Evaluator::warn_all(Problems& problems, const ast::Span& where) {
-  for (Problem& problem : problems) warn(std::move(problem.text), problem.has_place ? where : ast::Span{});
+  for (Problem& problem : problems) {
+    const ast::Span& place = problem.has_place ? where : ast::Span{};
+    if (problem.is_error) stop(std::move(problem.text), place);
+    warn(std::move(problem.text), place);
+  }
 }
 
 void Evaluator::stop(std::string text, const ast::Span& where, Code code) {

@@ -84,6 +84,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   Evaluator(const Program& program, const Options& options, Messages& messages);
   // Returns the group of all nodes, or the node marked "!"; null after an error.
   solids::TreePtr run();
+  const std::vector<std::string>& read_files() const { return read_files_; }  // those that functions have read
 
  private:
   friend Evaluation;
@@ -230,6 +231,8 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   const Options& options_;
   Messages& messages_;
   std::mt19937 random_{0};
+  std::vector<std::string> read_files_;
+  FunctionFiles files_{{}, program_.fonts};
 
   Symbol children_name_, child_name_, intersection_for_name_, assign_name_, children_count_, parent_modules_, fa_, fs_,
       semantics_;

@@ -82,6 +82,10 @@ Value Evaluator::operate(ast::Operator op, const ast::Span& where, const Value& 
 
 Value Evaluator::eval_other_member(const ast::Member& member, const Value& base) {
   const std::string& name = member.member.text();
+  if (const Record* record = base.record()) {
+    const Value* found = record->find(name);
+    return found ? *found : Value();
+  }
   const Range* range = base.range();
   if (range && name == "begin") return range->begin;
   if (range && name == "step") return range->step;

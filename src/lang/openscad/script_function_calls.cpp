@@ -78,7 +78,8 @@ Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
   at_ = call.span;
   if (auto made = result_of_objects(found->second.name, arguments)) return *made;
   Problems problems;
-  const FunctionCall made{found->second.name, std::move(arguments), meter_, problems, module_calls_, random_, call};
+  const FunctionCall made{
+      found->second.name, std::move(arguments), meter_, problems, module_calls_, random_, call, files_};
   Value result = is_count_right ? found->second.call(made) : made.wrong_count();
   warn_all(problems, call.span);
   return result;

@@ -1,7 +1,9 @@
 // The builtin functions of OpenSCAD.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <string_view>
@@ -12,6 +14,12 @@
 
 namespace ombre::lang::openscad {
 
+// The files that functions read.
+struct FunctionFiles {
+  std::function<std::optional<std::string>(const std::string& path)> read;  // nothing if there is no such file
+  const std::vector<std::string>& fonts;                                    // files of fonts that the script uses
+};
+
 // One call. Most functions identify arguments by their order and ignore names.
 struct FunctionCall {
   std::string_view name;
@@ -21,6 +29,7 @@ struct FunctionCall {
   const std::vector<const ast::CallStatement*>& modules;  // calls that are being evaluated, innermost last
   std::mt19937& random;                                   // generator of rands() without a seed
   const ast::Call& written;
+  const FunctionFiles& files;
 
   size_t size() const { return arguments.size(); }
   const Value& operator[](size_t i) const { return arguments[i]; }
@@ -28,6 +37,11 @@ struct FunctionCall {
   // Adds a warning and returns undef.
   Value fail(std::string text) const {
     problems.push_back({std::move(text)});
+    return {};
+  }
+  // Adds an error, which ends the evaluation.
+  Value stop(std::string text) const {
+    problems.push_back({.text = std::move(text), .is_error = true});
     return {};
   }
   // Adds a warning without a place.
@@ -53,5 +67,7 @@ struct NamedFunction {
 std::vector<NamedFunction> math_functions();
 std::vector<NamedFunction> value_functions();
 std::vector<NamedFunction> drawing_functions();
+std::vector<NamedFunction> object_functions();
+std::vector<NamedFunction> text_functions();
 
 }  // namespace ombre::lang::openscad

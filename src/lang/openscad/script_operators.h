@@ -8,10 +8,11 @@
 
 namespace ombre::lang::openscad {
 
-// The text of a warning. The caller adds the position, unless OpenSCAD gives none.
+// The text of a warning, or of an error. The caller adds the position, unless OpenSCAD gives none.
 struct Problem {
   std::string text;
   bool has_place = true;
+  bool is_error = false;  // the evaluation ends
 };
 using Problems = std::vector<Problem>;
 

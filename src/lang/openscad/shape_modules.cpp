@@ -1,7 +1,7 @@
 // Solids without children.
-#include <cctype>
 
 #include "lang/openscad/script_evaluator.h"
+#include "lang/openscad/text_parameters.h"
 #include "lang/openscad/vectors.h"
 
 namespace ombre::lang::openscad {
@@ -118,26 +118,9 @@ TreePtr polygon(ModuleCall& call) {
   return call.node(std::move(result));
 }
 
-// Only the first letter counts.
-std::string direction_of(const std::string& name) {
-  for (const char* direction : {"ltr", "rtl", "ttb", "btt"})
-    if (!name.empty() && std::tolower(static_cast<unsigned char>(name[0])) == direction[0]) return direction;
-  return "ltr";
-}
-
 TreePtr text(ModuleCall& call) {
-  solids::Text result;
-  result.text = call.text("text");
-  result.size = call.number("size", 10);
-  result.font = call.text("font");
-  result.horizontal = call.text("halign", "left");
-  result.vertical = call.text("valign", "baseline");
-  result.direction = direction_of(call.text("direction", "ltr"));
-  result.language = call.text("language", "en");
-  result.script = call.text("script", "Latn");
-  result.spacing = call.number("spacing", 1);
+  solids::Text result = text_of(call);
   result.fragments = call.fragments();
-  result.font_files = call.font_files();
   return call.node(std::move(result));
 }
 

@@ -113,6 +113,7 @@ const char* type_name(const Value& value) {
   if (value.list()) return "vector";
   if (value.range()) return "range";
   if (value.closure()) return "function";
+  if (value.record()) return "object";
   if (value.object()) return "value in space";
   return "undefined";
 }

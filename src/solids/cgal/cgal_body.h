@@ -66,6 +66,7 @@ Part touching_part(ExactMesh surface);
 Part moved_nef(const Part& part, const CGAL::Aff_transformation_3<Exact>& map);
 TriangleMesh hull_of(std::span<const Vec3> points);
 PlaneTriangles triangulate_rings(std::span<const Ring> rings);
+TriangleMesh roof_over(std::span<const Ring> rings);
 // Returns the surface mesh of triangles. Where more than two share an edge, those that bound the same sector of the
 // solid stay joined, so that solids touch along it.
 ExactMesh mesh_of_soup(std::vector<Exact::Point_3> points, std::vector<std::vector<std::size_t>> polygons);

@@ -285,6 +285,8 @@ class CgalKernel : public Kernel {
   }
 
   PlaneTriangles triangulate(std::span<const Ring> rings) const override { return triangulate_rings(rings); }
+
+  TriangleMesh roof(std::span<const Ring> rings) const override { return roof_over(rings); }
 };
 
 void append(const ExactMesh& mesh, TriangleMesh& all) {
