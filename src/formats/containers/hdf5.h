@@ -57,8 +57,8 @@ class Hdf5File {
   virtual std::optional<std::vector<double>> few_numbers(const std::string& group, const std::string& name) const = 0;
 };
 
-// Opens a file; null if the bytes, which must outlive it, are no file of HDF5, or are damaged. Its functions throw Error
-// if the library crashes or hangs on the file. Throws Error in builds without HDF5.
+// Opens a file; null if the bytes, which must outlive it, are no file of HDF5, or are damaged. Its functions throw
+// Error if the library crashes or hangs on the file. Throws Error in builds without HDF5.
 std::unique_ptr<Hdf5File> open_hdf5(std::string_view bytes);
 
 }  // namespace ombre::formats

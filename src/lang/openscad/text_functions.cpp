@@ -56,7 +56,7 @@ constexpr std::array<std::string_view, 6> other_text_names{"direction", "languag
                                                            "halign",    "valign",   "spacing"};
 
 // Returns undef, and says what is wrong.
-Value told(const FunctionCall& call, const Diagnostics& found) {
+Value reported(const FunctionCall& call, const Diagnostics& found) {
   for (const Diagnostic& diagnostic : found.list()) call.fail(sentence_of(diagnostic));
   return {};
 }
@@ -66,7 +66,7 @@ Value pair_of(const FunctionCall& call, Vec2 v) { return make_list({v.x, v.y}, c
 Value textmetrics(const FunctionCall& call) {
   Diagnostics found;
   const auto measures = solids::measures_of(text_of(NamedArguments(call, text_names, other_text_names)), {}, found);
-  if (!measures) return told(call, found);
+  if (!measures) return reported(call, found);
   RecordBuilder result(call.meter);
   result.set("position", pair_of(call, measures->low));
   result.set("size", pair_of(call, measures->high - measures->low));
@@ -88,7 +88,7 @@ Value fontmetrics(const FunctionCall& call) {
   Diagnostics found;
   const auto measures =
       solids::font_measures_of(text_of(NamedArguments(call, std::span(text_names).subspan(1), {})), {}, found);
-  if (!measures) return told(call, found);
+  if (!measures) return reported(call, found);
   RecordBuilder font(call.meter);
   font.set("family", make_text(measures->family, call.meter));
   font.set("style", make_text(measures->style, call.meter));

@@ -47,7 +47,8 @@ class CgalBody : public Body {
 inline const CgalBody& cgal(const Body& body) { return static_cast<const CgalBody&>(body); }
 
 Box box_of(const ExactMesh& mesh);
-// Returns the same surface without corners at which it is flat or has a straight edge, if triangles can do without them.
+// Returns the same surface without corners at which it is flat or has a straight edge, if triangles can do without
+// them.
 ExactMesh without_straight_corners(ExactMesh mesh);
 // Returns true if vertices coincide.
 bool touches_itself(const ExactMesh& mesh);
