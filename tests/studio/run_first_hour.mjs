@@ -50,7 +50,11 @@ const write = async (all) => {
 const status = (what) => page.waitForSelector(`.status${what}`);
 const isSaved = () => status("[data-saved=saved][data-status=open]");
 const isReady = (view = "surface") => page.waitForSelector(`.${view} canvas[data-state=ready]`);
+// The list of files is read again when it gets the focus.
 const open = async (name) => {
+  await page.locator("select.file").blur();
+  await page.focus("select.file");
+  await page.waitForSelector(`select.file option[value='${name}']`, { state: "attached" });
   await page.selectOption("select.file", name);
   await until(async () => (await page.inputValue("select.file")) === name);
 };
@@ -245,8 +249,6 @@ const checks = {
     await isReady();
     assert.ok(await shownBox("surface"));
     writeFileSync(join(folder, "wrong.vcad"), "spher(3);\ncubee(4);\nx = foo(2);\n");
-    await page.focus("select.file");
-    await page.waitForSelector("option[value='wrong.vcad']", { state: "attached" });
     await open("wrong.vcad");
     await status("[data-old=true]");
     assert.equal(await shownBox("surface"), null);
@@ -274,8 +276,6 @@ const checks = {
 
   async "an OpenSCAD script without colours is shown"() {
     writeFileSync(join(folder, "plain.scad"), "cube(6);\ntranslate([9, 0, 0]) sphere(3);\n");
-    await page.focus("select.file");
-    await page.waitForSelector("option[value='plain.scad']", { state: "attached" });
     await open("plain.scad");
     await isReady();
     assert.ok(await shownBox("surface"));
@@ -343,6 +343,7 @@ const checks = {
     assert.ok(!existsSync(join(folder, "ball.3mf")) && !existsSync(join(folder, "ball.stl")));
     await page.click("#tab-export");
     await page.selectOption(".panel .printer", "");
+    await page.click("summary:has-text('More options')");
     await page.fill(".option-layer-height input", "1");
     await page.keyboard.press("Enter");
     await page.fill(".panel label:has-text('Folder') input", "few_slices");
@@ -447,8 +448,6 @@ const checks = {
   async "a Python script tells at once what it says, and can be stopped"() {
     writeFileSync(join(folder, "slow.py"), "import time, ombre\nprint('begun')\ntime.sleep(1 if ombre.option('short', False) else 60)\nroot = ombre.sphere(3, 'blue')\n");
     writeFileSync(join(folder, "quick.py"), "import ombre\nprint('quick')\nroot = ombre.sphere(3, 'blue')\n");
-    await page.focus("select.file");
-    await page.waitForSelector("option[value='slow.py']", { state: "attached" });
     await open("slow.py");
     await page.click("button:text-is('Run')");
     await page.waitForSelector(".echo:has-text('begun')");

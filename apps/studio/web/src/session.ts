@@ -184,7 +184,7 @@ export async function newFile(name: string, text = firstText): Promise<string> {
 export async function renameOpenFile(to: string) {
   const from = state.file;
   if (isDirty()) await save();
-  await connection.ask("rename", { from, to }).answer;
+  await connection.ask("rename", { file: from, to }).answer;
   await connection.ask("open", { file: to }).answer; // the server tells changes of files that were opened
   renameKept(from, to);
   editor!.rename(from, to);
