@@ -27,12 +27,10 @@ SourceRange range_of(const SourcePtr& script, const openscad::Message& message) 
   return {script, static_cast<uint32_t>(begin + blanks), static_cast<uint32_t>(begin + line.size())};
 }
 
-void report(const openscad::Message& message, const SourcePtr& script, const compile::LoadOptions& options,
-            Diagnostics& diagnostics) {
+void report(const openscad::Message& message, const SourcePtr& script, Diagnostics& diagnostics) {
   using Kind = openscad::Message::Kind;
   switch (message.kind) {
-    case Kind::echo:
-      if (options.echo) options.echo(openscad::to_line(message));
+    case Kind::echo:  // was passed on when the script said it
       return;
     case Kind::error:
       diagnostics.error(message.code, range_of(script, message), message.text);
@@ -80,10 +78,12 @@ compile::LoadedPtr load_scad(const SourcePtr& script, const compile::LoadOptions
   run.stop = options.stop;
   if (openscad::uses_words(script, run))
     return compile::load_text(std::string(script->text()), script->name(), options, diagnostics);
-  openscad::Messages messages;
+  openscad::Messages messages([&](const openscad::Message& message) {
+    if (options.echo && message.kind == openscad::Message::Kind::echo) options.echo(openscad::to_line(message));
+  });
   const solids::TreePtr tree = openscad::run(script, run, messages);
   diagnostics.add_all(messages.details);
-  for (const openscad::Message& message : messages.list()) report(message, script, options, diagnostics);
+  for (const openscad::Message& message : messages.list()) report(message, script, diagnostics);
   if (!tree || diagnostics.has_errors()) return nullptr;
 
   const TemporaryFolder folder;

@@ -166,7 +166,7 @@ TEST_F(StudioTest, RefusesPipes) {
 
 TEST_F(StudioTest, FilesAreRenamedDuplicatedAndDeleted) {
   folder.write("a.vcad", "text");
-  ask("rename", R"("from": "a.vcad", "to": "b.vcad")");
+  ask("rename", R"("file": "a.vcad", "to": "b.vcad")");
   const Data event = client->wait([](const Data& data) { return text(data, "event") == "list"; }).first;
   EXPECT_EQ(*event.find("files"), Data(DataList{"b.vcad"}));
   ask("duplicate", R"("file": "b.vcad", "to": "c.vcad")");

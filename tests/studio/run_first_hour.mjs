@@ -50,9 +50,15 @@ const write = async (all) => {
 const status = (what) => page.waitForSelector(`.status${what}`);
 const isSaved = () => status("[data-saved=saved][data-status=open]");
 const isReady = (view = "surface") => page.waitForSelector(`.${view} canvas[data-state=ready]`);
+// The name of the file that the page has opened, also while another one is chosen.
+const opened = () => page.getAttribute("select.file", "title");
+// The list of files is read again when it gets the focus.
 const open = async (name) => {
+  await page.locator("select.file").blur();
+  await page.focus("select.file");
+  await page.waitForSelector(`select.file option[value='${name}']`, { state: "attached" });
   await page.selectOption("select.file", name);
-  await until(async () => (await page.inputValue("select.file")) === name);
+  await until(async () => (await opened()) === name);
 };
 const fromMenu = async (menu, action) => {
   await page.click(`header summary:text-is('${menu}')`);
@@ -245,8 +251,6 @@ const checks = {
     await isReady();
     assert.ok(await shownBox("surface"));
     writeFileSync(join(folder, "wrong.vcad"), "spher(3);\ncubee(4);\nx = foo(2);\n");
-    await page.focus("select.file");
-    await page.waitForSelector("option[value='wrong.vcad']", { state: "attached" });
     await open("wrong.vcad");
     await status("[data-old=true]");
     assert.equal(await shownBox("surface"), null);
@@ -274,8 +278,6 @@ const checks = {
 
   async "an OpenSCAD script without colours is shown"() {
     writeFileSync(join(folder, "plain.scad"), "cube(6);\ntranslate([9, 0, 0]) sphere(3);\n");
-    await page.focus("select.file");
-    await page.waitForSelector("option[value='plain.scad']", { state: "attached" });
     await open("plain.scad");
     await isReady();
     assert.ok(await shownBox("surface"));
@@ -287,7 +289,7 @@ const checks = {
     for (const [name, call] of Object.entries(made)) {
       const design = name.replace(/\.\w+$/, ".vcad");
       await drop([[name, readFileSync(join(models, name))]]);
-      await until(async () => (await page.inputValue("select.file")) === design, design);
+      await until(async () => (await opened()) === design, design);
       assert.ok(read(design).includes(`${call}"${name}"`), read(design));
       assert.ok(readFileSync(join(folder, name)).equals(readFileSync(join(models, name))));
       await page.waitForSelector(".surface canvas[data-design]", { state: "attached" });
@@ -302,7 +304,7 @@ const checks = {
     await drop([["letter.docx", "x"]]);
     await page.waitForSelector(".problems:has-text('letter.docx is no file that designs read')");
     await page.setInputFiles("[aria-label='Files to open']", [{ name: "mine.scad", mimeType: "", buffer: Buffer.from("cube(3);\n") }]);
-    await until(async () => (await page.inputValue("select.file")) === "mine.scad");
+    await until(async () => (await opened()) === "mine.scad");
     await isReady();
   },
 
@@ -312,7 +314,7 @@ const checks = {
     writeFileSync(join(given, "kit/kit.vcad"), 'mesh("parts/body.off", blue);\n');
     copyFileSync(join(models, "tetrahedron.off"), join(given, "kit/parts/body.off"));
     await page.setInputFiles("[aria-label='Folder to open']", join(given, "kit"));
-    await until(async () => (await page.inputValue("select.file")) === "kit/kit.vcad");
+    await until(async () => (await opened()) === "kit/kit.vcad");
     await isReady();
     assert.ok(existsSync(join(folder, "kit/parts/body.off")));
     rmSync(given, { recursive: true });
@@ -320,7 +322,7 @@ const checks = {
     await drop(scad(4));
     await page.waitForSelector("dialog[open]:has-text('mine.scad is there already')");
     await page.click("dialog[open] button:text-is('Keep both')");
-    await until(async () => (await page.inputValue("select.file")) === "mine_2.scad");
+    await until(async () => (await opened()) === "mine_2.scad");
     assert.equal(read("mine.scad") + read("mine_2.scad"), "cube(3);\ncube(4);\n");
     await drop(scad(5));
     await page.click("dialog[open] button:text-is('Cancel')");
@@ -343,6 +345,7 @@ const checks = {
     assert.ok(!existsSync(join(folder, "ball.3mf")) && !existsSync(join(folder, "ball.stl")));
     await page.click("#tab-export");
     await page.selectOption(".panel .printer", "");
+    await page.click("summary:has-text('More options')");
     await page.fill(".option-layer-height input", "1");
     await page.keyboard.press("Enter");
     await page.fill(".panel label:has-text('Folder') input", "few_slices");
@@ -364,7 +367,7 @@ const checks = {
       if (name) await page.fill("dialog[open] input", name);
       await page.click(`dialog[open] button:text-is('${button}')`);
     };
-    const isOpen = (name) => until(async () => (await page.inputValue("select.file")) === name, name);
+    const isOpen = (name) => until(async () => (await opened()) === name, name);
     await named("New folder…", "parts", "Make");
     await until(() => existsSync(join(folder, "parts")));
     await open("mine_2.scad");
@@ -447,8 +450,6 @@ const checks = {
   async "a Python script tells at once what it says, and can be stopped"() {
     writeFileSync(join(folder, "slow.py"), "import time, ombre\nprint('begun')\ntime.sleep(1 if ombre.option('short', False) else 60)\nroot = ombre.sphere(3, 'blue')\n");
     writeFileSync(join(folder, "quick.py"), "import ombre\nprint('quick')\nroot = ombre.sphere(3, 'blue')\n");
-    await page.focus("select.file");
-    await page.waitForSelector("option[value='slow.py']", { state: "attached" });
     await open("slow.py");
     await page.click("button:text-is('Run')");
     await page.waitForSelector(".echo:has-text('begun')");

@@ -133,7 +133,7 @@ ProgramOutput run_program(const std::vector<std::string>& command, const StopFla
   ProgramOutput output;
   const auto take_out = [&](std::string_view piece) { output.out += piece; };
   const auto take_err = [&](std::string_view piece) {
-    if (said) said(piece);
+    if (said && !piece.empty()) said(piece);
     said ? append_end(output.err, piece) : void(output.err += piece);
   };
   std::array<pollfd, 2> ends{pollfd{out.end(0), POLLIN, 0}, pollfd{err.end(0), POLLIN, 0}};

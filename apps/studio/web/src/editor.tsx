@@ -153,11 +153,12 @@ function DataBar() {
 }
 
 function Problems() {
-  const { diagnostics, problem, echo, saveProblem } = useStore();
+  const { diagnostics, problem, notice, echo, saveProblem } = useStore();
   return (
     <section class="problems" aria-label="Problems" aria-live="polite" data-errors={diagnostics.filter((d) => d.severity === "error").length}>
       {saveProblem && <p class="error">Not saved: {saveProblem}</p>}
       {problem && <p class="error">{problem}</p>}
+      {notice && <p class="error">{notice}</p>}
       <ul>
         {diagnostics.map((d) => (
           <li class={d.severity}>

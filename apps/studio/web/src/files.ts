@@ -21,7 +21,7 @@ function fetchAs(name: string, address: string) {
 // The name of the open file, without its folder and its ending.
 export const stem = () => state.file.split("/").pop()!.replace(/\.[^.]*$/, "") || "design";
 
-const report = (problem: string) => set({ problem });
+const report = (notice: string) => set({ notice });
 
 // Does something and shows what went wrong.
 async function tried<T>(work: () => Promise<T>): Promise<T | undefined> {

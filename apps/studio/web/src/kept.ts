@@ -56,22 +56,25 @@ export const keptView = (file: string): View => take(viewKey(file)) ?? {};
 let timer = 0;
 let last = state;
 
-function keepView() {
+// Keeps how the file was seen, if that is still to be done.
+function keepView(seen: State) {
+  if (timer === 0) return;
   clearTimeout(timer);
-  if (state.file && state.hello) put(viewKey(state.file), viewOf(state));
+  timer = 0;
+  if (seen.file && seen.hello) put(viewKey(seen.file), viewOf(seen));
 }
 
 // Keeps the view of the open file whenever a person changes it.
 export function watchView() {
   subscribe(() => {
-    const isSame = last.file === state.file && viewParts.every((part) => last[part] === state[part]);
-    const isOther = last.file !== state.file;
+    const before = last;
     last = state;
-    if (isSame || isOther) return;
+    if (before.file !== state.file) return keepView(before);
+    if (viewParts.every((part) => before[part] === state[part])) return;
     clearTimeout(timer);
-    timer = window.setTimeout(keepView, 300);
+    timer = window.setTimeout(() => keepView(state), 300);
   });
-  addEventListener("pagehide", keepView);
+  addEventListener("pagehide", () => keepView(state));
 }
 
 export function renameKept(from: string, to: string) {

@@ -15,7 +15,7 @@ const paper = () => getComputedStyle(document.querySelector(".view")!).backgroun
 export async function takePicture() {
   const grid = document.querySelector<HTMLElement>(".views .grid")!;
   const sources = [...grid.querySelectorAll("canvas")].filter((canvas) => canvas.width > 0 && canvas.clientWidth > 0);
-  if (sources.length === 0) return set({ problem: "This view is no picture; choose another one." });
+  if (sources.length === 0) return set({ notice: "This view is no picture; choose another one." });
   const places = sources.map((canvas) => canvas.getBoundingClientRect());
   const left = Math.min(...places.map((p) => p.left)), top = Math.min(...places.map((p) => p.top));
   const right = Math.max(...places.map((p) => p.right)), bottom = Math.max(...places.map((p) => p.bottom));
@@ -100,7 +100,7 @@ export async function makeTurntable(kind: keyof typeof makers) {
     }
     download(`${stem()}_turntable.${kind}`, await makers[kind](pictures, size));
   } catch (error) {
-    set({ problem: (error as Error).message });
+    set({ notice: (error as Error).message });
   } finally {
     for (const picture of pictures) picture.close();
     set({ turntable: undefined });

@@ -139,7 +139,7 @@ export async function openFile(file: string) {
     const linked = link?.file === file ? link : undefined;
     link = undefined;
     set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], opacity: {}, values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], echo: [], variables: [], plan: undefined,
-          planProblem: "", probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", saveProblem: "", problem: "", z: NaN, isOld: false, isBusy: false, isRunning: false,
+          planProblem: "", probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", saveProblem: "", problem: "", notice: "", z: NaN, isOld: false, isBusy: false, isRunning: false,
           ...keptView(file), ...linked?.view, ...(linked?.tab ? { view: linked.tab } : {}) });
     localStorage.setItem(`ombre:file:${state.hello?.folder}`, file);
     listPresets();
@@ -184,7 +184,7 @@ export async function newFile(name: string, text = firstText): Promise<string> {
 export async function renameOpenFile(to: string) {
   const from = state.file;
   if (isDirty()) await save();
-  await connection.ask("rename", { from, to }).answer;
+  await connection.ask("rename", { file: from, to }).answer;
   await connection.ask("open", { file: to }).answer; // the server tells changes of files that were opened
   renameKept(from, to);
   editor!.rename(from, to);
@@ -524,7 +524,7 @@ export function turn(rotate: number[]) {
 }
 
 export async function openFolder(job: Job) {
-  await connection.ask("open_folder", { folder: job.folder }).answer.catch((error) => set({ problem: (error as Error).message }));
+  await connection.ask("open_folder", { folder: job.folder }).answer.catch((error) => set({ notice: (error as Error).message }));
 }
 
 export async function estimate(): Promise<string> {
@@ -628,7 +628,7 @@ export async function startKind(kind: string, options: JobOptions, replace: bool
 }
 
 export async function changeJob(job: Job, to: "pause" | "resume" | "cancel") {
-  await connection.ask("change_export", { job: job.id, to }).answer.catch((error) => set({ problem: (error as Error).message }));
+  await connection.ask("change_export", { job: job.id, to }).answer.catch((error) => set({ notice: (error as Error).message }));
 }
 
 export const reveal = (from: number, to: number) => editor?.reveal(from, to);

@@ -1,5 +1,5 @@
 // Shows layers at the printer's resolution: pixels are those of the job's files.
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { length } from "./camera";
 import { followFingers } from "./fingers";
 import { OptionControl } from "./joboptions";
@@ -202,7 +202,7 @@ export function SliceView() {
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
-  useEffect(() => painter.current!.clear(), [file, design === undefined]);
+  useLayoutEffect(() => painter.current?.clear(), [file, design === undefined]);
   useEffect(() => {
     const p = painter.current!;
     if (plan && !p.look && canvas.current!.clientWidth > 0) {

@@ -244,6 +244,7 @@ export interface State {
   isOld: boolean; // the text has mistakes, or is being evaluated: the shown design is of an earlier text
   isBusy: boolean;
   problem: string; // problem of the evaluation as a whole
+  notice: string; // the result or problem of an action, such as a download
   diagnostics: Diagnostic[];
   echo: string[];
   variables: Variable[];
@@ -310,6 +311,7 @@ export let state: State = {
   isOld: false,
   isBusy: false,
   problem: "",
+  notice: "",
   diagnostics: [],
   echo: [],
   variables: [],

@@ -1,6 +1,6 @@
 // Shows the design from outside, drawn by the server: small first, then as fine as the screen.
 import { ComponentChildren } from "preact";
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
 import { Refused } from "./connection";
 import { CutControls, cutMembers } from "./cuts";
@@ -254,7 +254,7 @@ export function SurfaceView() {
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
-  useEffect(() => drawer.current!.clear(), [file, design === undefined]);
+  useLayoutEffect(() => drawer.current?.clear(), [file, design === undefined]);
   useEffect(() => placeCamera(canvas.current!), [design]);
   const key = pictureKey();
   useEffect(() => void drawer.current?.go(), [key]);

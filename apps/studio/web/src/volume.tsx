@@ -1,5 +1,5 @@
 // Shows the inside, by rays through a texture of the materials' fractions, or of an attribute's values.
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axes, eyeDistance } from "./camera";
 import { Refused } from "./connection";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
@@ -240,7 +240,7 @@ export function VolumeView() {
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
-  useEffect(() => painter.current?.clear(), [file, design === undefined]);
+  useLayoutEffect(() => painter.current?.clear(), [file, design === undefined]);
   useEffect(() => placeCamera(canvas.current!), [design]);
   useEffect(() => {
     if (!design || !painter.current) return;
