@@ -47,9 +47,6 @@ class CgalBody : public Body {
 inline const CgalBody& cgal(const Body& body) { return static_cast<const CgalBody&>(body); }
 
 Box box_of(const ExactMesh& mesh);
-// Returns the same surface without corners at which it is flat or has a straight edge, if triangles can do without
-// them.
-ExactMesh without_straight_corners(ExactMesh mesh);
 // Returns true if vertices coincide.
 bool touches_itself(const ExactMesh& mesh);
 // Returns the angle about the line a-b from c to d in half turns: 0 for none, 1 for less than half a turn, 2 for half a

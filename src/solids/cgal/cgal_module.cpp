@@ -315,7 +315,7 @@ CgalBody::CgalBody(Parts parts) : parts_(std::move(parts)) {
 
 TriangleMesh CgalBody::mesh() const {
   TriangleMesh all;
-  for (const Part& part : parts_) append(without_straight_corners(part.surface), all);
+  for (const Part& part : parts_) append(part.surface, all);
   return all;
 }
 
