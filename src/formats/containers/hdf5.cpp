@@ -13,31 +13,31 @@ const Module hdf5_library{"ombre_hdf5",  "HDF5",       "files of HDF5",
 
 namespace {
 
-enum class Requested : uint8_t { whether_open, numbers, sizes, arrays, text, few_numbers };
+enum class Request : uint8_t { whether_open, numbers, sizes, arrays, text, few_numbers };
 
 // Answers a request in the child process.
-std::string answer(const Hdf5File* file, const std::string& request) {
-  ByteUnpacker in(request);
-  const auto requested = in.get<Requested>();
+std::string answer(const Hdf5File* file, const std::string& bytes) {
+  ByteUnpacker in(bytes);
+  const auto kind = in.get<Request>();
   const std::string path(in.get_text()), name(in.get_text());
   const auto rows = in.get<Hdf5Rows>();
   BytePacker out;
-  if (requested == Requested::whether_open || !file) {
+  if (kind == Request::whether_open || !file) {
     out.add(file != nullptr);
-  } else if (requested == Requested::numbers) {
+  } else if (kind == Request::numbers) {
     std::string problem;
     const auto found = file->numbers(path, problem, rows);
     out.add(found.has_value());
     out.add_text(problem);
     if (found) out.add_list(found->sizes);
     if (found) out.add_list(found->values);
-  } else if (requested == Requested::sizes) {
+  } else if (kind == Request::sizes) {
     out.add_list(file->sizes(path));
-  } else if (requested == Requested::arrays) {
+  } else if (kind == Request::arrays) {
     const std::vector<std::string> names = file->arrays_in(path);
     out.add(uint64_t{names.size()});
     for (const std::string& array : names) out.add_text(array);
-  } else if (requested == Requested::text) {
+  } else if (kind == Request::text) {
     const auto found = file->text(path, name);
     out.add(found.has_value());
     out.add_text(found.value_or(""));
@@ -62,12 +62,12 @@ class HelpedFile : public Hdf5File {
             limits_for(bytes.size()), explain) {}
 
   bool is_open() const {
-    const std::string bytes = ask(Requested::whether_open, "");
+    const std::string bytes = ask(Request::whether_open, "");
     return ByteUnpacker(bytes).get<bool>();
   }
 
   std::optional<Hdf5Numbers> numbers(const std::string& path, std::string& problem, Hdf5Rows rows) const override {
-    const std::string bytes = ask(Requested::numbers, path, "", rows);
+    const std::string bytes = ask(Request::numbers, path, "", rows);
     ByteUnpacker in(bytes);
     const bool is_there = in.get<bool>();
     problem = in.get_text();
@@ -78,24 +78,24 @@ class HelpedFile : public Hdf5File {
     return found;
   }
   std::vector<uint64_t> sizes(const std::string& path) const override {
-    const std::string bytes = ask(Requested::sizes, path);
+    const std::string bytes = ask(Request::sizes, path);
     return ByteUnpacker(bytes).get_list<uint64_t>();
   }
   std::vector<std::string> arrays_in(const std::string& group) const override {
-    const std::string bytes = ask(Requested::arrays, group);
+    const std::string bytes = ask(Request::arrays, group);
     ByteUnpacker in(bytes);
     std::vector<std::string> names(in.get<uint64_t>());
     for (std::string& name : names) name = in.get_text();
     return names;
   }
   std::optional<std::string> text(const std::string& group, const std::string& name) const override {
-    const std::string bytes = ask(Requested::text, group, name);
+    const std::string bytes = ask(Request::text, group, name);
     ByteUnpacker in(bytes);
     const bool is_there = in.get<bool>();
     return is_there ? std::optional(std::string(in.get_text())) : std::nullopt;
   }
   std::optional<std::vector<double>> few_numbers(const std::string& group, const std::string& name) const override {
-    const std::string bytes = ask(Requested::few_numbers, group, name);
+    const std::string bytes = ask(Request::few_numbers, group, name);
     ByteUnpacker in(bytes);
     const bool is_there = in.get<bool>();
     return is_there ? std::optional(in.get_list<double>()) : std::nullopt;
@@ -111,10 +111,9 @@ class HelpedFile : public Hdf5File {
                                     (failure == HelperFailure::crashed ? "crashes" : "takes too long") + " on it"};
   }
 
-  std::string ask(Requested requested, const std::string& path, const std::string& name = "",
-                  Hdf5Rows rows = {}) const {
+  std::string ask(Request kind, const std::string& path, const std::string& name = "", Hdf5Rows rows = {}) const {
     BytePacker request;
-    request.add(requested);
+    request.add(kind);
     request.add_text(path);
     request.add_text(name);
     request.add(rows);
