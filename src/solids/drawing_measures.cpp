@@ -7,15 +7,18 @@
 namespace ombre::solids {
 namespace {
 
+bool fits(const std::string& wanted, const std::string& found) { return wanted.empty() || wanted == found; }
+
 // Returns the measures of a file, or null and a warning if it cannot be read.
 template <class Value>
 std::optional<formats::DxfMeasures> measures_of(const MeasureChoice& choice, Measure<Value>& result) {
   try {
     Diagnostics found;
     auto measures = formats::read_dxf_measures(choice.path, formats::read_file(choice.path), found);
-    if (measures)
-      result.others = measures->others;
-    else
+    if (measures) {
+      for (const auto& [kind, layer] : measures->others)
+        if (fits(choice.layer, layer)) ++result.others[kind];
+    } else
       result.warning =
           "Can't read DXF file '" + choice.shown + "'" + (found.list().empty() ? "" : ": " + found.list()[0].message);
     return measures;
@@ -24,8 +27,6 @@ std::optional<formats::DxfMeasures> measures_of(const MeasureChoice& choice, Mea
     return std::nullopt;
   }
 }
-
-bool fits(const std::string& wanted, const std::string& found) { return wanted.empty() || wanted == found; }
 
 }  // namespace
 

@@ -53,7 +53,7 @@ std::optional<DxfMeasures> read_dxf_measures(const std::string& name, std::strin
       else if (entity.kind == "LINE")
         measures.lines.push_back({layer, values.point(10), values.point(11)});
       else
-        ++measures.others[std::string(entity.kind)];
+        measures.others.push_back({std::string(entity.kind), layer});
     }
     return measures;
   } catch (const DesignError&) {

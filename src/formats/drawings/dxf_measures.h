@@ -1,7 +1,7 @@
 // Measures in drawings: named dimensions, and lines whose crossings are needed.
 #pragma once
 
-#include <map>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,7 +28,7 @@ struct DxfLine {
 struct DxfMeasures {
   std::vector<DxfDimension> dimensions;
   std::vector<DxfLine> lines;
-  std::map<std::string, size_t> others;  // how many entities there are of each other kind
+  std::vector<std::array<std::string, 2>> others;  // the kind and layer of each other entity
 };
 
 // Returns the measures; null, with diagnostics, if the bytes are not DXF.

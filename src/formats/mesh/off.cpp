@@ -64,13 +64,17 @@ class OffReader {
 
  private:
   void read_header() {
-    const std::string_view word = scanner_.word();
+    const std::string_view whole = scanner_.word(), word = whole.substr(0, whole.find('\0'));  // NULs do no harm
     if (!word.empty() && is_number(word))
       return scanner_.go_to(scanner_.position() - word.size());  // the header is optional
     const auto header = parse_header(word);
     if (!header) scanner_.fail_at_word("expected OFF, COFF, NOFF or STOFF at the beginning, found " + quoted(word));
     if (header->has_other_dimension) scanner_.fail_at_word("only OFF files in three dimensions can be read");
     header_ = *header;
+    if (word.size() < whole.size()) {
+      const size_t next = std::min(whole.find_first_not_of('\0', word.size()), whole.size());
+      return scanner_.go_to(scanner_.position() - (whole.size() - next));
+    }
     scanner_.go_to(scanner_.position() - (word.size() - word.find("OFF") - 3));
     if (scanner_.at_line_end() || scanner_.at_end()) return;
     const size_t before = scanner_.position();

@@ -99,6 +99,7 @@ class ObjectReader {
       if (object.mesh.groups.empty() || property != last) start_group(object.mesh, property, triangle);
       last = property;
       count_mixture(property);
+      count_gradient(triangle);
       object.mesh.triangles.push_back(corners(triangle, object.mesh.vertices.size()));
       ++object.mesh.groups.back().triangle_count;
     }
@@ -123,6 +124,18 @@ class ObjectReader {
     if (mixture.empty()) return;
     const std::string rest = " by <" + mixture + ">, which is not read";
     assembly_.warnings.add("a triangle has its material" + rest, "triangles have their materials" + rest);
+  }
+
+  // Counts a triangle whose corners have different colours or places of a texture.
+  void count_gradient(xml_node triangle) {
+    const auto first = file_.attribute(triangle, "p1");
+    const auto differs = [&](const char* name) {
+      const auto other = file_.attribute(triangle, name);
+      return first && other && *other != *first;
+    };
+    if (differs("p2") || differs("p3"))
+      assembly_.warnings.add("a triangle has different colours at its corners, which are not read",
+                             "triangles have different colours at their corners, which are not read");
   }
 
   Vec3 point(xml_node vertex) const {

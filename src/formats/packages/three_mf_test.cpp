@@ -278,6 +278,14 @@ TEST(ThreeMf, MixturesAndPaintAreCounted) {
               "warning: a.3mf: a triangle is painted with another extruder, which is not read\n");
 }
 
+TEST(ThreeMf, ColoursOfCornersAreCounted) {
+  const std::string colours =
+      "<m:colorgroup id=\"7\"><m:color color=\"#FF0000\"/><m:color color=\"#0000FF\"/></m:colorgroup>";
+  EXPECT_EQ(warnings(archive(model(colours + object(1, "", "pid=\"7\" p1=\"0\" p2=\"1\" p3=\"0\"")))),
+            "warning: a.3mf: a triangle has different colours at its corners, which are not read\n");
+  EXPECT_EQ(warnings(archive(model(colours + object(1, "", "pid=\"7\" p1=\"1\" p2=\"1\" p3=\"1\"")))), "");
+}
+
 TEST(ThreeMf, UnknownExtensionsAreReported) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_3mf(

@@ -90,7 +90,7 @@ template <class Language, class Product>
 void Evaluation<Language, Product>::call_module(const ast::ModuleDef& module, const ScopePtr& home, const Unit* used,
                                                 const ast::CallStatement& statement, const ScopePtr& scope,
                                                 Products& out) {
-  self().check_depth(statement);
+  self().check_depth(module);
   meter_.count_call();
   const Children children{&statement.children, scope};
   const ScopePtr inner = make_scope(home, &module.body.plan);
@@ -101,7 +101,7 @@ void Evaluation<Language, Product>::call_module(const ast::ModuleDef& module, co
     bind(module.parameters, statement.arguments, scope, home, inner, place(statement.span, statement.name.span),
          mark.size());
   } catch (const LimitReached&) {
-    self().stop_if_recursive(statement);
+    self().stop_if_recursive(module);
     throw;
   }
   self().set_counts(statement, *inner, mark.size());

@@ -40,7 +40,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
   };
   void trace(const EnteredCalls&) {}
   void stop_if_recursive(const EnteredCalls&) {}
-  void stop_if_recursive(const ast::CallStatement&) {}
+  void stop_if_recursive(const ast::ModuleDef&) {}
   void trace(const ast::Statement&) {}
 
   // Defined in interpreter_diagnostics.cpp.
@@ -103,7 +103,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
 
   // Defined in calls.cpp.
   void call_other(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
-  void check_depth(const ast::CallStatement&) {}
+  void check_depth(const ast::ModuleDef&) {}
   void check_assignments(const ast::ModuleDef&) {}
   void set_counts(const ast::CallStatement& statement, Scope& inner, size_t specials_from);
   void call_children(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);

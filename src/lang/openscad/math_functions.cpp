@@ -12,6 +12,12 @@ namespace {
 
 using Call = FunctionCall;
 
+// At odd multiples of 180 degrees OpenSCAD's sine is -0, so that atan2() finds -180 degrees again.
+double sine(double angle) {
+  const double y = degrees::sine(angle);
+  return y == 0 && std::isfinite(angle) && std::fmod(angle, 360) != 0 ? -0.0 : y;
+}
+
 double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 // Returns the extreme of the elements of one vector, of any type, or of several numbers.
@@ -109,7 +115,8 @@ Value rands(const Call& call) {
 }  // namespace
 
 std::vector<NamedFunction> math_functions() {
-  return {{"sign", common::of_number<sign_of>, 1, 1},
+  return {{"sin", common::of_number<sine>, 1, 1},
+          {"sign", common::of_number<sign_of>, 1, 1},
           {"log", common::logarithm, 1, 2},
           {"min", extreme<false>, 1},
           {"max", extreme<true>, 1},

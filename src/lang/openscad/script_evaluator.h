@@ -135,7 +135,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   void trace(const EnteredCalls& entered);
   // Throws Stopped if a recursion that does not end has led to a limit of what values may hold.
   void stop_if_recursive(const EnteredCalls& entered);
-  void stop_if_recursive(const ast::CallStatement& statement);
+  void stop_if_recursive(const ast::ModuleDef& module);
   void say_recursion(const ast::Call& call);
   void trace(const ast::Statement& statement);
   std::pair<std::string, int> file_and_line(const ast::Span& where);
@@ -159,8 +159,8 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
     body(result->children);
     out.push_back(std::move(result));
   }
-  void check_depth(const ast::CallStatement& statement);
-  [[noreturn]] void stop_recursion(const ast::CallStatement& statement);
+  void check_depth(const ast::ModuleDef& module);
+  [[noreturn]] void stop_recursion(const ast::ModuleDef& module);
   // Warns of parameters to which the module gives other values.
   void check_assignments(const ast::ModuleDef& module);
   void set_counts(const ast::CallStatement& statement, Scope& inner, size_t specials_from);

@@ -123,20 +123,21 @@ void Evaluator::call_other(const CallStatement& statement, const ScopePtr& scope
   warn("Ignoring unknown module '" + statement.name.text() + '\'', statement.span);
 }
 
-void Evaluator::check_depth(const CallStatement& statement) {
+void Evaluator::check_depth(const ast::ModuleDef& module) {
   constexpr int levels_of_statement = 8;  // trees are as deep as statements, and other code walks them recursively
   if (depth_ > options_.limits.depth - spare_levels || nested_statements_ > options_.limits.depth / levels_of_statement)
-    stop_recursion(statement);
+    stop_recursion(module);
 }
 
-void Evaluator::stop_recursion(const CallStatement& statement) {
-  stop("Recursion detected calling module '" + statement.name.text() + '\'', statement.span);
+// OpenSCAD names the place of the module, not of the call.
+void Evaluator::stop_recursion(const ast::ModuleDef& module) {
+  stop("Recursion detected calling module '" + module.name.text() + '\'', module.name.span);
 }
 
 // Values grow beyond a limit in an endless recursion that passes on lists of its own arguments.
-void Evaluator::stop_if_recursive(const CallStatement& statement) {
+void Evaluator::stop_if_recursive(const ast::ModuleDef& module) {
   constexpr size_t deep = 200;
-  if (module_calls_.size() >= deep) stop_recursion(statement);
+  if (module_calls_.size() >= deep) stop_recursion(module);
 }
 
 void Evaluator::check_assignments(const ast::ModuleDef& module) {
