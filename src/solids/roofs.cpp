@@ -7,6 +7,7 @@
 
 #include "base/math/math.h"
 #include "base/text/error.h"
+#include "base/text/text.h"
 #include "solids/kernel.h"
 #include "solids/regions.h"
 
@@ -95,6 +96,11 @@ bool are_apart(const std::vector<Ring>& rings, const PlaneTriangles& filling) {
 
 TriangleMesh closed_roof(const Region& region, const PlaneTriangles& filling, const Roof& by) {
   const FineOutline outline = by.method == RoofMethod::straight ? as_it_is(region) : rounded(region, by.fragments);
+  // The time of CGAL's skeletons grows with the square of the corners, and nothing stops them.
+  constexpr size_t most_corners = 5000;
+  if (outline.point.size() > most_corners)
+    throw Error("a roof over " + format_count(outline.point.size()) + " corners takes too long; write fewer corners" +
+                (by.method == RoofMethod::straight ? "" : ", or method = \"straight\""));
   TriangleMesh above = kernel().roof(outline.rings);
   TriangleMesh mesh;
   for (const Ring& ring : region.rings)
