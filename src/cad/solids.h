@@ -42,7 +42,7 @@ class Query {
 class Solid {
  public:
   std::string name;  // may be empty
-  std::string unit;  // of lengths in the file, as it names them: "inch"; may be empty
+  std::string unit;  // of lengths in the file, as it names them: "INCH", "millimetre"; may be empty
   std::optional<std::array<uint8_t, 4>> colour;
   double volume_mm3 = 0;
   size_t faces = 0;

@@ -77,7 +77,7 @@ TEST_F(Cad, VolumesAndBoundsAreThoseOfTheShapes) {
 }
 
 TEST_F(Cad, LengthsBecomeMillimetresAndFacesASolid) {
-  EXPECT_EQ(read("block_in_inches.step")[0]->unit, "inch");
+  EXPECT_EQ(read("block_in_inches.step")[0]->unit, "INCH");
   EXPECT_EQ(read("cylinder.step")[0]->unit, "millimetre");
   EXPECT_EQ(read("block.iges")[0]->unit, "MM");
   for (const char* name : {"block_in_inches.step", "block.iges"}) {
