@@ -99,8 +99,9 @@ TriangleMesh closed_roof(const Region& region, const PlaneTriangles& filling, co
   // The time of CGAL's skeletons grows with the square of the corners, and nothing stops them.
   constexpr size_t most_corners = 5000;
   if (outline.point.size() > most_corners)
-    throw Error("a roof over " + format_count(outline.point.size()) + " corners takes too long; write fewer corners" +
-                (by.method == RoofMethod::straight ? "" : ", or method = \"straight\""));
+    throw Error(Code::too_large, "a roof over " + format_count(outline.point.size()) +
+                                     " corners takes too long; write fewer corners" +
+                                     (by.method == RoofMethod::straight ? "" : ", or method = \"straight\""));
   TriangleMesh above = kernel().roof(outline.rings);
   TriangleMesh mesh;
   for (const Ring& ring : region.rings)
@@ -122,7 +123,8 @@ TriangleMesh roof_of(const Region& region, const Roof& by) {
   if (are_apart(region.rings, filling)) return closed_roof(region, filling, by);
   const Region parted = offset(region, Offset{-gap_mm / 2});
   filling = kernel().triangulate(parted.rings);
-  if (!are_apart(parted.rings, filling)) throw Error("its outline touches itself; make a gap where it does");
+  if (!are_apart(parted.rings, filling))
+    throw Error(Code::surface_crosses, "its outline touches itself; make a gap where it does");
   return closed_roof(parted, filling, by);
 }
 

@@ -63,7 +63,7 @@ class RoofMaker {
 
   void add(const Area& area) {
     const auto skeleton = CGAL::create_interior_straight_skeleton_2(area);
-    if (!skeleton) throw Error("CGAL finds no straight skeleton of its outline");
+    if (!skeleton) throw Error(Code::surface_crosses, "CGAL finds no straight skeleton of its outline");
     number_nodes(*skeleton);
     for (auto face = skeleton->faces_begin(); face != skeleton->faces_end(); ++face) {
       std::vector<uint32_t> corners;
@@ -139,7 +139,8 @@ TriangleMesh roof_over(std::span<const Ring> rings) {
     for (const Area& area : areas_of(rings)) maker.add(area);
     return maker.take();
   } catch (const std::logic_error& failure) {  // thrown by CGAL's checks
-    throw Error(std::string("CGAL finds no straight skeleton of its outline: ") + failure.what());
+    throw Error(Code::surface_crosses,
+                std::string("CGAL finds no straight skeleton of its outline: ") + failure.what());
   }
 }
 
