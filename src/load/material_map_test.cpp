@@ -32,15 +32,15 @@ class MaterialMap : public ::testing::Test {
 
 TEST_F(MaterialMap, HasPairs) {
   EXPECT_EQ(read({}), "[]");
-  EXPECT_EQ(read({"PLA white = white", "#f00=Red"}), R"([["PLA white", "white"], ["#f00", "Red"]])");
+  EXPECT_EQ(read({"PLA white = white", "#f00=Red"}), R"([["PLA white","white"],["#f00","Red"]])");
   // Names may have an equals sign; materials have none.
-  EXPECT_EQ(read({"k=1=red"}), R"([["k=1", "red"]])");
+  EXPECT_EQ(read({"k=1=red"}), R"([["k=1","red"]])");
 }
 
 TEST_F(MaterialMap, ComesFromAFile) {
   const fs::path file = fs::path(testing::TempDir()) / "ombre_material_map.json";
   std::ofstream(file) << R"({"PLA white": "white"})";
-  EXPECT_EQ(read({file.string(), "PLA red=red"}), R"([["PLA white", "white"], ["PLA red", "red"]])");
+  EXPECT_EQ(read({file.string(), "PLA red=red"}), R"([["PLA white","white"],["PLA red","red"]])");
   std::ofstream(file) << R"({"PLA white": 5})";
   EXPECT_NE(read({file.string()}).find("ombre_material_map.json:1:15: error: a material is expected"),
             std::string::npos)
