@@ -478,8 +478,8 @@ TEST(Off, LinesMeanNothingBeforeColours) {
 }
 
 TEST(Off, TheHeaderMayTouchTheCountOrBeLeftOut) {
-  for (const std::string header :
-       {std::string("OFF\0\0", 5), std::string("OFF"), std::string("COFF"), "NOFF", "\xEF\xBB\xBFOFF", ""})
+  const std::string with_nul("OFF\0\0", 5);
+  for (const std::string& header : std::vector<std::string>{"OFF", "COFF", "NOFF", "\xEF\xBB\xBFOFF", "", with_nul})
     EXPECT_EQ(shape(read_named("a.off", off(header))), expected_shape()) << header;
   EXPECT_EQ(shape(read_named("called otherwise", off("OFF"))), expected_shape());
   expect_message_of("a.off", "OFFx 1 1\n", "found \"OFFx\"");
