@@ -33,7 +33,8 @@ export function AskingDialog() {
     asking?.answer((event.submitter as HTMLButtonElement)?.value ?? asking.buttons[0], String(new FormData(form).get("name") ?? ""));
   };
   return (
-    <dialog ref={dialog} class="asking" aria-labelledby="asking-title" onClose={() => asking?.answer("", "")}>
+    // Escape cancels. The event "close" comes later, when the next question may be there already.
+    <dialog ref={dialog} class="asking" aria-labelledby="asking-title" onCancel={(event) => (event.preventDefault(), asking?.answer("", ""))}>
       {asking && (
         <form onSubmit={answer}>
           <h2 id="asking-title">{asking.title}</h2>
