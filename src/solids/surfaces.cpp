@@ -20,7 +20,6 @@ constexpr size_t most_heights = 4'000'000;
 struct Heights {
   size_t columns = 0, rows = 0;
   std::vector<double> values;  // row by row, the first at y = 0
-  double least = 0;            // of the heights that the file has
 
   double at(size_t column, size_t row) const { return values[row * columns + column]; }
 };
@@ -35,7 +34,6 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
     std::vector<double>& row = rows.emplace_back();
     while (!scanner.at_line_end()) {
       row.push_back(scanner.coordinate("a height"));
-      heights.least = count == 0 ? row.back() : std::min(heights.least, row.back());
       if (++count > most_heights) scanner.fail_here("there are more than 4 million heights", "use a coarser grid");
     }
     heights.columns = std::max(heights.columns, row.size());
@@ -53,14 +51,13 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
 // Reads heights from 0 for black to 100 for white. If inverted, they are those of OpenSCAD 2021.01: 100/255 - height.
 Heights heights_of_picture(const std::string& path, const std::string& bytes, bool is_inverted) {
   const formats::PngImage image = formats::decode_png(bytes, path, most_heights);
-  Heights heights{image.width, image.height, {}, 0};
+  Heights heights{image.width, image.height, {}};
   for (uint32_t row = image.height; row-- > 0;)
     for (uint32_t column = 0; column < image.width; ++column) {
       const formats::Rgba c = image.colour(column, row);
       const double level = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
       heights.values.push_back(100 * (is_inverted ? 1 - level : level) / 255);
     }
-  heights.least = *std::min_element(heights.values.begin(), heights.values.end());
   return heights;
 }
 
@@ -72,7 +69,7 @@ class HeightMesh {
     if (is_centred)
       shift_ = {-0.5 * static_cast<double>(heights.columns - 1), -0.5 * static_cast<double>(heights.rows - 1)};
     // Like OpenSCAD, begins 1 mm below the least height, and at z = 0 if all heights are greater than 1 mm.
-    foot_ = std::min(heights.least, 1.0) - 1;
+    foot_ = std::min(*std::min_element(heights.values.begin(), heights.values.end()), 1.0) - 1;
   }
 
   TriangleMesh make() {

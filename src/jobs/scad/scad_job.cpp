@@ -58,7 +58,7 @@ std::optional<Vec3> open_place(const solids::TriangleMesh& mesh) {
 }
 
 bool check_closed(const Piece& piece, const std::string& path, Diagnostics& messages) {
-  if (piece.solid()->flaw() == solids::Flaw::open) return true;  // a warning has said so
+  if (piece.solid()->flaw() != solids::Flaw::none) return true;  // a warning was given
   const auto place = open_place(piece.solid()->mesh());
   if (!place) return true;
   messages.error({}, path + " is not written: the surface of " + name_of(piece) + " is open near (" +

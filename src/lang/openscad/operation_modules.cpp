@@ -83,7 +83,8 @@ TreePtr linear_extrude(ModuleCall& call) {
     result.scale = {(*each)[0], (*each)[1]};
   result.scale = {std::max(0.0, finite(result.scale.x, 1)), std::max(0.0, finite(result.scale.y, 1))};
   result.twist = finite(call.number("twist", 0), 0);
-  if (const auto slices = call.number("slices"); slices && *slices >= 1) result.slices = whole(*slices);
+  if (const auto slices = call.number("slices"); slices && std::isfinite(*slices) && *slices >= 1)
+    result.slices = whole(*slices);
   if (const auto segments = call.number("segments")) result.segments = std::max(0, whole(*segments));
   result.convexity = std::max(1, whole(call.number("convexity", 1)));
   return extruded(call, result);

@@ -140,8 +140,12 @@ Parts combine_nef(Boolean operation, const Part& a, const Part& b) {
 }
 
 Part touching_part(ExactMesh surface) {
-  const Nef nef = nef_of(surface);
-  return whole_of(nef, std::move(surface));
+  try {
+    const Nef nef = nef_of(surface);
+    return whole_of(nef, std::move(surface));
+  } catch (const std::exception& failure) {
+    throw Error(Code::surface_crosses, std::string("its surface crosses and touches itself: ") + failure.what());
+  }
 }
 
 Part moved_nef(const Part& part, const CGAL::Aff_transformation_3<Exact>& map) {
