@@ -18,7 +18,9 @@ std::string free_name(const Workspace& workspace, const std::string& file, const
   constexpr int most_tries = 1000;
   const std::string stem = fs::path(file).replace_extension().generic_string();
   for (int n = 1; n <= most_tries; ++n) {
-    std::string name = stem + (n == 1 ? "" : "_" + std::to_string(n)) + ending;
+    std::string name = stem;
+    if (n > 1) name += "_" + std::to_string(n);
+    name += ending;
     if (!fs::exists(workspace.path(name))) return name;
   }
   throw RequestError("exists", "there are too many designs called " + stem);

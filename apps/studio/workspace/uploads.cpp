@@ -36,7 +36,7 @@ Uploads::Open& Uploads::open_one(const UploadPiece& piece, const fs::path& file)
     std::error_code error;
     fs::create_directories(file.parent_path(), error);
     open_.push_back({piece.id, (file.parent_path() / (".upload_" + piece.id)).string()});
-    std::ofstream(open_.back().part, std::ios::binary | std::ios::trunc);
+    const std::ofstream empty(open_.back().part, std::ios::binary | std::ios::trunc);
     return open_.back();
   }
   const auto found = std::ranges::find(open_, piece.id, &Open::id);

@@ -142,7 +142,10 @@ class OpenFile : public Hdf5File {
       std::string name(static_cast<size_t>(size) + 1, '\0');
       H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, n, name.data(), name.size(), H5P_DEFAULT);
       name.pop_back();
-      if (array_at(path + '/' + name).is_open()) names.push_back(std::move(name));
+      std::string array = path;
+      array += '/';
+      array += name;
+      if (array_at(array).is_open()) names.push_back(std::move(name));
     }
     return names;
   }

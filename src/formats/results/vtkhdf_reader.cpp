@@ -246,14 +246,21 @@ class VtkHdfReader {
     size_t components = 1;
   };
 
+  static std::string within(const std::string& group, const std::string& name) {
+    std::string path = group;
+    path += '/';
+    path += name;
+    return path;
+  }
+
   void begin_fields() {
     for (const bool is_of_elements : {false, true}) {
       const std::string group = is_of_elements ? "CellData" : "PointData";
-      for (const std::string& name : file_->arrays_in(vtkhdf_group + '/' + group)) {
-        const std::string array = group + '/' + name;
-        const std::vector<uint64_t> sizes = file_->sizes(vtkhdf_group + '/' + array);
+      for (const std::string& name : file_->arrays_in(within(vtkhdf_group, group))) {
+        const std::string array = within(group, name), path = within(vtkhdf_group, array);
+        const std::vector<uint64_t> sizes = file_->sizes(path);
         std::string problem;
-        if (sizes.empty() || (!file_->numbers(vtkhdf_group + '/' + array, problem, {0, 0}) && problem.empty())) {
+        if (sizes.empty() || (!file_->numbers(path, problem, {0, 0}) && problem.empty())) {
           ++without_numbers_;
           continue;
         }

@@ -32,7 +32,7 @@ solids::MeasureChoice choice_of(const FunctionCall& call) {
       else
         call.fail(function + "origin=" + value_text(call[n], true, call.meter) + ") could not be converted");
     } else if (name == "scale") {
-      choice.scale = call[n].number() ? *call[n].number() : choice.scale;
+      if (const double* scale = call[n].number()) choice.scale = *scale;
     } else {
       call.fail(function + name + "=...) is not supported");
     }
