@@ -173,7 +173,7 @@ TEST_F(Thesis, OperationsThatJoinColoursSaySo) {
   EXPECT_EQ(said(hull({colour(red, {cube(2), moved(3, 0, 0, {cube(2)})})})), "20 red");
 }
 
-// These are results of OpenSCAD 2021.01.
+// OpenSCAD 2021.01 gives these results.
 TEST_F(Thesis, ASumWithNothingIsNothingInThePlaneAlone) {
   const TreePtr none = intersection({square(1, 1), moved(5, 5, 0, {square(1, 1)})});
   EXPECT_EQ(described(minkowski({none, circle(2, 8)})), "");

@@ -63,7 +63,7 @@ class VtkGrid {
   [[noreturn]] void fail(List list, const std::string& message) const;
   // Returns an end in a list of this size that lies behind its beginning.
   size_t checked_end(List list, double end, size_t begin, size_t size) const;
-  // These add a cell and return the number of its elements.
+  // Each function adds a cell and returns the number of its elements.
   uint32_t add_cell(const VtkCells& cells, size_t cell);
   uint32_t add_polyhedron(const VtkCells& cells, size_t cell);
   uint32_t point(List list, const char* what, size_t cell, double number) const;

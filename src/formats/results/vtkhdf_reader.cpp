@@ -18,7 +18,7 @@ namespace {
 const std::string vtkhdf_group = "/VTKHDF";
 constexpr size_t most_pieces = 100000;
 
-// Where the lists of a piece begin in the arrays of the file, and how long they are.
+// The places and lengths of a piece's lists in the arrays of the file.
 struct HdfPiece {
   uint64_t points = 0, cells = 0, corners = 0;  // where they begin
   uint64_t polyhedron_faces = 0, faces = 0, face_corners = 0;

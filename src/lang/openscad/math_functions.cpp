@@ -12,7 +12,7 @@ namespace {
 
 using Call = FunctionCall;
 
-// At odd multiples of 180 degrees OpenSCAD's sine is -0, so that atan2() finds -180 degrees again.
+// OpenSCAD's sine is -0 at odd multiples of 180 degrees, so that atan2() finds -180 degrees again.
 double sine(double angle) {
   const double y = degrees::sine(angle);
   return y == 0 && std::isfinite(angle) && std::fmod(angle, 360) != 0 ? -0.0 : y;

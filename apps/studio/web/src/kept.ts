@@ -1,4 +1,4 @@
-// What the browser keeps of this page: texts for the time when the server is away, and how each file was seen.
+// The browser keeps of this page: texts for the time when the server is away, and how each file was seen.
 import { State, state, subscribe } from "./store";
 
 export interface Draft {

@@ -245,7 +245,7 @@ export function edited() {
   evaluate(200);
 }
 
-// What is typed before a file is open belongs to a new one.
+// Text typed before a file is open belongs to a new file.
 function beginFile() {
   const file = freeName("untitled");
   version = savedText = "";
@@ -372,7 +372,7 @@ async function heard(name: string, members: Reply) {
   evaluate();
 }
 
-// What a Python script says while it runs.
+// The output of a Python script while it runs.
 function hearScript(file: string, line: string) {
   const mostLines = 200;
   if (state.isRunning && file === state.file && state.echo.length < mostLines) set({ echo: [...state.echo, line] });
