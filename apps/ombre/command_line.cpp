@@ -110,9 +110,6 @@ class CommandLine {
     job_->add_option("file", saved_job_, "The saved job")->required()->type_name("FILE");
     add_output_options(*job_, output_);
     job_->footer("Examples:\n  ombre mesh part.vcad --tolerance 0.01 --save-job part.json\n  ombre job part.json\n");
-    // This entry only serves help: Python runs the command before it comes here (python_designs.h).
-    program_.add_subcommand("run",
-                            "Run a Python script; with --, its root is the design of a command (see: ombre run -h)");
   }
 
   Data describe() const {

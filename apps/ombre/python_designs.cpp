@@ -51,6 +51,11 @@ std::string interpreter() {
   return given.empty() ? OMBRE_PYTHON_PROGRAM : given;
 }
 
+// True for `run plan.json`, which makes a share of a plan.
+bool names_plan(int argc, const char* const* argv) {
+  return std::any_of(argv + 2, argv + argc, [](std::string_view word) { return word.ends_with(".json"); });
+}
+
 void put_first_on_path(const std::string& folder) {
   const std::string others = environment("PYTHONPATH");
   const std::string path = others.empty() ? folder : folder + ":" + others;
@@ -60,7 +65,7 @@ void put_first_on_path(const std::string& folder) {
 }  // namespace
 
 bool needs_python(int argc, const char* const* argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "run") return true;
+  if (argc > 1 && std::string_view(argv[1]) == "run") return !names_plan(argc, argv);
   if (argc > 1 && std::string_view(argv[1]) == "completion") return false;
   for (int n = 2; n < argc; ++n)
     if (const std::string_view word = argv[n]; word.ends_with(".py") && !word.starts_with("-")) return true;

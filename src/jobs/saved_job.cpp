@@ -32,20 +32,22 @@ const Record<SavedJob>& job_record() {
 
 }  // namespace
 
-std::string saved_text(const SavedJob& job, const std::string& program) {
-  return print_json(
-      DataMembers{{"format", format}, {"program", program}, {"kind", job.kind->name}, {"options", job.options}});
+Data saved_data(const SavedJob& job, const std::string& program) {
+  return DataMembers{{"format", format}, {"program", program}, {"kind", job.kind->name}, {"options", job.options}};
 }
+
+std::string saved_text(const SavedJob& job, const std::string& program) { return print_json(saved_data(job, program)); }
 
 std::optional<SavedJob> read_saved_job(const SourcePtr& source, Diagnostics& diagnostics) {
   const auto data = parse_json(source, diagnostics);
-  if (!data) return std::nullopt;
-  const MemberReader reader(diagnostics, Code::option);
+  return data ? read_saved_job(*data, MemberReader(diagnostics, Code::option)) : std::nullopt;
+}
+
+std::optional<SavedJob> read_saved_job(const Data& data, const MemberReader& reader) {
   SavedJob job;
-  if (const Data* said = data->find("format"); !said || *said != Data(format))
-    reader.fail(*data, "this is no job",
-                "a job has \"format\": \"" + std::string(format) + "\"; --save-job writes one");
-  else if (job_record().read(*data, job, reader))
+  if (const Data* said = data.find("format"); !said || *said != Data(format))
+    reader.fail(data, "this is no job", "a job has \"format\": \"" + std::string(format) + "\"; --save-job writes one");
+  else if (job_record().read(data, job, reader))
     return job;
   return std::nullopt;
 }

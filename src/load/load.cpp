@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "base/system/tasks.h"
+#include "base/text/error.h"
+#include "base/text/file_ending.h"
 #include "base/text/json.h"
 #include "base/text/text.h"
 #include "lang/engine/interpret.h"
@@ -212,6 +214,10 @@ std::optional<design::MaterialTable> load_materials(const std::string& path, Dia
 
 LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
   if (is_bundle(path)) return load_bundle(path, options, diagnostics);
+  if (ending_of(path) == ".py")  // the command line runs a script that it names; jobs and plans in files do not
+    throw Error(Code::other_program,
+                path + " is a Python script; run the command in Python: python3 -m ombre ... in place of ombre ...",
+                {{"file", path}});
   sources::SourceCache own;
   sources::SourceCache& cache = options.cache ? *options.cache : own;
   return read_design(read_source(path, cache), options, cache, diagnostics);

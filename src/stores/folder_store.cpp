@@ -62,12 +62,13 @@ FolderStore::FolderStore(std::string path, const StoredJob& job, FolderUse use, 
   if (use == FolderUse::resume && folder_.holds(job.words().description_file)) {
     folder_.check_description();
     remove_parts();
-    folder_.read_journal(checking_);
+    folder_.read_journals(all_journals(), checking_);
   } else {
     refuse_collisions();
   }
   folder_.update_description();
   folder_.open_journal();
+  remove_books_of_shards();
 }
 
 void FolderStore::close() {
@@ -128,6 +129,19 @@ Entries FolderStore::entries_in_journal() const {
 void FolderStore::refuse_collisions() const {
   for (const std::string& name : names_in(folder_.path()))
     if (name == journal_file || job_.owns(without_part(name))) folder_.refuse_collision(name);
+}
+
+std::vector<std::string> FolderStore::all_journals() const {
+  std::vector<std::string> names{journal_file};
+  for (const std::string& name : names_in(folder_.path()))
+    if (is_journal_of_shard(name)) names.push_back(name);
+  return names;
+}
+
+// The journal of this run has the entries of all shards by now.
+void FolderStore::remove_books_of_shards() const {
+  for (const std::string& name : names_in(folder_.path()))
+    if (is_of_shard(name)) remove_file(folder_.file(name));
 }
 
 void FolderStore::remove_parts() const {

@@ -17,7 +17,8 @@ void refuse_used_folder(const std::string& path, FolderUse use, const JobWords& 
 
 class FolderStore : public Store {
  public:
-  // Prepares the folder for the job's pieces, as `use` says. Throws Error when it cannot be written, holds files that
+  // Prepares the folder for the job's pieces, as `use` says. A resumed job takes over what shards have finished, and
+  // removes their journals. Throws Error when it cannot be written, holds files that
   // are not the job's, or is in use by another run. Throws Cancelled when asked to stop meanwhile.
   FolderStore(std::string path, const StoredJob& job, FolderUse use, Checking checking = {});
 
@@ -31,6 +32,8 @@ class FolderStore : public Store {
  private:
   void remove_old_job();
   void remove_parts() const;
+  std::vector<std::string> all_journals() const;
+  void remove_books_of_shards() const;
   bool is_bookkeeping(std::string_view name) const;
   Entries entries_in_journal() const;
   void refuse_collisions() const;

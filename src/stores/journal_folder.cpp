@@ -109,15 +109,17 @@ void JournalFolder::refuse_collision(const std::string& name) const {
               {{"file", path_}});
 }
 
-void JournalFolder::read_journal(const Checking& checking) {
-  if (!holds(journal_)) return;
+void JournalFolder::read_journals(const std::vector<std::string>& names, const Checking& checking) {
   const auto accepts = [&](const Entry& entry) { return job_.accepts(entry); };
-  finished_ = parse_journal(job_.words().id_name, read(journal_), accepts);
+  std::vector<Entries> journals;
+  for (const std::string& name : names)
+    if (holds(name)) journals.push_back(parse_journal(job_.words().id_name, read(name), accepts));
   std::vector<const Entry*> entries;
-  for (const auto& [id, entry] : finished_) entries.push_back(&entry);
+  for (const Entries& journal : journals)
+    for (const auto& [id, entry] : journal) entries.push_back(&entry);
   const std::vector<char> good = are_proven(path_, entries, checking);
-  size_t i = 0;
-  std::erase_if(finished_, [&](const auto&) { return !good[i++]; });
+  for (size_t i = 0; i < entries.size(); ++i)
+    if (good[i]) finished_.emplace(entries[i]->id, *entries[i]);
 }
 
 void JournalFolder::open_journal() {

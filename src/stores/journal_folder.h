@@ -58,8 +58,10 @@ class JournalFolder {
   // Throws an error that a file of others has a name that the job would write.
   [[noreturn]] void refuse_collision(const std::string& name) const;
 
-  // Reads the finished pieces of earlier runs.
-  void read_journal(const Checking& checking);
+  // Reads the finished pieces of earlier runs from the folder's own journal.
+  void read_journal(const Checking& checking) { read_journals({journal_}, checking); }
+  // Does so from several journals; those that are not there are left out.
+  void read_journals(const std::vector<std::string>& names, const Checking& checking);
   // Replaces the journal by the lines of the finished pieces, so that no new line follows a torn one.
   void open_journal();
   void put(const Piece& piece);

@@ -4,6 +4,7 @@
 #include "base/text/file_ending.h"
 #include "formats/containers/zip_archive.h"
 #include "stores/archive_store.h"
+#include "stores/shard_store.h"
 
 namespace ombre::stores {
 
@@ -19,6 +20,11 @@ void refuse_used(const std::string& path, FolderUse use, const JobWords& words) 
 std::unique_ptr<Store> open_store(const std::string& path, const StoredJob& job, FolderUse use, Checking checking) {
   if (is_archive(path)) return std::make_unique<ArchiveStore>(path, job, use, checking);
   return std::make_unique<FolderStore>(path, job, use, checking);
+}
+
+std::unique_ptr<Store> open_shard(const std::string& path, const StoredJob& job, const Shard& shard,
+                                  Checking checking) {
+  return std::make_unique<ShardStore>(pieces_folder(path), job, shard, checking);
 }
 
 }  // namespace ombre::stores

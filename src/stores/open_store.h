@@ -6,6 +6,7 @@
 
 #include "stores/folder_use.h"
 #include "stores/journal_folder.h"
+#include "stores/shard.h"
 
 namespace ombre::stores {
 
@@ -17,5 +18,8 @@ std::string pieces_folder(const std::string& path);
 void refuse_used(const std::string& path, FolderUse use, const JobWords& words);
 // Throws as FolderStore and ArchiveStore do.
 std::unique_ptr<Store> open_store(const std::string& path, const StoredJob& job, FolderUse use, Checking checking = {});
+// Opens the store of a share of the job. Throws as ShardStore does.
+std::unique_ptr<Store> open_shard(const std::string& path, const StoredJob& job, const Shard& shard,
+                                  Checking checking = {});
 
 }  // namespace ombre::stores

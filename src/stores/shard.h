@@ -7,6 +7,8 @@
 
 namespace ombre::stores {
 
+inline constexpr int64_t most_shards = 1'000'000;
+
 struct Shard {
   int64_t number = 1, count = 1;  // 1 <= number <= count
 

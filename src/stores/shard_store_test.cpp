@@ -107,6 +107,22 @@ TEST_F(ShardStoreTest, AFolderIsSharedOrUsedAlone) {
   expect_error([&] { run({1, 2}, 0, 1); }, "another run is writing");
 }
 
+TEST_F(ShardStoreTest, AResumedRunTakesOverWhatSharesHaveDone) {
+  run({1, 2}, 0, 20);
+  run({2, 2}, 20, 38);
+  std::filesystem::remove(folder() + "/piece_3.txt");
+  {
+    FolderStore whole(folder(), job_, FolderUse::resume);
+    EXPECT_EQ(whole.finished().size(), 37U);
+    for (const int64_t id : {3, 38, 39}) whole.put(piece(id));
+    whole.close();
+  }
+  FolderStore alone(root_.file("alone"), job_, FolderUse::fresh);
+  put_pieces(alone, 0, shared_count);
+  alone.close();
+  EXPECT_EQ(contents_of(folder()), contents_of(root_.file("alone")));
+}
+
 TEST_F(ShardStoreTest, OtherJobsAndForeignFilesAreRefused) {
   run({1, 2}, 0, 1);
   expect_error([&] { ShardStore(folder(), PieceJob(shared_count, "b"), {2, 2}); }, "holds another design");

@@ -63,7 +63,8 @@ def _run_arguments(arguments):
 def main(arguments=None):
     from . import _core
     arguments = list(sys.argv[1:] if arguments is None else arguments)
-    if arguments[:1] == ["run"]:
+    makes_share = any(word.endswith(".json") for word in arguments[1:])  # ombre run plan.json
+    if arguments[:1] == ["run"] and not makes_share:
         arguments = _run_arguments(arguments[1:])
         if arguments is None:
             return 0

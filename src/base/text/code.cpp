@@ -48,6 +48,7 @@ constexpr CodeInfo table[] = {
     {Code::option, "option", "An option of a job has a value that it cannot have, or does not go with another", ""},
     {Code::exists, "exists", "A file or a job is there already and is not replaced", "file"},
     {Code::other_job, "other-job", "A folder holds another job, or another run writes into it", "file"},
+    {Code::unfinished, "unfinished", "Shares of a job are missing", "file"},
     {Code::too_large, "too-large", "The job has more voxels, cells or pixels than are possible", ""},
     {Code::memory, "memory", "The job takes more memory than it may", ""},
     {Code::disk_space, "disk-space", "The files take more space than is left", "file"},

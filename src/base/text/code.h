@@ -53,6 +53,7 @@ enum class Code : uint8_t {
   option,
   exists,
   other_job,
+  unfinished,
   too_large,
   memory,
   disk_space,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "jobs/common/session.h"
+#include "jobs/common/shared_job.h"
 #include "options/option.h"
 
 namespace ombre::jobs {
@@ -25,6 +26,9 @@ struct JobKind {
   // The endings of the files that it writes as -o says; "" stands for a folder. An ending belongs to one kind, which
   // front ends choose where only the file to write is named.
   std::vector<std::string> endings = {};
+  // Plans a job at this address that processes may share. Returns null, and adds diagnostics, if the design is wrong.
+  // Null for kinds whose jobs are not shared.
+  std::function<SharedJobPtr(const void* job, Session& session, Diagnostics& diagnostics)> share = nullptr;
 };
 
 // Makes the kind whose jobs are values of the type Choices.

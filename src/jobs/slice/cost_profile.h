@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "jobs/slice/slice_request.h"
+#include "jobs/slice/layer_range.h"
 
 namespace ombre::compile {
 

@@ -9,6 +9,7 @@
 #include "jobs/common/job_kind.h"
 #include "jobs/common/job_steps.h"
 #include "jobs/common/session.h"
+#include "jobs/slice/job_description.h"
 #include "jobs/slice/plan_part.h"
 #include "jobs/slice/slice_choices.h"
 #include "jobs/slice/slice_report.h"
@@ -83,8 +84,8 @@ int write_slices(const compile::Plan& plan, const compile::SliceOptions& options
     return report.stopped_by_check ? check_failed : done;
   } catch (const Cancelled&) {
     progress.finish();
-    session.events.say("interrupted; the finished layers are in " + stores::pieces_folder(options.folder) +
-                       ", the same command with --resume goes on");
+    session.events.say("interrupted; the finished layers are in " + stores::pieces_folder(options.folder) + ", " +
+                       (options.shard ? "the same command goes on" : "the same command with --resume goes on"));
     session.events.event("interrupted", {{"folder", options.folder}});
     return interrupted;
   }
@@ -117,23 +118,25 @@ int emit(const SliceChoices& a, Session& session) {
   return take_steps(steps, session);
 }
 
+std::optional<compile::Plan> plan(const SliceChoices& a, Session& session, Diagnostics& diagnostics) {
+  auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
+  const compile::LoadedPtr loaded = options ? load_sliced(a, session, diagnostics) : nullptr;
+  if (!loaded) return std::nullopt;
+  JobProgress progress(session.events);
+  options->progress = &progress;
+  auto plan = compile::plan_slice(loaded, *options, diagnostics);
+  if (!plan) return std::nullopt;
+  const voxel::TileBox region = compile::chosen_region(a.box, plan->request.lattice);
+  return compile::part_of(std::move(*plan), region);
+}
+
 int slice(const SliceChoices& a, Session& session) {
   if (!a.emit.empty()) return emit(a, session);
   JobSteps<compile::Plan> steps;
-  steps.refuse = [&] {
-    if (!a.dry_run) stores::refuse_used(a.output_folder(), a.folder_use(), compile::slice_words());
+  steps.refuse = [&] {  // a share looks at the folder once the job is planned
+    if (!a.dry_run && !a.shard) stores::refuse_used(a.output_folder(), a.folder_use(), compile::slice_words());
   };
-  steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::Plan> {
-    auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
-    const compile::LoadedPtr loaded = options ? load_sliced(a, session, diagnostics) : nullptr;
-    if (!loaded) return std::nullopt;
-    JobProgress progress(session.events);
-    options->progress = &progress;
-    auto plan = compile::plan_slice(loaded, *options, diagnostics);
-    if (!plan) return std::nullopt;
-    const voxel::TileBox region = compile::chosen_region(a.box, plan->request.lattice);
-    return compile::part_of(std::move(*plan), region);
-  };
+  steps.plan = [&](Diagnostics& diagnostics) { return plan(a, session, diagnostics); };
   steps.run = [&](const compile::Plan& plan) {
     const compile::SliceOptions options = compile::slice_options(a, plan);
     tell_plan(session.events, plan.request, options);
@@ -143,10 +146,68 @@ int slice(const SliceChoices& a, Session& session) {
   return take_steps(steps, session);
 }
 
+// A slice job whose layers several processes make.
+class SharedSlices final : public SharedJob {
+ public:
+  SharedSlices(const SliceChoices& choices, compile::Plan plan)
+      : plan_(std::move(plan)), options_(compile::slice_options(choices, plan_)), stored_(plan_.request) {}
+
+  std::string folder() const override { return stores::pieces_folder(options_.folder); }
+  const stores::StoredJob& stored() const override { return stored_; }
+  stores::PieceRange pieces() const override {
+    const auto layers = options_.layers.value_or(compile::LayerRange{0, plan_.request.lattice.count[2]});
+    return {layers.begin, layers.end};
+  }
+  DataMembers description() const override { return compile::describe_job(plan_.request); }
+  std::string difference(const DataMembers& earlier) const override {
+    return compile::first_difference(earlier, description());
+  }
+
+  std::vector<double> costs(Session& session) const override {
+    const auto estimate = compile::estimate_slice(plan_.request, plan_.samples, options_, &session.stop);
+    std::vector<double> seconds;
+    for (int64_t layer = pieces().begin; layer < pieces().end; ++layer)
+      seconds.push_back(estimate.costs.of({layer, layer + 1}).seconds);
+    return seconds;
+  }
+
+  int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const override {
+    compile::SliceOptions options = options_;
+    options.layers = compile::LayerRange{range.begin, range.end};
+    options.shard = shard;
+    return write_slices(plan_, options, session, session.stop);
+  }
+
+  int join(Session& session) const override {
+    compile::SliceOptions options = options_;
+    options.use = compile::FolderUse::resume;
+    return write_slices(plan_, options, session, session.stop);
+  }
+
+ private:
+  compile::Plan plan_;
+  compile::SliceOptions options_;
+  compile::StoredSlices stored_;
+};
+
+SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) {
+  const auto& choices = *static_cast<const SliceChoices*>(job);
+  if (choices.shard || choices.force || choices.dry_run || !choices.emit.empty())
+    throw WrongArgument("a job that is shared out has none of " + spelled::option("--shard") + ", " +
+                        spelled::option("--force") + ", " + spelled::option("--dry-run") + " and " +
+                        spelled::option("--emit"));
+  auto planned = plan(choices, session, diagnostics);
+  if (!planned || diagnostics.has_errors()) return nullptr;
+  return std::make_unique<SharedSlices>(choices, std::move(*planned));
+}
+
 }  // namespace
 
 JobKind slice_kind() {
-  return job_kind<SliceChoices>("slice", "Write a printable slice stack: one PNG for each layer", slice_footer, slice);
+  JobKind kind =
+      job_kind<SliceChoices>("slice", "Write a printable slice stack: one PNG for each layer", slice_footer, slice);
+  kind.share = share;
+  return kind;
 }
 
 }  // namespace ombre::jobs

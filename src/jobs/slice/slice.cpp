@@ -25,6 +25,12 @@ LayerRange requested_layers(const SliceRequest& request, const SliceOptions& opt
   return {std::clamp(requested.begin, whole.begin, whole.end), std::clamp(requested.end, whole.begin, whole.end)};
 }
 
+std::unique_ptr<stores::Store> open_store(const SliceOptions& options, const StoredSlices& slices,
+                                          const stores::Checking& checking) {
+  if (options.shard) return stores::open_shard(options.folder, slices, *options.shard, checking);
+  return stores::open_store(options.folder, slices, options.use, checking);
+}
+
 // Reports how many voxels of the requested layers are done, and the time left.
 class VoxelProgress {
  public:
@@ -64,7 +70,7 @@ class SliceRun {
         stop_(stop),
         size_(size_work(request, options)),
         slices_(request),
-        store_(stores::open_store(options.folder, slices_, options.use, {size_.threads, progress, stop})),
+        store_(open_store(options, slices_, {size_.threads, progress, stop})),
         stages_(stores::pieces_folder(options.folder), options.use, {size_.threads, progress, stop}),
         layers_(requested_layers(request, options)),
         slabs_(missing_slabs(layers_, store_->finished(), size_.slab_layers)),
@@ -74,7 +80,7 @@ class SliceRun {
   SliceReport run() {
     count_finished();
     if (!failed_check_ && prepare_stages()) write();
-    report_.whole_job_finished = slices_.is_complete(store_->finished());
+    report_.whole_job_finished = !options_.shard && slices_.is_complete(store_->finished());
     if (report_.whole_job_finished) stages_.remove();
     store_->close();
     if (skipped_ && !failed_check_) throw Cancelled();
@@ -102,7 +108,7 @@ class SliceRun {
     if (!options_.stages || slabs_.empty()) return true;
     try {
       StageLoan loan = stage_loan(options_, watched_, stop_);
-      loan.keeper = &stages_;
+      if (!options_.shard) loan.keeper = &stages_;  // other processes prepare the same stages
       options_.stages->prepare(loan);
     } catch (const Cancelled&) {
       skipped_ = true;

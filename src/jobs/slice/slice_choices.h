@@ -10,12 +10,17 @@
 
 namespace ombre::compile {
 
+// Reads a share of a job, "3/40". Throws options::WrongValue.
+stores::Shard parse_shard(const std::string& text, const std::string& option);
+inline constexpr options::Kind<stores::Shard> shard_kind{"share", parse_shard};
+
 struct SliceChoices {
   DesignOptions design;
   SamplingOptions sampling;
   ImageOptions images;
   std::string folder, layers;
   std::optional<Box> box;
+  std::optional<stores::Shard> shard;
   WorkOptions work;
   bool force = false, resume = false, dry_run = false, strict = false;
   std::string emit;
@@ -37,6 +42,11 @@ struct SliceChoices {
                "those of the whole job",
                "X0,Y0,Z0,X1,Y1,Z1")
             .excludes({"--layers"}),
+        option("--shard", &SliceChoices::shard, shard_kind,
+               "Write only this share of the layers, for example 3/40, beside processes that write the others. With\n"
+               "--resume instead, the shares are joined, and what is missing is written",
+               "N/COUNT")
+            .excludes({"--force", "--resume"}),
         group(&SliceChoices::work,
               WorkOptions::options("Most memory for layers in flight, with their images and what evaluating them takes "
                                    "(default 2G)")),

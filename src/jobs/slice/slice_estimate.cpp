@@ -239,6 +239,7 @@ SliceEstimate estimate_slice(const SliceRequest& request, const RegionProducer& 
   estimate.bytes = static_cast<uint64_t>(cost.bytes);
   estimate.memory_bytes = size.memory_bytes + (whole.memory_bytes - options.memory_bytes);
   estimate.checks = checks.reports(request);
+  estimate.costs = std::move(profile);
   return estimate;
 }
 

@@ -119,7 +119,10 @@ void tell_report(const Events& events, const compile::SliceRequest& request, con
   for (const std::string& counted : compile::count_texts(request, report.counts, voxel_mm3)) events.say("  " + counted);
   const bool has_all_layers = report.layers.begin == 0 && report.layers.end == request.lattice.count[2];
   if (has_all_layers && report.voxels_inside == 0) events.warn(emptiness_text(request) + ": all layers are empty");
-  if (!report.whole_job_finished && !report.stopped_by_check)
+  if (options.shard && !report.stopped_by_check)
+    events.say("share " + std::to_string(options.shard->number) + " of " + std::to_string(options.shard->count) +
+               " is done; once all are, the same command with --resume in place of --shard joins them");
+  else if (!report.whole_job_finished && !report.stopped_by_check)
     events.say("other layers of the job are missing; --resume writes them");
   DataMembers members{{"folder", options.folder},
                       {"complete", report.whole_job_finished},

@@ -65,4 +65,12 @@ std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer
   return range;
 }
 
+LayerRange share_of(LayerRange range, const stores::Shard& shard) {
+  const int64_t count = range.end - range.begin;
+  const auto border = [&](int64_t n) {  // without the product of two large numbers
+    return range.begin + count / shard.count * n + count % shard.count * n / shard.count;
+  };
+  return {border(shard.number - 1), border(shard.number)};
+}
+
 }  // namespace ombre::compile

@@ -12,9 +12,12 @@
 #include "base/system/progress.h"
 #include "formats/images/png.h"
 #include "jobs/common/sampling_rules.h"
+#include "jobs/slice/cost_profile.h"
 #include "jobs/slice/layer_entry.h"
+#include "jobs/slice/layer_range.h"
 #include "stages/job_stages.h"
 #include "stores/folder_use.h"
+#include "stores/shard.h"
 #include "voxel/channel.h"
 #include "voxel/lattice.h"
 #include "voxel/layers.h"
@@ -57,16 +60,6 @@ struct SliceRequest : Sampling, voxel::Images {
 // format only, it is the first of those. Masks always have one file for each material.
 void use_printer(SliceRequest& request, const voxel::Printer& printer, std::optional<ImageFormat> image);
 
-// Layers [begin, end) of the whole job.
-struct LayerRange {
-  int64_t begin = 0, end = 0;
-  bool operator==(const LayerRange&) const = default;
-};
-
-// Parses "a:b", "a:", ":b" or "a", like Python's slices; negative numbers count from the top. Returns nothing if the
-// text is none of these or selects no layer.
-std::optional<LayerRange> parse_layer_range(std::string_view text, int64_t layer_count);
-
 // A function that makes a box of the job's voxels, layer by layer, lowest first; results have its width and height. It
 // is called from several threads, and throws Cancelled when asked to stop.
 using RegionProducer =
@@ -86,6 +79,7 @@ struct SliceOptions {
   std::string folder;
   FolderUse use = FolderUse::fresh;
   std::optional<LayerRange> layers;       // a part of the job, with the names and bytes it has in the whole
+  std::optional<stores::Shard> shard;     // the layers are a share of a job that other processes work on, too
   int threads = 0;                        // 0: all cores
   size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one at a time is always allowed
   bool strict = false;                    // stops at the first slab in which a check fails
@@ -118,6 +112,7 @@ struct SliceEstimate {
   bool is_least = false;            // nothing was done in time: it takes this long at least, and bytes are unknown
   size_t memory_bytes = 0;          // the most that layers in flight can take
   std::vector<CheckReport> checks;  // checks that failed in the sampled layers
+  CostProfile costs;                // of layers on one thread
 };
 
 }  // namespace ombre::compile

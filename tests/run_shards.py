@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""A slice job that processes share has the bytes of the job that one process does, whatever happens to the processes.
+
+    python3 tests/run_shards.py build/dev/apps/ombre/ombre [NAME...]
+"""
+import hashlib
+import json
+import random
+import signal
+import subprocess
+import time
+
+import program
+from program import expect
+
+DESIGN = """
+height = 4;
+fgrade(["(z + 2) / 4", "(2 - z) / 4"], [red, blue]) union() {
+  sphere(2);
+  translate(3, 0, 0) rectprism([2, 2, height], red);
+}
+"""
+OPTIONS = ["--voxel", "0.1,0.1,0.05"]  # 80 layers
+
+
+def begin(folder, shards=7, design=DESIGN, output="shared"):
+    """Plans a job, and does the same one alone."""
+    folder.write("part.vcad", design)
+    ending = ".zip" if output.endswith(".zip") else ""
+    folder.run("slice", "part.vcad", *OPTIONS, "-o", "alone" + ending)
+    folder.run("slice", "part.vcad", *OPTIONS, "-o", output, "--save-job", "job.json")
+    said = folder.run("plan", "job.json", "--shards", shards).stderr
+    expect(f"{shards:,} shares of 80 layers" in said, said)
+
+
+def contents(path):
+    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(path.iterdir())}
+
+
+def gather(folder):
+    folder.run("gather", "plan.json")
+    expect(contents(folder.path / "shared") == contents(folder.path / "alone"), "the shares have other bytes")
+
+
+def one_share(folder):
+    begin(folder, 1)
+    folder.run("run", "plan.json", "--shard", "1/1")
+    gather(folder)
+
+
+def seven_shares_in_any_order(folder):
+    seed = random.randrange(1 << 32)
+    print(f"the order is that of the seed {seed}")
+    begin(folder)
+    shards = json.loads(folder.read("plan.json"))["shards"]
+    expect(shards[0][0] == 0 and shards[-1][1] == 80, f"{shards}")
+    order = list(range(1, 8))
+    random.Random(seed).shuffle(order)
+    running = [subprocess.Popen(folder.command("run", "plan.json", "--shard", n, "--quiet"), cwd=folder.path,
+                                env=program.environment()) for n in order]
+    for process in running:
+        expect(process.wait(120) == 0, f"a share ended with {process.returncode}")
+    said = folder.run("status", "plan.json").stderr
+    expect("7 of 7 shares are done; ombre gather plan.json joins them" in said, said)
+    gather(folder)
+    folder.run("run", "plan.json", "--shard", 3)  # a straggler, after all was joined
+    gather(folder)
+
+
+def more_shares_than_layers(folder):
+    begin(folder, 1000)
+    folder.run("run", "plan.json", "--shard", "all", "--quiet")
+    gather(folder)
+
+
+def archive(folder):
+    begin(folder, 3, output="shared.zip")
+    for n in (2, 3, 1):
+        folder.run("run", "plan.json", "--shard", n)
+    folder.run("gather", "plan.json")
+    expect((folder.path / "shared.zip").read_bytes() == (folder.path / "alone.zip").read_bytes(), "the archives differ")
+    expect(not (folder.path / "shared.zip.pieces").exists(), "the pieces are left")
+
+
+def killed_processes(folder):
+    """A share that is killed goes on where it was, and a torn journal costs one layer."""
+    begin(folder, 2)
+    journal = folder.path / "shared/journal-1-of-2.jsonl"
+    process = subprocess.Popen(folder.command("run", "plan.json", "--shard", 1, "--quiet"), cwd=folder.path,
+                               env=program.environment())
+    while process.poll() is None and not (journal.exists() and journal.stat().st_size > 0):
+        time.sleep(0.001)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    folder.run("run", "plan.json", "--shard", 1)
+    text = journal.read_bytes()
+    journal.write_bytes(text[:-20])
+    folder.run("run", "plan.json", "--shard", 2)
+    wrong = folder.run("gather", "plan.json", status=2).stderr
+    expect("are missing, of shares 1; run these again: ombre run plan.json --shard 1" in wrong, wrong)
+    folder.run("run", "plan.json", "--shard", 1)
+    gather(folder)
+
+
+def missing_shares(folder):
+    begin(folder)
+    for n in (1, 2, 5):
+        folder.run("run", "plan.json", "--shard", n)
+    shards = json.loads(folder.read("plan.json"))["shards"]
+    wrong = folder.run("gather", "plan.json", status=2).stderr
+    gaps = f"layers {shards[2][0]}:{shards[3][1]}, {shards[5][0]}:80 are missing, of shares 3, 4, 6, 7"
+    expect(gaps in wrong, wrong)
+    states = [event for event in folder.events("status", "plan.json") if event["event"] == "share"]
+    expect([state["missing"] > 0 for state in states] == [False, False, True, True, False, True, True], f"{states}")
+    folder.run("slice", "part.vcad", *OPTIONS, "-o", "shared", "--resume")  # joins, and makes the rest
+    expect(contents(folder.path / "shared") == contents(folder.path / "alone"), "the shares have other bytes")
+
+
+def layers_twice(folder):
+    begin(folder, 2)
+    folder.run("run", "plan.json", "--shard", "all")
+    folder.run("slice", "part.vcad", *OPTIONS, "-o", "shared", "--shard", "2/10")
+    said = folder.run("gather", "plan.json").stderr
+    expect("8 layers were made by several processes, the first 8; they are equal, and are taken once" in said, said)
+    expect(contents(folder.path / "shared") == contents(folder.path / "alone"), "the shares have other bytes")
+
+
+def changed_jobs(folder):
+    begin(folder, 2)
+    folder.run("run", "plan.json", "--shard", 1)
+    folder.write("part.vcad", DESIGN.replace("height = 4", "height = 3"))
+    wrong = folder.run("run", "plan.json", "--shard", 2, status=2).stderr
+    expect("plan.json is the plan of another job: design_hash is" in wrong, wrong)
+    wrong = folder.run("slice", "part.vcad", *OPTIONS, "-o", "shared", "--shard", "2/2", status=2).stderr
+    expect("shared holds another job: design_hash is" in wrong, wrong)
+    folder.write("part.vcad", DESIGN)
+    plan = json.loads(folder.read("plan.json"))
+    plan["describes"]["program"] = "ombre 0.0.1"
+    folder.write("plan.json", plan)
+    wrong = folder.run("run", "plan.json", "--shard", 2, status=2).stderr
+    expect('program is "ombre 0.0.1" there' in wrong, wrong)
+
+
+def numbers_of_engines(folder):
+    """Schedulers and MPI say which share a process does."""
+    begin(folder, 7)
+    mine = {"SLURM_ARRAY_TASK_ID": ("3", [3]), "JOB_COMPLETION_INDEX": ("0", [1]), "AWS_BATCH_JOB_ARRAY_INDEX": ("6", [7])}
+    for name, (value, shards) in mine.items():
+        subprocess.run(folder.command("run", "plan.json", "--quiet"), cwd=folder.path, check=True,
+                       env=dict(program.environment(), **{name: value}))
+        for n in shards:
+            expect((folder.path / f"shared/journal-{n}-of-7.jsonl").exists(), f"{name} did not do share {n}")
+    ranks = {"OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "3"}
+    subprocess.run(folder.command("run", "plan.json", "--quiet"), cwd=folder.path, check=True,
+                   env=dict(program.environment(), **ranks))
+    done = [n for n in range(1, 8) if (folder.path / f"shared/journal-{n}-of-7.jsonl").exists()]
+    expect(done == [1, 2, 3, 5, 7], f"the shares {done} are there")
+    wrong = subprocess.run(folder.command("run", "plan.json"), cwd=folder.path, stderr=subprocess.PIPE, text=True,
+                           env=dict(program.environment(), SLURM_ARRAY_TASK_ID="8"))
+    expect(wrong.returncode == 1 and "SLURM_ARRAY_TASK_ID is 8" in wrong.stderr, wrong.stderr)
+
+
+def wrong_words(folder):
+    begin(folder, 7)
+    for arguments, words in [
+            (["run", "plan.json"], "which share of the 7? write for example --shard 1"),
+            (["run", "plan.json", "--shard", "8"], "--shard 8/7 is no share of a job"),
+            (["run", "plan.json", "--shard", "1/6"], "the plan has 7 shares"),
+            (["run", "job.json", "--shard", "1"], "this is no plan"),
+            (["plan", "plan.json", "--shards", "3", "-o", "more.json"], "this is no job"),
+            (["plan", "job.json", "-o", "more.json"], "how many shares?"),
+            (["plan", "job.json", "--shards", "3"], "plan.json"),
+            (["slice", "part.vcad", "--shard", "0/3"], "--shard 0/3 is no share of a job; write for example --shard 3/40")]:
+        wrong = program.run(folder.command(*arguments), cwd=folder.path)
+        expect(wrong.returncode != 0 and words in wrong.stderr, f"{arguments}: {wrong.stderr}")
+    folder.run("mesh", "part.vcad", "-o", "part.stl", "--save-job", "mesh.json")
+    wrong = folder.run("plan", "mesh.json", "--shards", 3, "-o", "more.json", status=1).stderr
+    expect("jobs of the kind mesh are not shared out yet" in wrong, wrong)
+
+
+CHECKS = program.named((
+    one_share,
+    seven_shares_in_any_order,
+    more_shares_than_layers,
+    archive,
+    killed_processes,
+    missing_shares,
+    layers_twice,
+    changed_jobs,
+    numbers_of_engines,
+    wrong_words))
+
+
+if __name__ == "__main__":
+    raise SystemExit(program.main(program.Folder, CHECKS))
