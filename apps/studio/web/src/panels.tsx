@@ -4,6 +4,7 @@ import { FileMenu, mayNameFile } from "./filechoice";
 import { listExamples, openExample } from "./files";
 import { page } from "./language";
 import { compare, connection, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
+import { LateField } from "./latefield";
 import { NodeForm } from "./nodeform";
 import { Presets } from "./presets";
 import { JobList } from "./joblist";
@@ -30,13 +31,13 @@ function Control({ v, value }: { v: Variable; value: Value }) {
         {v.choices!.map((c) => <option value={JSON.stringify(c.value)}>{c.label}</option>)}
       </select>
     );
-  if (v.kind === "text") return <input id={id} type="text" maxLength={v.longest} value={value as string} onChange={(e) => change(e.currentTarget.value)} />;
+  if (v.kind === "text") return <LateField id={id} type="text" maxLength={v.longest} value={value as string} take={change} />;
   if (v.kind === "vector")
     return (
       <span class="vector">
         {(value as number[]).map((n, at) => (
-          <input id={at === 0 ? id : undefined} type="number" aria-label={`${v.name}, number ${at + 1}`} step={v.step ?? "any"} value={n}
-                 onChange={(e) => change((value as number[]).map((old, k) => (k === at ? +e.currentTarget.value : old)))} />
+          <LateField id={at === 0 ? id : undefined} type="number" aria-label={`${v.name}, number ${at + 1}`} step={v.step ?? "any"} value={n}
+                     take={(text) => change((value as number[]).map((old, k) => (k === at ? +text : old)))} />
         ))}
       </span>
     );
@@ -199,7 +200,7 @@ function Turns() {
         <span class="controls">
           <label>
             {name}
-            <input type="number" step="any" value={rotate[axis]} aria-label={`Turn about ${name}`} onChange={(e) => set(axis, +e.currentTarget.value || 0)} />
+            <LateField type="number" step="any" value={rotate[axis]} aria-label={`Turn about ${name}`} take={(text) => set(axis, +text || 0)} />
           </label>
           <button aria-label={`90 degrees more about ${name}`} onClick={() => set(axis, ((rotate[axis] + 270) % 360) - 180)}>+90</button>
         </span>
