@@ -1,6 +1,6 @@
 // The form of a job's options, made from the list that the server sends.
 import { LateField } from "./latefield";
-import { chooseOption } from "./session";
+import { chooseOption } from "./session/exports";
 import { JobOption, JobOptions, state, useStore } from "./store";
 
 function control(option: JobOption, value: string | boolean, printers: { name: string; title: string }[], change: (next: string | boolean) => void) {

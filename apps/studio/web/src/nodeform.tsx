@@ -1,6 +1,7 @@
 // A form of a node's parameters, which writes a call of the node into the script.
 import { useEffect, useState } from "preact/hooks";
-import { connection, insert } from "./session";
+import { connection } from "./session/connection";
+import { insert } from "./session/script";
 import { NodeType, state, useStore } from "./store";
 
 type Parameter = NodeType["parameters"][0];

@@ -1,17 +1,18 @@
 // The panels beside the views: variables, materials, slicing, the reference of nodes.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
+import { Examples } from "./examples";
 import { FileMenu, mayNameFile } from "./filechoice";
-import { listExamples, openExample } from "./files";
-import { page } from "./language";
-import { compare, connection, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
-import { LateField } from "./latefield";
-import { NodeForm } from "./nodeform";
-import { Presets } from "./presets";
 import { JobList } from "./joblist";
 import { OptionForm, optionWords } from "./joboptions";
 import { Kinds } from "./kinds";
+import { LateField } from "./latefield";
+import { Presets } from "./presets";
+import { Reference } from "./reference";
+import { resetVariables, setVariable, writeVariables } from "./session/evaluation";
+import { estimate, jobKey, startExport, turn } from "./session/exports";
+import { compare, forgetMark, markVersion, measure } from "./session/measures";
 import { Slider } from "./slider";
-import { Amount, NodeType, State, Value, Variable, set, state, useStore } from "./store";
+import { Amount, State, Value, Variable, set, state, useStore } from "./store";
 
 function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
   const value = v.value as number;
@@ -256,105 +257,6 @@ function Export() {
           </details>
         </>
       )}
-    </div>
-  );
-}
-
-function NodePage({ node }: { node: NodeType }) {
-  const [isOpen, setIsOpen] = useState(false);
-  return (
-    <details class={`reference node-${node.name}`} onToggle={(e) => setIsOpen(e.currentTarget.open)}>
-      <summary>
-        <strong>{node.name}</strong> {node.sentence}
-      </summary>
-      {isOpen && (
-        <div>
-          <div ref={(element) => element?.replaceChildren(page(node))} />
-          {node.example && <button onClick={() => insert(node.example)}>Add the example to the script</button>}
-          <NodeForm node={node} />
-        </div>
-      )}
-    </details>
-  );
-}
-
-// Returns the entries of a list that have all words that are typed, and the field for them.
-function useSearch<T>(list: T[], textOf: (entry: T) => string, noun: string) {
-  const [words, setWords] = useState("");
-  const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = list.filter((entry) => wanted.every((word) => textOf(entry).toLowerCase().includes(word)));
-  const field = (
-    <>
-      <label>
-        Search
-        <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} />
-      </label>
-      <p class="hint" role="status">{found.length} {noun}</p>
-    </>
-  );
-  return { found, field };
-}
-
-function Reference() {
-  const { hello } = useStore();
-  const { found, field } = useSearch(hello?.nodes ?? [], (n) => `${n.name} ${n.category} ${n.sentence}`, "nodes");
-  let category = "";
-  return (
-    <div class="panelbody">
-      {field}
-      {found.map((node) => {
-        const heading = node.category !== category ? node.category : "";
-        category = node.category;
-        return (
-          <>
-            {heading && <h2>{heading}</h2>}
-            <NodePage key={node.name} node={node} />
-          </>
-        );
-      })}
-    </div>
-  );
-}
-
-// The picture of an example, which is asked for when it comes into view.
-function ExamplePicture({ name }: { name: string }) {
-  const place = useRef<HTMLSpanElement>(null);
-  const [url, setUrl] = useState("");
-  useEffect(() => {
-    const observer = new IntersectionObserver(async ([entry]) => {
-      if (!entry.isIntersecting) return;
-      observer.disconnect();
-      const reply = await connection.ask("example_picture", { name }).answer.catch(() => undefined);
-      if (reply?.bytes) setUrl(URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })));
-    });
-    observer.observe(place.current!);
-    return () => observer.disconnect();
-  }, [name]);
-  useEffect(() => () => URL.revokeObjectURL(url), [url]);
-  return <span class="picture" ref={place}>{url && <img src={url} alt={`The example ${name}`} />}</span>;
-}
-
-function Examples() {
-  const [examples, setExamples] = useState<{ name: string; sentence: string }[]>([]);
-  const { status } = useStore();
-  useEffect(() => {
-    listExamples().then(setExamples);
-  }, [status]);
-  const { found, field } = useSearch(examples, (e) => `${e.name} ${e.sentence}`, "examples");
-  return (
-    <div class="panelbody">
-      {field}
-      <ul class="examples">
-        {found.map((e) => (
-          <li key={e.name}>
-            <ExamplePicture name={e.name} />
-            <span class="words">
-              <strong>{e.name}</strong> {e.sentence}
-              <button aria-label={`Open a copy of ${e.name}`} onClick={() => openExample(e.name)}>Open a copy</button>
-            </span>
-          </li>
-        ))}
-      </ul>
     </div>
   );
 }

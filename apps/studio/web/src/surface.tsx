@@ -2,11 +2,11 @@
 import { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
-import { Refused } from "./connection";
 import { CutControls, cutMembers } from "./cuts";
 import { LateField } from "./latefield";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
-import { about, connection } from "./session";
+import { Refused, connection } from "./session/connection";
+import { about } from "./session/evaluation";
 import { Camera, set, state, useStore } from "./store";
 
 const steps = [
