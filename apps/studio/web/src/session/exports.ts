@@ -39,7 +39,17 @@ export async function estimate(): Promise<string> {
   }
 }
 
+let heardJobs = new Map<number, Job>(); // news since the list was asked for
+
+// Lists the server's jobs. News that come before the answer are newer than it.
+export async function listJobs() {
+  heardJobs = new Map();
+  const { jobs } = await connection.ask("jobs").answer;
+  set({ jobs: [...jobs.filter((job: Job) => !heardJobs.has(job.id)), ...heardJobs.values()] });
+}
+
 export function takeJob(job: Job) {
+  heardJobs.set(job.id, job);
   set({ jobs: [...state.jobs.filter((known) => known.id !== job.id && known.path !== job.path), job] });
   dispatchEvent(new Event("jobs"));
 }

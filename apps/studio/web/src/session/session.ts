@@ -5,7 +5,7 @@ import { Hello, set, state } from "../store";
 import { Listener, Reply, connection } from "./connection";
 import { firstFile, openFile } from "./documents";
 import { evaluate, hearScript, showData } from "./evaluation";
-import { takeJob } from "./exports";
+import { listJobs, takeJob } from "./exports";
 import { adoptEarlyText, hearChange, isDirty, save, takeFromDisk, version } from "./saving";
 
 export const session: Listener = {
@@ -28,7 +28,7 @@ async function greet() {
   const isFirst = !state.hello;
   set({ status: "open", hello, files: hello.files, data: hello.data, options: knownOptions(hello) });
   hello.drafts = [...new Set([...hello.drafts, ...keptDrafts()])];
-  set({ jobs: (await connection.ask("jobs").answer).jobs });
+  await listJobs();
   if (!isFirst) return comeBack();
   if (await adoptEarlyText()) return;
   const first = firstFile(hello);
