@@ -1,9 +1,9 @@
 // Bundles, pictures and films.
 import assert from "node:assert/strict";
 import { rmSync } from "node:fs";
-import { downloaded, drop, fromMenu, isReady, isThere, onDisk, open, page, pathOf, read, status, test, write } from "./studio_page.mjs";
+import { downloaded, drop, fromMenu, isReady, isThere, onDisk, open, page, pathOf, read, small, status, test, write } from "./studio_page.mjs";
 
-await test({}, {
+await test({ viewport: small }, {
   async "a bundle goes out and comes in again"() {
     await isReady();
     const made = await downloaded(() => fromMenu("Download", "Bundle"));
@@ -40,13 +40,10 @@ await test({}, {
     assert.equal(png.bytes.readUInt32BE(16), Math.round(stage.width));
     await page.setViewportSize({ width: 900, height: 420 }); // small pictures are made soon
     const film = await bytesOf("Alt+t");
-    await page.setViewportSize({ width: 1400, height: 860 });
     assert.equal(film.name, "ball_turntable.webm");
     assert.equal(film.bytes.readUInt32BE(0), 0x1a45dfa3); // EBML
     assert.ok(film.bytes.length > 5000, `${film.bytes.length} bytes`);
-    await page.setViewportSize({ width: 900, height: 420 });
     const gif = await bytesOf("Alt+g");
-    await page.setViewportSize({ width: 1400, height: 860 });
     assert.equal(gif.name, "ball_turntable.gif");
     assert.equal(gif.bytes.toString("latin1", 0, 6), "GIF89a");
     assert.equal(gif.bytes.at(-1), 0x3b); // the end of a GIF

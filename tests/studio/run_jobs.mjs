@@ -1,14 +1,14 @@
 // Jobs of every kind, from their forms.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { ball, isThere, job, open, page, pathOf, picture, read, resetLayerHeight, slice, startKind, status, test, until } from "./studio_page.mjs";
+import { ball, isThere, job, open, page, pathOf, picture, read, resetLayerHeight, slice, small, startKind, status, test, until } from "./studio_page.mjs";
 
 // A brick of 100 mm3, whose edges are shortest where it is a cube.
 const brick = "a = 3;\nb = 8;\necho(edges = a + b + 100 / (a * b));\nrectprism([a, b, 100 / (a * b)], red);\n";
 const lengthOf = (name) => (isThere(name) ? read(name).length : 0);
 const untilLonger = (name, length) => until(() => lengthOf(name) > length, `${name} is longer than ${length}`);
 
-await test({ files: { "ball.vcad": ball(12.5), "brick.vcad": brick } }, {
+await test({ viewport: small, files: { "ball.vcad": ball(12.5), "brick.vcad": brick } }, {
   async "what is typed stays while a job goes on"() {
     await page.click("#tab-export");
     await page.selectOption(".panel .printer", "j750");

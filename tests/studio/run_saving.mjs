@@ -1,9 +1,9 @@
 // Saving: reloads, two windows, changes on the disk.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
-import { context, editor, file, isReady, job, onDisk, page, slice, status, test, type, untilOnDisk, url } from "./studio_page.mjs";
+import { context, editor, file, isReady, job, onDisk, page, slice, small, status, test, type, untilOnDisk, url } from "./studio_page.mjs";
 
-await test({}, {
+await test({ viewport: small }, {
   async "a reload loses nothing"() {
     await page.click("#tab-slices");
     await page.selectOption(".slices .printer", "j750");

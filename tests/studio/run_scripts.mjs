@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { appendFileSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { alphaInMiddle, ball, design, isReady, open, page, pathOf, picture, test, untilOtherDesign } from "./studio_page.mjs";
+import { alphaInMiddle, ball, design, isReady, open, page, pathOf, picture, small, test, untilOtherDesign } from "./studio_page.mjs";
 import { source } from "./studio_server.mjs";
 
 const models = join(source, "examples/models");
@@ -14,7 +14,7 @@ const files = {
   "history.csv": "round,elements,change,greatest von Mises stress [MPa]\n1,256,,13.5\n2,256,0.25,11.75\n3,256,0.03125,11.5\n",
 };
 
-await test({ files }, {
+await test({ viewport: small, files }, {
   async "shows OpenSCAD scripts, and Python scripts when they are run"() {
     await open("box.scad");
     await page.waitForSelector("#variable-width");

@@ -1,7 +1,7 @@
 // Sliders, presets and files for variables.
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, rmSync } from "node:fs";
-import { ball, design, isReady, page, pathOf, picture, status, test, untilOnDisk, untilOnPage, untilOtherDesign, write } from "./studio_page.mjs";
+import { ball, design, isReady, page, pathOf, picture, small, status, test, untilOnDisk, untilOnPage, untilOtherDesign, write } from "./studio_page.mjs";
 
 const solid = (side) => `OFF\n4 4 0\n0 0 0\n${side} 0 0\n0 ${side} 0\n0 0 ${side}\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n`;
 const files = {
@@ -10,7 +10,7 @@ const files = {
   "picked.vcad": 'shape = "small.off";\nother = "";  // [*.off, *.obj]\nversion = "no.file";\nmesh(shape, red);\n',
 };
 
-await test({ files }, {
+await test({ viewport: small, files }, {
   async "a slider changes the design, and the camera stays"() {
     await isReady();
     const bar = await page.innerText(".surface .scalebar");

@@ -64,7 +64,7 @@ export async function otherBrowser() {
 }
 
 // A window whose views are drawn soon.
-export const small = { width: 1000, height: 560 };
+export const small = { width: 1020, height: 600 };
 
 // Writes the files and runs the checks in order, in a page that has opened `place`, or the folder without one.
 export async function test({ files = { "ball.vcad": ball(12.5) }, place = file, key = token, viewport = { width: 1400, height: 860 }, opens = true }, checks) {
@@ -161,7 +161,7 @@ export const alphaInMiddle = (view) =>
     return [...copy.getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data];
   }, view);
 
-// The size of what the canvas shows, in pixels of the page.
+// The size of what the canvas shows and of one of its pixels, in pixels of the page.
 export const shownBox = (view) =>
   page.evaluate((name) => {
     const canvas = document.querySelector(`.${name} canvas`);
@@ -177,7 +177,7 @@ export const shownBox = (view) =>
     if (xs.length === 0) return null;
     const range = (list) => list.reduce((most, v) => Math.max(most, v)) - list.reduce((least, v) => Math.min(least, v)) + 1;
     const scale = Math.min(canvas.clientWidth / canvas.width, canvas.clientHeight / canvas.height);
-    return { width: range(xs) * scale, height: range(ys) * scale };
+    return { width: range(xs) * scale, height: range(ys) * scale, pixel: scale };
   }, view);
 
 // Starts a job of the design for the printer that is chosen, in the panel of slices.

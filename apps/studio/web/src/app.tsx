@@ -139,7 +139,7 @@ function Theme() {
   return (
     <label>
       <span class="quiet">Theme</span>
-      <select value={theme} onChange={(e) => set({ theme: e.currentTarget.value as State["theme"] })}>
+      <select aria-label="Theme" value={theme} onChange={(e) => set({ theme: e.currentTarget.value as State["theme"] })}>
         <option value="system">system</option>
         <option value="light">light</option>
         <option value="dark">dark</option>
