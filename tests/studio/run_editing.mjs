@@ -53,7 +53,7 @@ await test({ files: { "ball.vcad": script } }, {
     await page.click(".node-cylinder > summary");
     const field = (name) => page.locator(".node-cylinder .nodeform label", { has: page.locator(`span:text-matches("^${name}( |$)")`) });
     await field("radius").locator("input").fill("2");
-    await field("height").locator("input").fill("7 + x");
+    await field("height").locator("input").pressSequentially("7 + x");
     await field("material").locator("input").fill("red");
     await page.click(".node-cylinder .nodeform button");
     await untilOnDisk(`${script}\ncylinder(radius = 2, height = 7 + x, material = "red");\n`);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { inflateRawSync } from "node:zlib";
-import { downloaded, folder, fromMenu, isReady, isThere, open, opened, page, pathOf, read, test, until } from "./studio_page.mjs";
+import { downloaded, folder, fromMenu, isReady, isThere, onDisk, open, opened, page, pathOf, read, status, test, until, write } from "./studio_page.mjs";
 
 // The names in a zip archive, and the bytes of one of its members.
 const namesIn = (zip) => {
@@ -54,6 +54,16 @@ await test({ files, place: folder, viewport: { width: 1280, height: 800 } }, {
     await page.fill(".option-layer-height input", "");
     await page.keyboard.press("Enter");
     await page.click("#tab-variables");
+  },
+
+  async "what is typed into a dialog stays while the page is drawn anew"() {
+    await fromMenu("File", "Rename…");
+    await page.fill("dialog[open] input", "other.vcad");
+    write("ball.vcad", onDisk().replace("radius = 8", "radius = 9"));
+    await page.waitForSelector(".cm-line:has-text('radius = 9')");
+    await status("[data-old=false][data-busy=false]");
+    assert.equal(await page.inputValue("dialog[open] input"), "other.vcad");
+    await page.click("dialog[open] button:text-is('Cancel')");
   },
 
   async "renames, duplicates, deletes, and makes folders"() {

@@ -21,6 +21,12 @@ await test({ viewport: small, files }, {
     assert.equal(await page.innerText(".surface .scalebar"), bar);
     await page.click("text=Write into the script");
     await untilOnDisk("radius = 13;");
+    const exactly = page.locator("[aria-label='radius, exactly']");
+    await exactly.press("Control+a");
+    await exactly.pressSequentially("13.25");
+    assert.equal(await exactly.inputValue(), "13.25");
+    await page.click("text=Write into the script");
+    await untilOnDisk("radius = 13.25;");
     await page.fill("[aria-label='radius, exactly']", "12.5");
     await page.click("text=Write into the script");
     await untilOnDisk("radius = 12.5;");

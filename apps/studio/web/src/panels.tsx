@@ -6,6 +6,7 @@ import { JobList } from "./joblist";
 import { OptionForm, optionWords } from "./joboptions";
 import { Kinds } from "./kinds";
 import { LateField } from "./latefield";
+import { NumberField } from "./numberfield";
 import { Presets } from "./presets";
 import { Reference } from "./reference";
 import { resetVariables, setVariable, writeVariables } from "./session/evaluation";
@@ -46,8 +47,7 @@ function Control({ v, value }: { v: Variable; value: Value }) {
   return (
     <span class="number">
       <input id={id} type="range" {...range} value={value as number} onInput={(e) => change(+e.currentTarget.value)} />
-      <input type="number" aria-label={`${v.name}, exactly`} step="any" value={+(value as number).toPrecision(6)}
-             onInput={(e) => e.currentTarget.value !== "" && change(+e.currentTarget.value)} />
+      <NumberField aria-label={`${v.name}, exactly`} value={value as number} take={change} />
     </span>
   );
 }
