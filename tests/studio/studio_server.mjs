@@ -3,7 +3,7 @@ import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
@@ -53,8 +53,9 @@ export async function runChecks(checks, page) {
       console.log(`${name}: ${watch()}`);
     } catch (error) {
       console.log(`FAILED ${name} (${watch()})\n    ${String(error.stack).split("\n").slice(0, 12).join("\n    ")}`);
-      await page.screenshot({ path: join(tmpdir(), "ombre-studio-failed.png") }).catch(() => undefined);
-      console.log(`    the page is in ${join(tmpdir(), "ombre-studio-failed.png")}`);
+      const picture = join(tmpdir(), `ombre-${basename(process.argv[1], ".mjs")}-failed.png`);
+      await page.screenshot({ path: picture }).catch(() => undefined);
+      console.log(`    the page is in ${picture}`);
       return 1;
     }
   }

@@ -14,7 +14,12 @@ import { Menu } from "./menu";
 import { Panels, Tabs } from "./panels";
 import { makeTurntable, takePicture } from "./pictures";
 import { PlanesView, scansToSee } from "./planes";
-import { connection, isDirty, listFiles, openFile, runPython, save, stopPython } from "./session";
+import { connection } from "./session/connection";
+import { openFile, runPython } from "./session/documents";
+import { stopPython } from "./session/evaluation";
+import { listFiles } from "./session/folder";
+import { isDirty, save } from "./session/saving";
+import { session } from "./session/session";
 import { SliceView } from "./slices";
 import { State, set, state, useStore } from "./store";
 import { SurfaceView } from "./surface";
@@ -134,7 +139,7 @@ function Theme() {
   return (
     <label>
       <span class="quiet">Theme</span>
-      <select value={theme} onChange={(e) => set({ theme: e.currentTarget.value as State["theme"] })}>
+      <select aria-label="Theme" value={theme} onChange={(e) => set({ theme: e.currentTarget.value as State["theme"] })}>
         <option value="system">system</option>
         <option value="light">light</option>
         <option value="dark">dark</option>
@@ -172,7 +177,7 @@ function App() {
     listenToKeys();
     watchView();
     watchDownloads();
-    connection.connect();
+    connection.connect(session);
   }, []);
   useEffect(() => {
     document.documentElement.dataset.theme = theme;

@@ -24,8 +24,10 @@ export function AskingDialog() {
     if (asking) dialog.current!.showModal();
     else dialog.current!.close();
     const field = dialog.current!.querySelector("input");
+    if (!field) return;
+    field.value = asking!.name!; // not a property of the element, which would undo what is typed when the page has news
     // The name is chosen without its ending, which mostly stays.
-    if (field) field.setSelectionRange(field.value.lastIndexOf("/") + 1, field.value.replace(/(\.nii)?\.[^./]*$/, "").length);
+    field.setSelectionRange(field.value.lastIndexOf("/") + 1, field.value.replace(/(\.nii)?\.[^./]*$/, "").length);
   }, [asking]);
   const answer = (event: SubmitEvent) => {
     event.preventDefault();
@@ -39,7 +41,7 @@ export function AskingDialog() {
         <form onSubmit={answer}>
           <h2 id="asking-title">{asking.title}</h2>
           {asking.text && <p>{asking.text}</p>}
-          {asking.name !== undefined && <input name="name" type="text" aria-label="Name" required value={asking.name} />}
+          {asking.name !== undefined && <input name="name" type="text" aria-label="Name" required />}
           <p class="controls">
             {asking.buttons.map((button, n) => <button class={n === 0 ? "main" : ""} value={button}>{button}</button>)}
             <button type="button" onClick={() => asking.answer("", "")}>Cancel</button>

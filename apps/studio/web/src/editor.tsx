@@ -11,7 +11,10 @@ import { classHighlighter } from "@lezer/highlight";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { formatted } from "./format";
 import { complete, hover, vcad } from "./language";
-import { edited, freeName, keepAsDesign, newFile, reveal, save, setEditor, settle } from "./session";
+import { keepAsDesign, newFile } from "./session/documents";
+import { freeName } from "./session/folder";
+import { edited, save, settle } from "./session/saving";
+import { reveal, setEditor } from "./session/script";
 import { Diagnostic, set, state, useStore } from "./store";
 
 const fromElsewhere = Annotation.define<boolean>();

@@ -1,5 +1,5 @@
 // Menus of files for variables that hold a file's name.
-import { connection } from "./session";
+import { connection } from "./session/connection";
 import { Value, Variable, set, state, useStore } from "./store";
 
 const pattern = /^\*(\.[\w.]+)$/; // "*.stl"

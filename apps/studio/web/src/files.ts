@@ -1,8 +1,12 @@
 // Files that the browser gets from people and gives to them.
 import { ask } from "./asking";
-import { Refused } from "./connection";
-import { about, connection, deleteOpenFile, listFiles, newFile, noteJob, openFile, renameOpenFile, save } from "./session";
 import { linkToHere } from "./links";
+import { Refused, connection } from "./session/connection";
+import { deleteOpenFile, newFile, openFile, renameOpenFile } from "./session/documents";
+import { about } from "./session/evaluation";
+import { noteJob } from "./session/exports";
+import { listFiles } from "./session/folder";
+import { save } from "./session/saving";
 import { Job, set, state } from "./store";
 
 export function download(name: string, content: Blob) {

@@ -1,6 +1,6 @@
 // The nodes of the design as a tree, whose entries lead to the script.
 import { useState } from "preact/hooks";
-import { reveal } from "./session";
+import { reveal } from "./session/script";
 import { Design, GraphNode, Port, state, useStore } from "./store";
 import { Thumbnail } from "./thumbnails";
 

@@ -2,7 +2,7 @@
 import { useState } from "preact/hooks";
 import { downloadJob } from "./files";
 import { printerOf } from "./joboptions";
-import { changeJob, openFolder } from "./session";
+import { changeJob, openFolder } from "./session/exports";
 import { Job, useStore } from "./store";
 
 function timeLeft(seconds: number): string {

@@ -1,5 +1,6 @@
 // The form of a job's options, made from the list that the server sends.
-import { chooseOption } from "./session";
+import { LateField } from "./latefield";
+import { chooseOption } from "./session/exports";
 import { JobOption, JobOptions, state, useStore } from "./store";
 
 function control(option: JobOption, value: string | boolean, printers: { name: string; title: string }[], change: (next: string | boolean) => void) {
@@ -12,7 +13,7 @@ function control(option: JobOption, value: string | boolean, printers: { name: s
         {choices.map((choice) => <option value={choice.name} title={choice.title}>{choice.name}</option>)}
       </select>
     );
-  return <input type="text" value={value as string} placeholder={option.placeholder} onChange={(e) => change(e.currentTarget.value.trim())} />;
+  return <LateField type="text" value={value as string} placeholder={option.placeholder} take={(text) => change(text.trim())} />;
 }
 
 // A field for one option of any job.

@@ -2,7 +2,7 @@
 import { useState } from "preact/hooks";
 import { JobList } from "./joblist";
 import { OptionField } from "./joboptions";
-import { startKind } from "./session";
+import { startKind } from "./session/exports";
 import { JobKind, JobOptions, useStore } from "./store";
 
 function KindForm({ kind }: { kind: JobKind }) {

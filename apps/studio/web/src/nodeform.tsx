@@ -1,6 +1,7 @@
 // A form of a node's parameters, which writes a call of the node into the script.
 import { useEffect, useState } from "preact/hooks";
-import { connection, insert } from "./session";
+import { connection } from "./session/connection";
+import { insert } from "./session/script";
 import { NodeType, state, useStore } from "./store";
 
 type Parameter = NodeType["parameters"][0];
@@ -13,7 +14,7 @@ const written: Record<string, (text: string) => string> = { text: quoted, choice
 
 // Returns the call that a script has for the values.
 function callOf(node: NodeType, texts: Texts): string {
-  const given = node.parameters.filter((p) => p.name in texts).map((p) => `${p.name} = ${(written[p.widget] ?? String)(texts[p.name])}`);
+  const given = node.parameters.filter((p) => texts[p.name]?.trim()).map((p) => `${p.name} = ${(written[p.widget] ?? String)(texts[p.name].trim())}`);
   const call = `${node.name}(${given.join(", ")})`;
   if (node.gives !== "solid") return `${node.name}_values = ${call};`;
   return node.inputs.most === 0 ? `${call};` : `${call} {\n}`;
@@ -47,7 +48,7 @@ function Widget({ id, p, words, value, change }: { id: string; p: Parameter; wor
   return (
     <>
       <input type={p.widget === "number" ? "number" : "text"} step="any" list={list} value={value} placeholder={usual} required={p.required}
-             onInput={(e) => change(e.currentTarget.value.trim())} />
+             onInput={(e) => change(e.currentTarget.value)} />
       {list && <datalist id={list}>{words.map((word) => <option value={word} />)}</datalist>}
     </>
   );

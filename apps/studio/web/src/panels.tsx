@@ -1,16 +1,19 @@
 // The panels beside the views: variables, materials, slicing, the reference of nodes.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
+import { Examples } from "./examples";
 import { FileMenu, mayNameFile } from "./filechoice";
-import { listExamples, openExample } from "./files";
-import { page } from "./language";
-import { compare, connection, estimate, forgetMark, insert, jobKey, markVersion, measure, resetVariables, setVariable, startExport, turn, writeVariables } from "./session";
-import { NodeForm } from "./nodeform";
-import { Presets } from "./presets";
 import { JobList } from "./joblist";
 import { OptionForm, optionWords } from "./joboptions";
 import { Kinds } from "./kinds";
+import { LateField } from "./latefield";
+import { NumberField } from "./numberfield";
+import { Presets } from "./presets";
+import { Reference } from "./reference";
+import { resetVariables, setVariable, writeVariables } from "./session/evaluation";
+import { estimate, jobKey, startExport, turn } from "./session/exports";
+import { compare, forgetMark, markVersion, measure } from "./session/measures";
 import { Slider } from "./slider";
-import { Amount, NodeType, State, Value, Variable, set, state, useStore } from "./store";
+import { Amount, State, Value, Variable, set, state, useStore } from "./store";
 
 function numberRange(v: Variable): { min: number; max: number; step: number | "any" } {
   const value = v.value as number;
@@ -30,13 +33,13 @@ function Control({ v, value }: { v: Variable; value: Value }) {
         {v.choices!.map((c) => <option value={JSON.stringify(c.value)}>{c.label}</option>)}
       </select>
     );
-  if (v.kind === "text") return <input id={id} type="text" maxLength={v.longest} value={value as string} onChange={(e) => change(e.currentTarget.value)} />;
+  if (v.kind === "text") return <LateField id={id} type="text" maxLength={v.longest} value={value as string} take={change} />;
   if (v.kind === "vector")
     return (
       <span class="vector">
         {(value as number[]).map((n, at) => (
-          <input id={at === 0 ? id : undefined} type="number" aria-label={`${v.name}, number ${at + 1}`} step={v.step ?? "any"} value={n}
-                 onChange={(e) => change((value as number[]).map((old, k) => (k === at ? +e.currentTarget.value : old)))} />
+          <LateField id={at === 0 ? id : undefined} type="number" aria-label={`${v.name}, number ${at + 1}`} step={v.step ?? "any"} value={n}
+                     take={(text) => change((value as number[]).map((old, k) => (k === at ? +text : old)))} />
         ))}
       </span>
     );
@@ -44,8 +47,7 @@ function Control({ v, value }: { v: Variable; value: Value }) {
   return (
     <span class="number">
       <input id={id} type="range" {...range} value={value as number} onInput={(e) => change(+e.currentTarget.value)} />
-      <input type="number" aria-label={`${v.name}, exactly`} step="any" value={+(value as number).toPrecision(6)}
-             onInput={(e) => e.currentTarget.value !== "" && change(+e.currentTarget.value)} />
+      <NumberField aria-label={`${v.name}, exactly`} value={value as number} take={change} />
     </span>
   );
 }
@@ -199,7 +201,7 @@ function Turns() {
         <span class="controls">
           <label>
             {name}
-            <input type="number" step="any" value={rotate[axis]} aria-label={`Turn about ${name}`} onChange={(e) => set(axis, +e.currentTarget.value || 0)} />
+            <LateField type="number" step="any" value={rotate[axis]} aria-label={`Turn about ${name}`} take={(text) => set(axis, +text || 0)} />
           </label>
           <button aria-label={`90 degrees more about ${name}`} onClick={() => set(axis, ((rotate[axis] + 270) % 360) - 180)}>+90</button>
         </span>
@@ -255,105 +257,6 @@ function Export() {
           </details>
         </>
       )}
-    </div>
-  );
-}
-
-function NodePage({ node }: { node: NodeType }) {
-  const [isOpen, setIsOpen] = useState(false);
-  return (
-    <details class={`reference node-${node.name}`} onToggle={(e) => setIsOpen(e.currentTarget.open)}>
-      <summary>
-        <strong>{node.name}</strong> {node.sentence}
-      </summary>
-      {isOpen && (
-        <div>
-          <div ref={(element) => element?.replaceChildren(page(node))} />
-          {node.example && <button onClick={() => insert(node.example)}>Add the example to the script</button>}
-          <NodeForm node={node} />
-        </div>
-      )}
-    </details>
-  );
-}
-
-// Returns the entries of a list that have all words that are typed, and the field for them.
-function useSearch<T>(list: T[], textOf: (entry: T) => string, noun: string) {
-  const [words, setWords] = useState("");
-  const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
-  const found = list.filter((entry) => wanted.every((word) => textOf(entry).toLowerCase().includes(word)));
-  const field = (
-    <>
-      <label>
-        Search
-        <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} />
-      </label>
-      <p class="hint" role="status">{found.length} {noun}</p>
-    </>
-  );
-  return { found, field };
-}
-
-function Reference() {
-  const { hello } = useStore();
-  const { found, field } = useSearch(hello?.nodes ?? [], (n) => `${n.name} ${n.category} ${n.sentence}`, "nodes");
-  let category = "";
-  return (
-    <div class="panelbody">
-      {field}
-      {found.map((node) => {
-        const heading = node.category !== category ? node.category : "";
-        category = node.category;
-        return (
-          <>
-            {heading && <h2>{heading}</h2>}
-            <NodePage key={node.name} node={node} />
-          </>
-        );
-      })}
-    </div>
-  );
-}
-
-// The picture of an example, which is asked for when it comes into view.
-function ExamplePicture({ name }: { name: string }) {
-  const place = useRef<HTMLSpanElement>(null);
-  const [url, setUrl] = useState("");
-  useEffect(() => {
-    const observer = new IntersectionObserver(async ([entry]) => {
-      if (!entry.isIntersecting) return;
-      observer.disconnect();
-      const reply = await connection.ask("example_picture", { name }).answer.catch(() => undefined);
-      if (reply?.bytes) setUrl(URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })));
-    });
-    observer.observe(place.current!);
-    return () => observer.disconnect();
-  }, [name]);
-  useEffect(() => () => URL.revokeObjectURL(url), [url]);
-  return <span class="picture" ref={place}>{url && <img src={url} alt={`The example ${name}`} />}</span>;
-}
-
-function Examples() {
-  const [examples, setExamples] = useState<{ name: string; sentence: string }[]>([]);
-  const { status } = useStore();
-  useEffect(() => {
-    listExamples().then(setExamples);
-  }, [status]);
-  const { found, field } = useSearch(examples, (e) => `${e.name} ${e.sentence}`, "examples");
-  return (
-    <div class="panelbody">
-      {field}
-      <ul class="examples">
-        {found.map((e) => (
-          <li key={e.name}>
-            <ExamplePicture name={e.name} />
-            <span class="words">
-              <strong>{e.name}</strong> {e.sentence}
-              <button aria-label={`Open a copy of ${e.name}`} onClick={() => openExample(e.name)}>Open a copy</button>
-            </span>
-          </li>
-        ))}
-      </ul>
     </div>
   );
 }

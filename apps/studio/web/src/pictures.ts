@@ -1,7 +1,7 @@
 // Makes pictures of the views, and turntables, in the browser, for the person's own disk.
 import { GIFEncoder, applyPalette, quantize } from "gifenc";
 import { download, stem } from "./files";
-import { about } from "./session";
+import { about } from "./session/evaluation";
 import { Camera, set, state } from "./store";
 import { renderMembers } from "./surface";
 

@@ -1,8 +1,7 @@
 // Shows a scan in three planes through one of its voxels, in grey from a least to a greatest number, which window and
 // level set.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { Refused, Reply } from "./connection";
-import { connection } from "./session";
+import { Refused, Reply, connection } from "./session/connection";
 import { Slider } from "./slider";
 import { state, useStore } from "./store";
 

@@ -1,7 +1,7 @@
 // Presets: the sliders' values under a name, in a file beside the script.
 import { useState } from "preact/hooks";
-import { Refused } from "./connection";
-import { connection, resetVariables, setValues } from "./session";
+import { Refused, connection } from "./session/connection";
+import { resetVariables, setValues } from "./session/evaluation";
 import { Preset, Value, Variable, set, state, useStore } from "./store";
 
 // Takes a list of presets; answers about a file that is no longer open are ignored.

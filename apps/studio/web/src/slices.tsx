@@ -3,7 +3,8 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/ho
 import { length } from "./camera";
 import { followFingers } from "./fingers";
 import { OptionControl } from "./joboptions";
-import { probe, reveal } from "./session";
+import { probe } from "./session/measures";
+import { reveal } from "./session/script";
 import { Slider } from "./slider";
 import { NodeCall, Plan, set, state, useStore } from "./store";
 import { Legend, ScaleBar } from "./surface";

@@ -1,4 +1,6 @@
 // A slider with a field for the exact number beside it.
+import { LateField } from "./latefield";
+
 interface Range {
   id?: string;
   label: string;
@@ -18,7 +20,7 @@ export function Slider({ id, label, min, max, step, value, take, valueText, isDi
   return (
     <span class="slider">
       <input id={id} type="range" aria-label={label} title={label} aria-valuetext={valueText} min={min} max={max} step={step} value={value} disabled={isDisabled} onInput={(e) => take(+e.currentTarget.value)} />
-      <input class="exact" type="number" aria-label={`${label}, exactly`} min={min} max={max} step="any" value={+value.toPrecision(6)} disabled={isDisabled} onChange={(e) => exact(e.currentTarget.value)} />
+      <LateField class="exact" type="number" aria-label={`${label}, exactly`} min={min} max={max} step="any" value={+value.toPrecision(6)} disabled={isDisabled} take={exact} />
     </span>
   );
 }

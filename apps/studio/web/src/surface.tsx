@@ -2,10 +2,11 @@
 import { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
-import { Refused } from "./connection";
 import { CutControls, cutMembers } from "./cuts";
+import { LateField } from "./latefield";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
-import { about, connection } from "./session";
+import { Refused, connection } from "./session/connection";
+import { about } from "./session/evaluation";
 import { Camera, set, state, useStore } from "./store";
 
 const steps = [
@@ -183,9 +184,9 @@ function ColourLegend() {
       <span>{by}{unit && unit !== "1" ? `, ${unit}` : ""}</span>
       <span class="ramp" style={{ background: `linear-gradient(in srgb-linear to right, ${colours.map((c) => `rgb(${c.join(",")})`).join(",")})` }} />
       <span class="controls">
-        <input type="number" step="any" aria-label="Value of the first colour" value={shortNumber(known[0])} onChange={(e) => change(0, e.currentTarget.value)} />
+        <LateField type="number" step="any" aria-label="Value of the first colour" value={shortNumber(known[0])} take={(text) => change(0, text)} />
         <button disabled={!range} onClick={() => set({ range: undefined })}>all</button>
-        <input type="number" step="any" aria-label="Value of the last colour" value={shortNumber(known[1])} onChange={(e) => change(1, e.currentTarget.value)} />
+        <LateField type="number" step="any" aria-label="Value of the last colour" value={shortNumber(known[1])} take={(text) => change(1, text)} />
       </span>
     </div>
   );

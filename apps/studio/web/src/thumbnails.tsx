@@ -1,7 +1,7 @@
 // Small pictures of nodes. The server makes them one at a time, for visible entries, so that other questions wait for
 // one of them at most.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { connection } from "./session";
+import { connection } from "./session/connection";
 import { state } from "./store";
 
 const size = { width: 48, height: 36 };

@@ -1,6 +1,6 @@
 // Keeps tiles of layers, as the printer gets them: they are requested when they are seen, and kept while there is room.
-import { Refused } from "./connection";
-import { about, connection } from "./session";
+import { Refused, connection } from "./session/connection";
+import { about } from "./session/evaluation";
 import { Plan, state } from "./store";
 
 export const tileSize = 256; // pixels

@@ -1,9 +1,9 @@
 // Shows the inside, by rays through a texture of the materials' fractions, or of an attribute's values.
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axes, eyeDistance } from "./camera";
-import { Refused } from "./connection";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
-import { about } from "./session";
+import { Refused } from "./session/connection";
+import { about } from "./session/evaluation";
 import { Design, state, useStore } from "./store";
 import { ViewBar, attributeOptions } from "./surface";
 import { TransferCurve, curveOf, tableSize, transferTable } from "./transfer";

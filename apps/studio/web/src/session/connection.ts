@@ -50,15 +50,19 @@ export class Connection {
   private socket?: WebSocket;
   private waiting = new Map<number, Waiting>();
   private last = 0;
+  private listener?: Listener;
 
-  constructor(private listener: Listener) {}
+  connect(listener: Listener) {
+    this.listener = listener;
+    this.open();
+  }
 
-  connect() {
+  private open() {
     const socket = new WebSocket(`ws://${location.host}/api?token=${token()}`);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.socket = socket;
-      this.listener.opened();
+      this.listener?.opened();
     };
     socket.onmessage = (message) => this.take(message.data);
     socket.onclose = () => this.closed();
@@ -93,7 +97,7 @@ export class Connection {
       reply = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
       reply.bytes = new Uint8Array(data, 4 + length);
     }
-    if (reply.event) return this.listener.event(reply.event, reply);
+    if (reply.event) return this.listener?.event(reply.event, reply);
     const waiting = this.waiting.get(reply.id);
     this.waiting.delete(reply.id);
     if (reply.error) waiting?.reject(new Refused(reply.error, reply.message));
@@ -105,7 +109,7 @@ export class Connection {
     this.socket = undefined;
     for (const waiting of this.waiting.values()) waiting.reject(new Refused("lost", "the connection was lost"));
     this.waiting.clear();
-    if (wasOpen) this.listener.lost();
+    if (wasOpen) this.listener?.lost();
     this.tryAgain();
   }
 
@@ -115,11 +119,14 @@ export class Connection {
     await new Promise((done) => setTimeout(done, 700));
     try {
       const answer = await fetch("/api", { method: "HEAD", headers: { Authorization: `Bearer ${token()}` } });
-      if (answer.status === 403) this.listener.refused();
-      if (answer.ok) return this.connect();
+      if (answer.status === 403) this.listener?.refused();
+      if (answer.ok) return this.open();
     } catch {
       // The server is not there yet.
     }
     this.tryAgain();
   }
 }
+
+// The page's only one.
+export const connection = new Connection();

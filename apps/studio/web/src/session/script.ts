@@ -1,0 +1,23 @@
+// The text of the open file, as the parts beside the editor see it.
+
+// The part of the editor that other parts of the page need.
+export interface Editor {
+  text(): string;
+  replace(text: string): void;
+  write(from: number, to: number, text: string): void;
+  reveal(from: number, to: number): void;
+  setDiagnostics(): void;
+  rename(from: string, to: string): void; // what is kept of a file belongs to its new name
+}
+
+export let editor: Editor | undefined;
+
+export function setEditor(made: Editor) {
+  editor = made;
+}
+
+export const reveal = (from: number, to: number) => editor?.reveal(from, to);
+export const insert = (text: string) => {
+  const end = editor!.text().length;
+  editor!.write(end, end, `\n${text}\n`);
+};
