@@ -36,15 +36,13 @@ class Exports::Watch : public Progress {
   Watch(Exports& exports, Job& job) : exports_(exports), job_(job) {}
 
   void update(const HowFar& how_far) override {
-    DataMembers now;
     {
       const std::lock_guard lock(exports_.mutex_);
       job_.how_far = how_far;
       if (since_report_.seconds() < 0.2) return;
       since_report_ = {};
-      now = describe(job_);
     }
-    exports_.report_(now);
+    exports_.tell(job_);
   }
 
  private:
@@ -160,6 +158,17 @@ DataMembers Exports::to_keep(const Job& job) const {
   return members;
 }
 
+// The job is described and reported under one lock, so that older news never comes after newer.
+void Exports::tell(const Job& job) {
+  const std::lock_guard order(report_mutex_);
+  DataMembers now;
+  {
+    const std::lock_guard lock(mutex_);
+    now = describe(job);
+  }
+  report_(now);
+}
+
 // The list is made and written under one lock, so that a newer list is never replaced by an older one.
 void Exports::keep_list() {
   if (!keep_) return;
@@ -255,10 +264,10 @@ Exports::JobPtr Exports::find(int64_t id) const {
 }
 
 void Exports::stop(int64_t id, State state) {
-  DataMembers now;
+  JobPtr job;
   {
     const std::lock_guard lock(mutex_);
-    const JobPtr job = find(id);
+    job = find(id);
     if (job->state == State::working) {
       job->wanted = state;
       job->stop->request();
@@ -267,9 +276,8 @@ void Exports::stop(int64_t id, State state) {
     if (job->state != State::waiting && job->state != State::paused && job->state != State::interrupted)
       throw RequestError("state", "the job is at its end already");
     job->state = state;
-    now = describe(*job);
   }
-  report_(now);
+  tell(*job);
   keep_list();
 }
 
@@ -277,10 +285,10 @@ void Exports::pause(int64_t id) { stop(id, State::paused); }
 void Exports::cancel(int64_t id) { stop(id, State::cancelled); }
 
 void Exports::resume(int64_t id) {
-  DataMembers now;
+  JobPtr job;
   {
     const std::lock_guard lock(mutex_);
-    const JobPtr job = find(id);
+    job = find(id);
     if (job->state != State::paused && job->state != State::cancelled && job->state != State::failed)
       throw RequestError("state", "the job is not paused");
     go_on(job->request);
@@ -288,9 +296,8 @@ void Exports::resume(int64_t id) {
     job->message.clear();
     job->report.clear();
     job->stop = std::make_shared<StopFlag>();
-    now = describe(*job);
   }
-  report_(now);
+  tell(*job);
   keep_list();
   news_.notify_all();
 }
@@ -320,9 +327,8 @@ void Exports::run() {
     if (is_over_) return;
     const JobPtr job = next();
     job->state = State::working;
-    const DataMembers now = describe(*job);
     lock.unlock();
-    report_(now);
+    tell(*job);
     keep_list();
     work(*job);
     lock.lock();
@@ -330,14 +336,12 @@ void Exports::run() {
 }
 
 void Exports::end(Job& job, State state, const std::string& message) {
-  DataMembers now;
   {
     const std::lock_guard lock(mutex_);
     job.state = state;
     job.message = message;
-    now = describe(job);
   }
-  report_(now);
+  tell(job);
   keep_list();
 }
 
@@ -414,7 +418,6 @@ void Exports::take(Job& job, const DataMembers& event) {
     return data && data->number() ? static_cast<uint64_t>(std::max(0.0, *data->number())) : 0;
   };
   const std::string& name = *member("event")->string();
-  DataMembers now;
   {
     const std::lock_guard lock(mutex_);
     if (name == "progress") {
@@ -431,9 +434,8 @@ void Exports::take(Job& job, const DataMembers& event) {
     }
     if (job.since_report.seconds() < interval_s) return;
     job.since_report = {};
-    now = describe(job);
   }
-  report_(now);
+  tell(job);
 }
 
 }  // namespace ombre::studio

@@ -88,9 +88,11 @@ class Exports {
   void stop(int64_t id, State state);
   static DataMembers describe(const Job& job);
   DataMembers to_keep(const Job& job) const;
+  void tell(const Job& job);
   void keep_list();
 
   Report report_;
+  std::mutex report_mutex_;
   Keep keep_;
   std::mutex keep_mutex_;
   sources::SourceCache& cache_;
