@@ -84,9 +84,12 @@ await test({ files, place: folder, viewport: { width: 1280, height: 800 } }, {
 
   async "two fingers move and zoom a view, and a ball stays round when the view changes its size"() {
     const isRound = async () => {
-      const { width, height, pixel } = await shownBox("surface"); // the first pictures are coarse
-      assert.ok(Math.abs(width - height) < Math.max(0.04 * height, 2.5 * pixel), `${width} x ${height}`);
-      return width;
+      let shown;
+      await until(async () => {
+        shown = await shownBox("surface"); // the first pictures are coarse
+        return Math.abs(shown.width - shown.height) < Math.max(0.04 * shown.height, 2.5 * shown.pixel);
+      }, "a round ball");
+      return shown.width;
     };
     await isReady();
     const before = await isRound();
