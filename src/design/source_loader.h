@@ -209,7 +209,8 @@ struct VolumeGrid {
   program::SourceField source;
   std::optional<Affine> space_from_index;  // in mm, if the file gives it
   PatientSpace space = PatientSpace::unknown;
-  double otsu_level = 0;  // threshold between dark and bright values by Otsu's method
+  double otsu_level = 0;               // threshold between dark and bright values by Otsu's method
+  std::optional<double> padding = {};  // the number in voxels that the scan marks as padding, if there are any
   // Returns a box around the positions where a channel may have a value in the interval.
   std::function<Box(int channel, Interval values)> places;
 };
@@ -230,6 +231,7 @@ struct VolumeRequest {
   std::optional<double> nan = {};      // the number in place of NaN, which is an error without it
   std::optional<double> outside = {};  // the number of voxels that a scan marks as padding; else `is_outside_high`
   bool is_outside_high = false;        // padding gets the greatest number of the scan, in place of the least
+  std::optional<double> level = {};    // of a solid: the number of padding lies beyond it in any case
   bool has_space = false;              // true where the design chooses the coordinate system
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };

@@ -103,6 +103,12 @@ TEST_F(Dicom, PaddingIsOutside) {
   EXPECT_EQ(read({.outside = 40}).whole, (std::vector<int16_t>{40, 0, 2, -1040}));
   EXPECT_EQ(read().whole[0], -1040);
   EXPECT_EQ(read({.is_outside_high = true}).whole[0], 2);
+  // Where all others lie within a solid, padding lies beyond its level.
+  EXPECT_EQ(read({.level = -1000}).whole[0], -1040);
+  EXPECT_EQ(read({.level = -1050}).whole[0], -1060);
+  EXPECT_EQ(read({.level = -1040}).whole[0], -1041);
+  EXPECT_EQ(read({.is_outside_high = true, .level = 2}).whole[0], 3);
+  EXPECT_EQ(read({.is_outside_high = true, .level = 12}).whole[0], 22);
   files_.clear();
   file[padding_limit] = {"SS", little(0xfff8, 2)};
   put(file);

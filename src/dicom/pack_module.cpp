@@ -42,6 +42,7 @@ std::string pack(const Series& series) {
   put(bytes, &series.slope, 1);
   put(bytes, &series.intercept, 1);
   put(bytes, &series.has_lengths, 1);
+  put(bytes, &series.padding, 1);
   for (const std::string& warning : series.warnings) warnings += warning + '\n';
   put_list(bytes, std::vector<char>(warnings.begin(), warnings.end()));
   put_list(bytes, series.whole);
@@ -57,6 +58,7 @@ Series unpack(std::string_view bytes) {
   take(bytes, &series.slope, 1);
   take(bytes, &series.intercept, 1);
   take(bytes, &series.has_lengths, 1);
+  take(bytes, &series.padding, 1);
   std::vector<char> warnings;
   take_list(bytes, warnings);
   std::string line;

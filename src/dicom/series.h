@@ -22,7 +22,8 @@ struct Series {
   double slope = 1, intercept = 0;  // slope and intercept of the first slice
   // maps indices of voxels to their centres in mm; x to the patient's left, y to the back, z to the head
   Affine lps_from_index;
-  bool has_lengths = true;  // false if the files do not say how large voxels are
+  bool has_lengths = true;             // false if the files do not say how large voxels are
+  std::optional<double> padding = {};  // the value that was put in the place of padding
   std::vector<std::string> warnings;
 };
 
@@ -33,6 +34,7 @@ struct SeriesChoice {
   bool is_regular = false;             // resamples slices at uneven distances linearly
   std::optional<double> outside = {};  // the value of padding; else the least of the others
   bool is_outside_high = false;        // without `outside`: the greatest of the others
+  std::optional<double> level = {};    // without `outside`: the value of padding lies beyond this one
 };
 
 // A segment of a segmentation: its name, its number and its colour in sRGB from 0 to 1.

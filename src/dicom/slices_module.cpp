@@ -167,13 +167,25 @@ class Reading {
   // Puts a number in the place of padding, which lies outside of what was scanned.
   void fill_padding() {
     if (std::ranges::all_of(slices_, [](const Frame& slice) { return slice.padding.empty(); })) return;
-    const auto number = static_cast<float>(choice_.outside.value_or(extreme_value()));
+    const auto number = static_cast<float>(choice_.outside ? *choice_.outside : number_outside());
+    padding_ = number;
     for (Frame& slice : slices_)
       for (const uint32_t n : slice.padding) slice.values[n] = number;
   }
 
+  // Returns a number for padding: the least or the greatest of the others. Where all of these lie within a solid, it is
+  // as far beyond the solid's level as they are within, at least by 1, so that the surface runs in the middle.
+  double number_outside() const {
+    const std::optional<float> extreme = extreme_value();
+    if (!choice_.level) return extreme.value_or(0);
+    const double level = *choice_.level, other = extreme.value_or(static_cast<float>(level));
+    if (choice_.is_outside_high)
+      return other > level ? other : std::max(std::ceil(2 * level - other), std::ceil(level) + 1);
+    return other < level ? other : std::min(std::floor(2 * level - other), std::floor(level) - 1);
+  }
+
   // Returns the least or the greatest value that is no padding.
-  double extreme_value() const {
+  std::optional<float> extreme_value() const {
     std::optional<float> found;
     for (const Frame& slice : slices_)
       for (size_t n = 0, next = 0; n < slice.values.size(); ++n) {
@@ -184,7 +196,7 @@ class Reading {
         const float value = slice.values[n];
         if (!found || (choice_.is_outside_high ? value > *found : value < *found)) found = value;
       }
-    return found.value_or(0);
+    return found;
   }
 
   double usual_step() const {
@@ -293,6 +305,7 @@ class Reading {
       series.lps_from_index.rows[static_cast<size_t>(axis)] = {across[axis], down[axis], step[axis]};
     series.lps_from_index.offset = first.place;
     series.has_lengths = first.has_spacing;
+    series.padding = padding_;
     if (slices_.size() == 1 && first.step == 0) warn("does not say how thick its only slice is; it is 1 mm thick here");
     series.slope = first.slope;
     series.intercept = first.intercept;
@@ -320,6 +333,7 @@ class Reading {
 
   const std::string& name_;
   const SeriesChoice& choice_;
+  std::optional<double> padding_;  // the value that was put in its place
   std::vector<File> files_;
   std::vector<Frame> slices_;
   std::vector<std::string> warnings_;

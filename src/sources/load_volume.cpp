@@ -62,7 +62,8 @@ std::optional<Hash> content_of(const VolumeParts& parts, const VolumeRequest& re
   sources::Key key("volume");
   key.add(request.series).add(request.channel).add(request.phase).add(static_cast<double>(request.label));
   for (const bool flag : {request.are_labels, request.is_regular, request.is_outside_high}) key.add(flag);
-  for (const auto& number : {request.nan, request.outside}) key.add(number ? format_number(*number) : "none");
+  for (const auto& number : {request.nan, request.outside, request.level})
+    key.add(number ? format_number(*number) : "none");
   for (const std::string& path : parts.files) {
     FilePath part{path, {}};
     if (!loading.read_content(part)) return std::nullopt;
@@ -121,6 +122,7 @@ formats::VolumeChoice choice_of(const VolumeRequest& request) {
   choice.is_regular = request.is_regular;
   choice.outside = request.outside;
   choice.is_outside_high = request.is_outside_high;
+  choice.level = request.level;
   return choice;
 }
 
@@ -157,6 +159,7 @@ std::shared_ptr<const VolumeGrid> VolumeRequest::load(sources::Loading& loading)
     grid->space_from_index = volume.space_from_index;
     grid->space = patient_space(volume.space);
     grid->otsu_level = sources::otsu_level(volume);
+    grid->padding = volume.padding;
     auto made = importing::make_volume_source(file.path, std::move(volume), file.content);
     grid->source = std::move(made.source);
     grid->places = std::move(made.places);

@@ -128,8 +128,8 @@ formats::VoxelVolume read_images(const std::string& path, const std::vector<std:
 formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::string>& files,
                                 const formats::VolumeChoice& choice, const StopFlag* stop,
                                 std::vector<std::string>& warnings) {
-  const dicom::SeriesChoice wanted{choice.name,       choice.phase,   choice.label,
-                                   choice.is_regular, choice.outside, choice.is_outside_high};
+  const dicom::SeriesChoice wanted{choice.name,    choice.phase,           choice.label, choice.is_regular,
+                                   choice.outside, choice.is_outside_high, choice.level};
   dicom::Series read = dicom::read_series(path, files, wanted, stop);
   warnings = std::move(read.warnings);
   formats::VoxelVolume volume;
@@ -139,6 +139,7 @@ formats::VoxelVolume read_dicom(const std::string& path, const std::vector<std::
     volume.values = std::move(read.real);
   else
     volume.values = std::move(read.whole);
+  volume.padding = read.padding;
   volume.slope = read.slope;
   volume.intercept = read.intercept;
   if (read.has_lengths) volume.space_from_index = read.lps_from_index;

@@ -1,5 +1,5 @@
 // Any bytes as results of a simulation: values that can be asked for, or a message. What follows an empty line is the
-// table of a mesh.
+// table of a mesh, or a file that the first one names.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -25,7 +25,8 @@ void exercise(const std::string& bytes, const std::string* table) {
   Diagnostics diagnostics;
   formats::ResultsBeside beside;
   if (table) beside.values = {"fuzz.csv", *table};
-  if (table) beside.named = {{"fuzz.inp", *table, "fuzz.inp"}};
+  if (table)
+    for (const char* name : {"fuzz.inp", "fuzz.vtu"}) beside.named.push_back({name, *table, name});
   auto results = formats::read_results("fuzz", bytes, beside, diagnostics);
   if (!results) {
     if (!diagnostics.has_errors()) std::abort();

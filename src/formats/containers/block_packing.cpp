@@ -12,7 +12,7 @@ constexpr Module lzma{"ombre_lzma",  "liblzma",    "numbers packed by LZMA",
                       "liblzma-dev", "OMBRE_LZMA", "save with zlib (vtkZLibDataCompressor) or without packing"};
 
 // Returns the greatest number of bytes that a byte of a block gives, so that a short block is not given much memory.
-// For LZMA it is what the cheapest repetition, of 273 bytes, takes with each of its decisions as cheap as they become.
+// LZMA's cheapest repetition gives 273 bytes, and takes no more than decisions that are as cheap as they become.
 uint64_t greatest_ratio(BlockPacking packing) { return packing == BlockPacking::lz4 ? 255 : 16384; }
 
 bool fill_block(std::string_view packed, BlockPacking packing, std::string& bytes) {

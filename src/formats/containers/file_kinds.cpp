@@ -41,6 +41,7 @@ constexpr Kind kinds[]{
     {"BLENDER"sv, "a Blender file", {}, true},
     {"\xD0\xCF\x11\xE0"sv, "a document of SolidWorks, Inventor or Office", {}, true},
     {"#VRML"sv, "a VRML file", {}, true},
+    {"# vtk DataFile"sv, "a legacy file of VTK", "save it as .vtu, .vti or .stl, by ParaView for example"},
     {"SQLite format 3"sv, "a database"},
     {"\x7F"
      "ELF"sv,

@@ -57,10 +57,14 @@ std::string quoted(std::string_view word, size_t longest) {
   return text + '"';
 }
 
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  return bytes.starts_with(byte_order_mark) ? bytes.substr(byte_order_mark.size()) : bytes;
+}
+
 TextScanner::TextScanner(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, Syntax syntax)
     : name_(name), bytes_(bytes), diagnostics_(diagnostics), syntax_(syntax) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (bytes_.substr(0, byte_order_mark.size()) == byte_order_mark) at_ = byte_order_mark.size();
+  at_ = bytes_.size() - without_byte_order_mark(bytes_).size();
 }
 
 bool TextScanner::skip_continuation() {

@@ -33,6 +33,9 @@ std::optional<std::invoke_result_t<Read>> read_or_null(const std::string& name, 
 std::string quoted(std::string_view word, size_t longest = 40);
 
 // Scans a text. Errors are reported, and DesignError is thrown; each reader catches it in its outermost function.
+// Returns the bytes behind UTF-8's byte order mark, which editors on Windows put at the beginning of files.
+std::string_view without_byte_order_mark(std::string_view bytes);
+
 class TextScanner {
  public:
   struct Syntax {

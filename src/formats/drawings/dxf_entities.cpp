@@ -33,8 +33,7 @@ class DocumentReader {
 
   // Skips a byte order mark, and says which other files have the name of a drawing.
   void check_kind() {
-    constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
-    if (bytes_.starts_with(utf8_mark)) at_ = utf8_mark.size();
+    at_ = bytes_.size() - without_byte_order_mark(bytes_).size();
     constexpr const char* remedy = "save the drawing as DXF in text form (ASCII)";
     if (bytes_.starts_with("AutoCAD Binary DXF"))
       fail(diagnostics_, name_, "this is a DXF file in binary form, which is not read", remedy);

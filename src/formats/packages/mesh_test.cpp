@@ -340,6 +340,7 @@ TEST(Mesh, FilesThatAreNoMeshAreNamed) {
            {"\x89PNG\r\n\x1A\n", "a PNG picture"},
            {"ISO-10303-21;\nHEADER;\n", "a STEP file; write cad in place of mesh"},
            {std::string("\xFF\xFEs\0o\0l\0i\0d\0", 12), "text in UTF-16; save it as UTF-8"},
+           {"# vtk DataFile Version 3.0\n", "a legacy file of VTK; save it as .vtu, .vti or .stl"},
            {"{\"a\": 1}", "this is no mesh file but JSON"}})
     for (const std::string ending : {"stl", "obj", "ply", "off", "3mf", "amf"})
       expect_message_of("a." + ending, bytes, message);

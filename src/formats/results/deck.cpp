@@ -10,14 +10,12 @@
 namespace ombre::formats {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 // Calls `take` with each line that is neither empty nor a comment, trimmed, and its place.
 template <class Take>
 void each_line(std::string_view bytes, const Take& take) {
-  size_t begin = bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  size_t begin = bytes.size() - without_byte_order_mark(bytes).size();
   while (begin < bytes.size()) {
-    const size_t end = std::min(bytes.find('\n', begin), bytes.size());
+    const size_t end = std::min(bytes.find_first_of("\r\n", begin), bytes.size());
     const std::string_view line = trim(bytes.substr(begin, end - begin));
     if (!line.empty() && !line.starts_with("**")) take(line, begin, end);
     begin = end + 1;
@@ -31,8 +29,9 @@ std::string_view without_quotes(std::string_view text) {
 
 // Returns "end part" for " END  PART".
 std::string plain_words(std::string_view text) {
-  std::string words;
-  for (const std::string& word : split(to_lower(text), ' '))
+  std::string words, small = to_lower(text);
+  std::ranges::replace(small, '\t', ' ');
+  for (const std::string& word : split(small, ' '))
     if (!word.empty()) words += (words.empty() ? "" : " ") + word;
   return words;
 }

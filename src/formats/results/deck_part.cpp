@@ -97,9 +97,11 @@ uint64_t DeckPart::size_of(ResultSet::Of of, std::string_view name) const {
 }
 
 void DeckPart::add_node(const DeckLine& line, uint64_t number, Vec3 at, const std::string& set) {
-  if (!node_places_.try_emplace(number, static_cast<uint32_t>(nodes_.size())).second)
-    line.fail("node " + std::to_string(number) + " comes twice");
-  nodes_.push_back({number, at});
+  const auto [place, is_new] = node_places_.try_emplace(number, static_cast<uint32_t>(nodes_.size()));
+  if (is_new)
+    nodes_.push_back({number, at});
+  else if (!(nodes_[place->second].at == at))
+    line.fail("node " + std::to_string(number) + " comes twice, at different places");
   if (!set.empty()) node_sets_[set].push_back(number);
 }
 

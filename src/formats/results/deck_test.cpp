@@ -73,6 +73,17 @@ TEST(Decks, AreReadInAllSpellings) {
   expect_cube(replaced(cube, "TYPE=C3D8", "ELSET=body,\n  TYPE = C3D8"));
   expect_cube("*ELEMENT, TYPE=C3D8\n" + cube_element + "* NODE , NSET=all\n" + cube_nodes);
   expect_cube(replaced(cube, "1, 1, 2, 3, 4, 5,", "1, 1, 2, 3, 4,\n5,"));
+  expect_cube(replaced(cube, "1, 0, 0, 0", "1"));
+  expect_cube(replaced(cube, "*ELEMENT, TYPE=C3D8", "*ELEMENT\t,\tTYPE\t=\tC3D8"));
+  std::string of_old_macs = cube;
+  std::ranges::replace(of_old_macs, '\n', '\r');
+  expect_cube(of_old_macs);
+  expect_refused(replaced(cube, "TYPE=C3D8", "ELSET=body"), "expected the type of the elements");
+}
+
+TEST(Decks, NodesMayComeTwiceAtOnePlace) {
+  expect_cube(cube + "*NODE\n1, 0, 0, 0\n");
+  expect_refused(cube + "*NODE\n1, 0, 0, 1\n", "node 1 comes twice, at different places");
 }
 
 TEST(Decks, SolidFamiliesAreBricks) {
@@ -94,6 +105,10 @@ TEST(Decks, InstancesAreMovedAndTurned) {
   expect_box(deck.box_of(0), {0, 0, 0}, {10, 10, 10});
   expect_box(deck.box_of(1), {20, 0, 0}, {30, 10, 10});
   expect_box(deck.box_of(2), {10, 0, 0}, {20, 10, 10});
+  // The first line of the instance is blank.
+  const Deck turned(part + "*INSTANCE, NAME=a, PART=block\n\n0, 0, 0, 0, 0, 1, 90\n*END INSTANCE\n*END ASSEMBLY\n");
+  ASSERT_EQ(turned.elements(), 1U) << turned.said;
+  expect_box(turned.box_of(0), {-10, 0, 0}, {0, 10, 10});
   expect_refused(part + "*INSTANCE, NAME=a, PART=rod\n*END INSTANCE\n", "a.inp:15:1: error: there is no part \"rod\"");
   expect_refused(part + "*INSTANCE, LIBRARY=old, INSTANCE=a\n", "comes from another analysis");
 }
@@ -183,7 +198,8 @@ TEST(Decks, ReadTheFilesThatTheyInclude) {
 }
 
 TEST(Decks, KeywordsThatChangeTheMeshAreRefused) {
-  for (const char* keyword : {"*NMAP, TYPE=RECTANGULAR", "*IMPERFECTION, FILE=a", "*SYMMETRIC MODEL GENERATION"})
+  for (const char* keyword : {"*NMAP, TYPE=RECTANGULAR", "*IMPERFECTION, FILE=a", "*SYMMETRIC MODEL GENERATION",
+                              "*ADJUST, SURFACE=a", "*REFINE MESH, LIMIT=5"})
     expect_refused(cube + keyword + "\n1, 2\n", "changes the mesh and is not read");
   const Deck removed(cube + "*STEP\n*MODEL CHANGE, REMOVE\nall\n*END STEP\n");
   EXPECT_EQ(removed.elements(), 1U);

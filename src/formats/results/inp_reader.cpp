@@ -39,7 +39,8 @@ std::optional<ElementKind> kind_of_nodes(size_t count) {
 
 // Keywords that change the mesh, and are not read.
 constexpr auto unread_keywords =
-    std::to_array<std::string_view>({"*nmap", "*imperfection", "*symmetric model generation", "*import"});
+    std::to_array<std::string_view>({"*nmap", "*imperfection", "*symmetric model generation", "*import", "*adjust",
+                                     "*refine mesh", "*crack propagation", "*substructure"});
 
 // A system of coordinates in which nodes are given (*SYSTEM): points a, b on its x axis, c in its xy plane.
 Affine system_of(const DeckLine& line, const std::vector<double>& numbers) {
@@ -172,6 +173,7 @@ class InpReader : public DeckListener {
 
   void begin_elements() {
     const std::string type = keyword_.name_of("type");
+    if (type.empty()) keyword_.line.fail("expected the type of the elements", "write for example TYPE=C3D8");
     const auto nodes = solid_nodes(type);
     kind_ = nodes ? kind_of_nodes(*nodes) : std::nullopt;
     if (nodes && !kind_)
@@ -182,7 +184,6 @@ class InpReader : public DeckListener {
 
   void add_node(const DeckLine& line) {
     const std::vector<double> list = line.numbers();
-    if (list.size() < 2) line.fail("expected the number of a node and its coordinates");
     const auto at = [&](size_t n) { return n < list.size() ? list[n] : 0.0; };
     mesh().add_node(line, deck_number(line, list[0]), part().system(point({at(1), at(2), at(3)})),
                     keyword_.name_of("nset"));
@@ -225,14 +226,14 @@ class InpReader : public DeckListener {
       mesh().generate_elements(keyword_, line);
   }
 
-  // The first line moves the instance, the second one turns it after that.
+  // The first line moves the instance, the second one turns it after that. A blank first line is passed over.
   void move_instance(const DeckLine& line) {
     Affine& move = instances_.back().move;
     const std::vector<double> list = line.numbers();
-    if (data_lines_ == 1) {
+    if (data_lines_ == 1 && list.size() <= 3) {
       const auto at = [&](size_t n) { return n < list.size() ? list[n] : 0.0; };
       move = Affine::translation({at(0), at(1), at(2)});
-    } else if (data_lines_ == 2) {
+    } else if (data_lines_ <= 2) {
       move = turn_of(line, list) * move;
     }
   }

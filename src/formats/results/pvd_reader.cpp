@@ -63,7 +63,7 @@ class NamedGrids {
     set_steps(results_, times, wanted);
     for (const xml_node set : std::next(steps.begin(), static_cast<ptrdiff_t>(wanted))->second) {
       const ResultsFile& grid = file_called(file, set, std::string(file.required(set, "file")));
-      if (is_pvtu(grid.bytes))
+      if (is_pvtu(without_byte_order_mark(grid.bytes)))
         add_pieces(grid.name, grid.bytes, grid.written);
       else
         add_grid(grid);

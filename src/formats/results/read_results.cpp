@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/text/text.h"
+#include "formats/containers/file_kinds.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/results/result_formats.h"
 
@@ -41,7 +42,8 @@ void fill_up_fields(Results& results) {
 
 Results read_any(const std::string& name, std::string_view bytes, const ResultsBeside& beside,
                  Diagnostics& diagnostics) {
-  const std::string_view text = trim(bytes.substr(0, std::min<size_t>(bytes.size(), 4096)));
+  if (const auto foreign = foreign_file(bytes)) fail(diagnostics, name, "this is " + foreign->what, foreign->hint);
+  const std::string_view text = trim(without_byte_order_mark(bytes).substr(0, 4096));
   const auto rows = result_formats();
   const auto found = std::ranges::find_if(rows, [&](const ResultFormat& row) { return row.recognises(text); });
   return found->read(name, bytes, beside, diagnostics);

@@ -16,11 +16,7 @@ namespace {
 bool is_xdmf(std::string_view text) { return text.starts_with('<') && text.find("<Xdmf") != std::string_view::npos; }
 bool is_xml(std::string_view text) { return text.starts_with('<'); }
 bool is_frd(std::string_view text) { return text.starts_with("1C"); }
-bool is_deck(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  return text.starts_with('*');
-}
+bool is_deck(std::string_view text) { return text.starts_with('*'); }
 bool is_hdf5(std::string_view text) { return text.starts_with("\x89HDF\r\n"); }
 bool is_anything(std::string_view) { return true; }
 
@@ -165,7 +161,7 @@ bool may_name_files(const std::string& path) {
 std::vector<std::string> files_named_in(const std::string& path, std::string_view bytes, uint64_t step,
                                         const std::string& written) {
   for (const ResultFormat& row : result_formats()) {
-    if (!row.named || !(has_ending(path, row.file) || row.recognises(bytes))) continue;
+    if (!row.named || !(has_ending(path, row.file) || row.recognises(without_byte_order_mark(bytes)))) continue;
     std::vector<std::string> names = row.named(bytes, step);
     if (row.names_beside_itself)
       for (std::string& name : names) name = name_beside(written, name);

@@ -26,9 +26,8 @@ class CsvReader {
       : scanner_(name, bytes, diagnostics), bytes_(bytes) {}
 
   CsvTable run() {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    for (size_t begin = bytes_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; begin < bytes_.size();) {
-      const size_t end = std::min(bytes_.find('\n', begin), bytes_.size());
+    for (size_t begin = bytes_.size() - without_byte_order_mark(bytes_).size(); begin < bytes_.size();) {
+      const size_t end = std::min(bytes_.find_first_of("\r\n", begin), bytes_.size());
       const std::string_view line = trim(bytes_.substr(begin, end - begin));
       if (!line.empty() && line.front() != '#') take(line, begin, end);
       begin = end + 1;
@@ -40,6 +39,7 @@ class CsvReader {
 
  private:
   void take(std::string_view line, size_t begin, size_t end) {
+    if (table_.names.empty() && tells_separator(line)) return;
     if (table_.names.empty()) separator_ = separator_of(line);
     std::vector<std::string> words;
     for (const std::string& word : split(std::string(line), separator_)) words.emplace_back(unquoted(trim(word)));
@@ -57,8 +57,11 @@ class CsvReader {
     std::vector<double> row;
     for (size_t n = 0; n < words.size(); ++n) {
       const auto value = number_in(words[n]);
-      if (table_.rows.empty()) is_of_words_[n] = !value && !words[n].empty();
-      if (!value && !is_of_words_[n]) scanner_.fail_at(begin, end, formats::quoted(words[n]) + " is no number");
+      if (table_.rows.empty()) is_of_words_[n] = !value;
+      if (!value && !is_of_words_[n])
+        scanner_.fail_at(begin, end,
+                         words[n].empty() ? "the column " + formats::quoted(table_.names[n]) + " has no number here"
+                                          : formats::quoted(words[n]) + " is no number");
       if (value && is_of_words_[n])
         scanner_.fail_at(begin, end,
                          "the column " + formats::quoted(table_.names[n]) + " has words, and here a number");
@@ -67,6 +70,9 @@ class CsvReader {
     table_.rows.push_back(std::move(row));
     table_.places.emplace_back(begin, end);
   }
+
+  // Excel's first line may say "sep=;", which the next line shows as well.
+  static bool tells_separator(std::string_view line) { return line.size() == 5 && to_lower(line).starts_with("sep="); }
 
   static char separator_of(std::string_view line) {
     for (const char separator : {';', '\t'})
@@ -98,7 +104,7 @@ class CsvReader {
   TextScanner scanner_;
   std::string_view bytes_;
   char separator_ = ',';
-  std::vector<bool> is_of_words_;  // by column: true if its first row has a word
+  std::vector<bool> is_of_words_;  // by column: true if its first row has no number
   CsvTable table_;
 };
 
@@ -209,16 +215,20 @@ void add_csv_values(const std::string& name, std::string_view bytes, NumberedRes
 
 namespace {
 
-// Moves the columns of coordinates, which ParaView names Points:0 to Points:2 or Points_0 to Points_2, to the front.
+// The names of the columns of coordinates: ParaView names them Points:0 to Points:2 or Points_0 to Points_2.
+constexpr std::array<std::array<std::string_view, 3>, 3> names_of_points{
+    {{"points:0", "points:1", "points:2"}, {"points_0", "points_1", "points_2"}, {"x", "y", "z"}}};
+
+// Moves the columns of coordinates to the front, if all three are there.
 void put_points_first(CsvTable& table) {
-  for (const char* separator : {":", "_"})
+  for (const auto& names : names_of_points) {
+    const auto place_of = [&](std::string_view name) {
+      return std::ranges::find_if(table.names, [&](const std::string& own) { return to_lower(own) == name; });
+    };
+    if (std::ranges::any_of(names, [&](std::string_view name) { return place_of(name) == table.names.end(); }))
+      continue;
     for (size_t axis = 0; axis < 3; ++axis) {
-      const auto is_point = [&](const std::string& name) {
-        return to_lower(name) == "points" + (separator + std::to_string(axis));
-      };
-      const auto found = std::ranges::find_if(table.names, is_point);
-      if (found == table.names.end()) break;
-      const auto place = found - table.names.begin();
+      const auto place = place_of(names[axis]) - table.names.begin();
       const auto move = [&](auto& list) {
         const auto to = list.begin() + static_cast<ptrdiff_t>(axis);
         if (list.begin() + place > to) std::rotate(to, list.begin() + place, list.begin() + place + 1);
@@ -227,6 +237,8 @@ void put_points_first(CsvTable& table) {
       for (std::vector<double>& row : table.rows) move(row);
       table.names[axis] = std::string(1, "xyz"[axis]);
     }
+    return;
+  }
 }
 
 }  // namespace
@@ -238,7 +250,7 @@ Results read_csv_points(const std::string& name, std::string_view bytes, Diagnos
   if (table.names.size() < 4) scanner.fail_at(0, 0, "expected the columns x, y and z, and columns of values");
   for (size_t axis = 0; axis < 3 && table.has_names; ++axis)
     if (to_lower(table.names[axis]).substr(0, 1) != std::string(1, "xyz"[axis]))
-      scanner.fail_at(0, 0, "expected the columns x, y and z first, found " + formats::quoted(table.names[axis]),
+      scanner.fail_at(0, 0, "expected columns x, y and z, found " + formats::quoted(table.names[axis]),
                       "numbers of nodes need the mesh as well: results(\"mesh.inp\", values=\"" + name + "\")");
   if (!table.has_names && table.names.size() == 4) table.names[3] = "value";
   Results results;

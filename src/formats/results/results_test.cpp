@@ -348,6 +348,10 @@ TEST(Results, TablesOfOtherPrograms) {
   expect_read(plain);
   expect_read("\xEF\xBB\xBF" + plain);
   expect_read("x;y;z;t;move_x;move_y;move_z\n1;2;3,5;20;7;8;9\n4;5;6;30;10;11;12\n");
+  expect_read("sep=;\nx;y;z;t;move_x;move_y;move_z\n1;2;3,5;20;7;8;9\n4;5;6;30;10;11;12\n");
+  expect_read("x,y,z,t,move_x,move_y,move_z\r1,2,3.5,20,7,8,9\r4,5,6,30,10,11,12\r");
+  expect_read("x,y,z,t,move_x,move_y,move_z,\n1,2,3.5,20,7,8,9,\n4,5,6,30,10,11,12,\n");
+  expect_read("t,x,y,z,move_x,move_y,move_z\n20,1,2,3.5,7,8,9\n30,4,5,6,10,11,12\n");
   expect_read("x,y,z,kind,t,move_x,move_y,move_z\n1,2,3.5,PLA,20,7,8,9\n4,5,6,,30,10,11,12\n");
   for (const std::string separator : {":", "_"}) {
     const auto three = [&](const std::string& name) {
@@ -358,8 +362,16 @@ TEST(Results, TablesOfOtherPrograms) {
   std::string said;
   EXPECT_FALSE(read_with("x,y,z,t\n1,2,3,20\n4,5,6,warm\n", "", said));
   EXPECT_NE(said.find(":3:1: error: \"warm\" is no number"), std::string::npos) << said;
+  EXPECT_FALSE(read_with("x,y,z,t\n1,2,3,20\n4,5,6,\n", "", said));
+  EXPECT_NE(said.find(":3:1: error: the column \"t\" has no number here"), std::string::npos) << said;
+  EXPECT_FALSE(read_with("\xFF\xFEx,y", "", said));
+  EXPECT_NE(said.find("this is text in UTF-16; save it as UTF-8"), std::string::npos) << said;
   EXPECT_FALSE(read_with("x,y,z,t\n1,2,3,warm\n4,5,6,20\n", "", said));
   EXPECT_NE(said.find(":3:1: error: the column \"t\" has words, and here a number"), std::string::npos) << said;
+}
+
+TEST(Results, XmlMayBeginWithAByteOrderMark) {
+  EXPECT_EQ(read_good("\xEF\xBB\xBF" + vtu_of_tetrahedron("", text_points)).kinds.size(), 1U);
 }
 
 TEST(Results, LagrangeCellsOfVtuAreTheKnownOnes) {

@@ -230,7 +230,11 @@ class XdmfReader {
 
   void add_elements(xml_node topology) {
     const std::string_view type = type_of(topology, "TopologyType").value_or("");
-    if (to_lower(type) == "mixed") return add_mixed(topology, numbers_of(topology));
+    first_point_ = file_.number(topology, file_.attribute(topology, "BaseOffset").value_or("0"), "a number of a point");
+    if (to_lower(type) == "mixed") {
+      add_mixed(topology, numbers_of(topology));
+      return check_count(topology);
+    }
     if (const auto nodes = nodes_of_flat(type)) return leave_out_elements(topology, *nodes);
     const auto kind = element_kind(type);
     if (!kind)
@@ -243,6 +247,17 @@ class XdmfReader {
       file_.fail_at(topology, "expected " + std::to_string(each) + " nodes for each element, found " +
                                   std::to_string(numbers.size()));
     for (size_t n = 0; n < numbers.size(); n += each) add_element(topology, *kind, &numbers[n]);
+    check_count(topology);
+  }
+
+  // The topology may say how many elements it has, in one of two attributes.
+  void check_count(xml_node topology) const {
+    auto stated = file_.attribute(topology, "NumberOfElements");
+    if (!stated) stated = file_.attribute(topology, "Dimensions");
+    const auto count = stated ? parse_number(*stated) : std::nullopt;
+    if (count && *count != static_cast<double>(is_kept_.size()))
+      file_.fail_at(topology, "the topology says that it has " + format_number(*count) + " elements, and lists " +
+                                  std::to_string(is_kept_.size()));
   }
 
   void leave_out_elements(xml_node topology, size_t usual_nodes) {
@@ -254,11 +269,12 @@ class XdmfReader {
   void add_element(xml_node topology, ElementKind kind, const double* numbers) {
     std::array<uint32_t, 20> nodes{};
     for (size_t c = 0; c < node_count(kind); ++c) {
-      if (!(numbers[c] >= 0 && numbers[c] < static_cast<double>(results_.points.size())))
+      const double number = numbers[c] - first_point_;
+      if (!(number >= 0 && number < static_cast<double>(results_.points.size())))
         file_.fail_at(topology, "element " + std::to_string(is_kept_.size()) + " names point " +
                                     format_number(numbers[c]) + "; there are " +
                                     std::to_string(results_.points.size()));
-      nodes[c] = static_cast<uint32_t>(numbers[c]);
+      nodes[c] = static_cast<uint32_t>(number);
     }
     results_.add_element(kind, nodes.data());
     is_kept_.push_back(true);
@@ -332,6 +348,7 @@ class XdmfReader {
   uint64_t step_ = 0;            // number of the step, or 0
   Results results_;
   static constexpr size_t most_components = 9;
+  double first_point_ = 0;  // by which the elements call the first point
   uint64_t wide_fields_ = 0;
   uint64_t fields_elsewhere_ = 0;  // with values at edges, faces or the whole grid
   std::vector<bool> is_kept_;      // by element of the file: false if it has no volume

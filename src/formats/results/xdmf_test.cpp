@@ -66,6 +66,23 @@ TEST(Xdmf, MixedElementsWithoutVolumeAreLeftOut) {
   EXPECT_EQ(results->left_out[0].count, 2U);
 }
 
+TEST(Xdmf, CountsOfElementsMustAgree) {
+  GridText mixed;
+  mixed.topology = "Mixed\" NumberOfElements=\"2";
+  mixed.nodes = item("6 0 1 2 3");
+  EXPECT_NE(grid_error(mixed).find("the topology says that it has 2 elements, and lists 1"), std::string::npos);
+}
+
+TEST(Xdmf, PointsMayBeCountedFromOne) {
+  GridText from_one;
+  from_one.topology = "Tetrahedron\" BaseOffset=\"1";
+  from_one.nodes = item("1 2 3 4");
+  Diagnostics diagnostics;
+  const auto results = read_grid(from_one, diagnostics);
+  ASSERT_TRUE(results) << to_text(diagnostics);
+  EXPECT_EQ(results->nodes, (std::vector<uint32_t>{0, 1, 2, 3}));
+}
+
 // ParaView writes the types as Type.
 TEST(Xdmf, NewerNamesOfTypes) {
   const auto renamed = [](std::string text) {

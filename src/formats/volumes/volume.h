@@ -58,6 +58,7 @@ struct VoxelVolume {
   double slope = 1, intercept = 0;
   int64_t channels = 1;                    // values per voxel in the file; this volume contains one of them
   std::vector<std::string> warnings = {};  // sentences about what was left out
+  std::optional<double> padding = {};      // the number in voxels that the scan marks as padding, if there are any
 };
 
 // Calls visit with the numbers of the volume as Numbers<T>.
@@ -90,6 +91,7 @@ struct VolumeChoice {
   bool is_regular = false;         // true where slices at uneven distances are resampled
   std::optional<double> outside = {};  // the number of voxels that a scan marks as padding
   bool is_outside_high = false;        // without `outside`: padding gets the scan's greatest number, not its least
+  std::optional<double> level = {};    // without `outside`: the number of padding lies beyond this one
 };
 
 // The bytes of a file. With `may_refer`, numbers are not copied if they can be used in place.

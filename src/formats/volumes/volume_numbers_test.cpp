@@ -168,6 +168,15 @@ TEST(VolumeNumbers, VtiWithoutSpacingHasThatOfVtk) {
   EXPECT_EQ((*volume.space_from_index)({0, 0, 0}), (Vec3{3, 0, 0}));
   EXPECT_EQ((*volume.space_from_index)({1, 1, 1}), (Vec3{4, 1, 1}));
 }
+
+TEST(VolumeNumbers, VtiMayHaveAByteOrderMarkAndWords) {
+  const VoxelVolume volume = read(
+      "\xEF\xBB\xBF"
+      R"(<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 0 0 0"><Piece Extent="0 1 0 0 0 0"><PointData>)"
+      R"(<DataArray type="String" Name="who" NumberOfTuples="1" format="ascii">65 0</DataArray>)"
+      R"(<DataArray type="UInt8" Name="a" format="ascii">1 2</DataArray></PointData></Piece></ImageData></VTKFile>)");
+  EXPECT_EQ(std::get<std::vector<uint8_t>>(volume.values), (std::vector<uint8_t>{1, 2}));
+}
 #endif
 
 }  // namespace ombre::formats

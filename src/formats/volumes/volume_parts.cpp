@@ -299,7 +299,7 @@ void settle_volume(const std::string& path, std::optional<double> nan, VoxelVolu
 
 bool is_vti(std::string_view bytes) {
   constexpr size_t sniffed = 4096;
-  const std::string_view begin = trim(bytes.substr(0, sniffed));
+  const std::string_view begin = trim(without_byte_order_mark(bytes).substr(0, sniffed));
   return begin.starts_with('<') && begin.find("<VTKFile") != std::string_view::npos &&
          begin.find("ImageData") != std::string_view::npos;
 }

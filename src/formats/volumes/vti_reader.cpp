@@ -51,7 +51,7 @@ class VtiReader {
     std::vector<Found> all;
     for (const bool is_of_cells : {false, true})
       for (const xml_node array : piece.child(is_of_cells ? "CellData" : "PointData").children("DataArray"))
-        all.push_back({array, is_of_cells});
+        if (xml_.attribute(array, "type") != "String") all.push_back({array, is_of_cells});
     if (all.empty()) fail_volume(file_.path, "holds no arrays");
     std::string names;
     for (const Found& found : all) {

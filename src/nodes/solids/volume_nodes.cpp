@@ -50,9 +50,15 @@ struct VolumeSolid : VolumePlace {
     wanted.segment = segment;
     wanted.label = label;
     wanted.are_labels = label >= 0;
-    wanted.is_outside_high = !above;  // so padding lies outside the solid
+    // Padding lies outside the solid.
+    wanted.is_outside_high = !above;
+    if (label >= 0) wanted.outside = label == 0 ? 1 : 0;
     if (!read_volume(reader, wanted)) return false;
     if (by == "otsu") level = grid->otsu_level;
+    if (has_padding_inside()) {
+      wanted.level = level;
+      if (!read_volume(reader, wanted)) return false;
+    }
     if (!upper || (above && *upper >= level)) return true;
     return reader.refuse(
         above ? "upper of volume_solid is below its level, so nothing is inside"
@@ -87,6 +93,12 @@ struct VolumeSolid : VolumePlace {
     return reader.refuse(
         std::string("a segment has a number of its own") + (label < 0 ? ", in a channel of its own" : ""),
         label < 0 ? "leave channel out" : "leave label out, or segment");
+  }
+
+  // Scans whose other numbers all lie inside are read again for this level, so that padding lies outside.
+  bool has_padding_inside() const {
+    if (number() >= 0 || !grid->padding) return false;
+    return above ? *grid->padding >= level : *grid->padding <= level;
   }
 
   // Returns the number of the chosen label or segment, or a negative number if there is none.
