@@ -30,7 +30,6 @@ TextLevel level_called(std::string_view word) {
 #include FT_OUTLINE_H
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -311,8 +310,7 @@ PlacedRun placed_run(const Face& face, const std::string& text, const RunLayout&
   for (const RunGlyph& placed : run) result.advance = result.advance + (measure * layout.spacing) * placed.advance;
   std::tie(result.low, result.high) = reach_of(face, run);
   if (layout.is_vertical()) {
-    const double height = std::abs(result.advance.y);
-    const double rise = rise_of(layout.level, 0, height);
+    const double rise = rise_of(layout.level, 0, result.advance.y);  // letters follow each other downwards
     result.offset = {left_end(layout.side, measure * widest_of(face, run)), rise};
   } else {
     const double rise = rise_of(layout.level, result.low, result.high);
