@@ -269,6 +269,15 @@ std::pair<double, double> reach_of(const Face& face, const std::vector<RunGlyph>
   return {low, high};
 }
 
+// Returns the width of the widest letter, in the font's units.
+double widest_of(const Face& face, const std::vector<RunGlyph>& run) {
+  double widest = 0;
+  for (const RunGlyph& placed : run)
+    if (const auto box = box_of(face, placed.glyph))
+      widest = std::max(widest, static_cast<double>(box->xMax - box->xMin));
+  return widest;
+}
+
 double rise_of(TextLevel level, double low, double high) {
   switch (level) {
     case TextLevel::top:
@@ -300,8 +309,13 @@ PlacedRun placed_run(const Face& face, const std::string& text, const RunLayout&
   PlacedRun result;
   for (const RunGlyph& placed : run) result.advance = result.advance + (measure * layout.spacing) * placed.advance;
   std::tie(result.low, result.high) = reach_of(face, run);
-  const double rise = rise_of(layout.level, result.low, result.high);
-  result.offset = {left_end(layout.side, result.advance.x), measure * rise};
+  if (layout.is_vertical()) {
+    const double rise = rise_of(layout.level, 0, result.advance.y);  // letters follow each other downwards
+    result.offset = {left_end(layout.side, measure * widest_of(face, run)), rise};
+  } else {
+    const double rise = rise_of(layout.level, result.low, result.high);
+    result.offset = {left_end(layout.side, result.advance.x), measure * rise};
+  }
   Vec2 at = result.offset;
   for (const RunGlyph& placed : run) {
     result.letters.push_back({placed.glyph, at + measure * placed.offset});

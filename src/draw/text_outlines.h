@@ -53,6 +53,8 @@ struct RunLayout {
   std::string direction = "ltr", language = "en", script = "Latn";  // ltr, rtl, ttb, btt; ISO codes
   TextSide side = TextSide::left;
   TextLevel level = TextLevel::first_line;  // top, center and bottom relate to the letters that occur
+
+  bool is_vertical() const { return direction == "ttb" || direction == "btt"; }
 };
 
 // Returns the outlines of one line of text, in which control characters count as letters. As in OpenSCAD 2021.01,

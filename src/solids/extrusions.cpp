@@ -21,6 +21,7 @@ using Side = std::pair<uint32_t, uint32_t>;  // from one point to the next, with
 struct Outline {
   std::vector<Vec2> points;
   std::vector<Side> sides;
+  std::set<Side> sides_of_holes;
   std::vector<Triangle> triangles;
 };
 
@@ -40,9 +41,11 @@ Outline outline_of(const Region& region) {
   Outline outline;
   for (const Ring& ring : region.rings) {
     const auto first = static_cast<uint32_t>(outline.points.size());
+    const bool is_hole = doubled_area(ring) < 0;
     for (uint32_t n = 0; n < ring.size(); ++n) {
       outline.points.push_back(ring[n]);
       outline.sides.push_back({first + n, first + (n + 1) % static_cast<uint32_t>(ring.size())});
+      if (is_hole) outline.sides_of_holes.insert(outline.sides.back());
     }
   }
   PlaneTriangles filling = kernel().triangulate(region.rings);
@@ -138,13 +141,23 @@ class Extruder {
     }
   }
 
+  // True if OpenSCAD 2021.01 cuts a wall's quadrilateral from the begin of its lower side to the end of its upper one:
+  // that diagonal is the shorter one. Where the last slice is a line, it takes the other one.
+  bool is_cut_rising(int n, const Side& side) const {
+    const auto& [i, j] = side;
+    const double rising = length(at(n + 1, j) - at(n, i)), falling = length(at(n + 1, i) - at(n, j));
+    constexpr double rounding = 1e-9;
+    const bool is_even = std::abs(rising - falling) <= rounding * (rising + falling);
+    const bool is_usual = is_even ? (by_.twist > 0) != outline_.sides_of_holes.contains(side) : rising < falling;
+    const bool ends_in_line = n + 1 == slices_ && (by_.scale.x == 0 || by_.scale.y == 0);
+    return is_usual != ends_in_line;
+  }
+
   void add_wall(int n) {
-    for (const auto& [i, j] : outline_.sides) {
-      const double rising = length(at(n + 1, j) - at(n, i)), falling = length(at(n + 1, i) - at(n, j));
-      constexpr double rounding = 1e-9;
-      const bool is_even = std::abs(rising - falling) <= rounding * (rising + falling);
+    for (const Side& side : outline_.sides) {
+      const auto& [i, j] = side;
       const uint32_t a = number(n, i), b = number(n, j), c = number(n + 1, j), d = number(n + 1, i);
-      if (is_even ? by_.twist > 0 : rising < falling) {
+      if (is_cut_rising(n, side)) {
         mesh_.triangles.push_back({a, b, c});
         mesh_.triangles.push_back({a, c, d});
       } else {

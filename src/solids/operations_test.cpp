@@ -84,6 +84,27 @@ TEST_F(Operations, FacesThatAreNotFlat) {
     }
   for (size_t n = 0; n < 6; ++n) star.faces.push_back({6 + n, 6 + (n + 1) % 6, (n + 1) % 6, n});
   EXPECT_NEAR(size_of(node(star)), 1645.4475, 1e-3);
+  // The two angles beside one diagonal are 180.4 degrees together: almost Delaunay's choice, and it stays.
+  const Polyhedron prism{{{78.1831, 62.349, 10},
+                          {97.4928, -22.2521, -5},
+                          {-97.4928, -22.2521, 5},
+                          {-78.1831, 62.349, -10},
+                          {78.1831, 62.349, 200},
+                          {97.4928, -22.2521, 200},
+                          {-97.4928, -22.2521, 200},
+                          {-78.1831, 62.349, 200}},
+                         {{0, 1, 4},
+                          {1, 2, 5},
+                          {2, 3, 6},
+                          {3, 0, 7},
+                          {5, 4, 1},
+                          {6, 5, 2},
+                          {7, 6, 3},
+                          {4, 7, 0},
+                          {4, 5, 6},
+                          {4, 6, 7},
+                          {3, 2, 1, 0}}};
+  EXPECT_NEAR(size_of(node(prism)), 3010992.164, 1);
 }
 
 TEST_F(Operations, WrongPolyhedra) {
@@ -102,7 +123,8 @@ TEST_F(Operations, WrongPolyhedra) {
       "all faces so that they are clockwise when seen from outside");
   EXPECT_EQ(message({points, {{2, 1, 0}, {1, 3, 0}, {3, 2, 0}, {2, 3, 1}}}),
             "the polyhedron is inside out, in part or as a whole; it was turned");
-  EXPECT_EQ(message({points, {{0, 1, 2, 9}}}), "Point index 9 is out of bounds (from faces[0][3])");
+  EXPECT_EQ(message({points, {{0, 1, 2, 9}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}),
+            "Point index 9 is out of bounds (from faces[0][3])");
 }
 
 // A prism with a base that crosses itself, 2 mm high.
@@ -394,6 +416,41 @@ TEST_F(Operations, SlicesOfScaledExtrusions) {
   EXPECT_SIZE(by(60, {0, 0}), 27.3672769);
   EXPECT_SIZE(by(60, {3, 3}), 361.969694);
   EXPECT_SIZE(by(400, {3, 3}), 337.619056);
+}
+
+// Where both diagonals of a wall's quadrilateral are equally long, those of holes differ from those of outlines; where
+// the last slice is a line, the longer ones count. The expected volumes are from Debian's openscad 2021.01.
+TEST_F(Operations, DiagonalsOfExtrusions) {
+  LinearExtrude twisted;
+  twisted.height = 10;
+  twisted.twist = 30;
+  twisted.slices = 1;
+  const auto frame = [](double x, double y) {
+    return difference({moved(-5, -5, 0, {square(10, 10)}), moved(x, y, 0, {square(3, 3)})});
+  };
+  EXPECT_SIZE(size_of(node(twisted, {frame(0, 0)})), 1021.02815);
+  EXPECT_SIZE(size_of(node(twisted, {frame(0, 1)})), 1028.52821);
+  EXPECT_SIZE(size_of(node(twisted, {difference({moved(-1, -1, 0, {square(10, 10)}), square(8, 8)})})), 403.92261);
+  LinearExtrude wedge;
+  wedge.height = 10;
+  wedge.scale = {1, 0};
+  const TreePtr triangle = node(Polygon{{{20, 0}, {0, 10}, {0, -10}}, {}});
+  for (const auto& [slices, volume] : {std::pair(1, 4000.0 / 3), std::pair(2, 1000.0)}) {
+    wedge.slices = slices;
+    EXPECT_NEAR(size_of(node(wedge, {triangle})), volume, 1e-6);
+  }
+  wedge.slices = 1;
+  EXPECT_SIZE(size_of(node(wedge, {node(Polygon{{{20, 3}, {20, -2}, {1, -10}, {0, 10}}, {}})})), 1446.66667);
+}
+
+// An index out of bounds is left out of a path.
+TEST_F(Operations, WrongPaths) {
+  Diagnostics messages;
+  const Pieces pieces = evaluate(node(Polygon{{{0, 0}, {10, 0}, {10, 10}}, {{0, 1, 2, 7}}}), {}, messages);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_NEAR(area_of(*pieces[0].region()), 50, 1e-9);
+  ASSERT_EQ(messages.list().size(), 1U);
+  EXPECT_EQ(messages.list()[0].message, "Point index 7 is out of bounds (from paths[0][3])");
 }
 
 // The expected volumes are from Debian's openscad 2021.01.

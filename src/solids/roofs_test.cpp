@@ -164,5 +164,25 @@ TEST_F(Roofs, OfRandomStars) {
   }
 }
 
+// Every corner of a roof is as high as it is far from the outline, also where waves of inward corners meet a far side.
+TEST_F(Roofs, OfManyInwardCorners) {
+  constexpr int waves = 20;
+  Polygon wavy;
+  for (int n = 0; n <= waves; ++n) wavy.points.push_back({static_cast<double>(n), n % 2 == 0 ? 0.0 : 0.3});
+  for (int n = waves; n >= 0; --n) wavy.points.push_back({static_cast<double>(n), n % 3 == 0 ? 8.0 : 7.7});
+  Diagnostics messages;
+  const TreePtr shape = node(wavy);
+  const Region region = *evaluated(shape)[0].region();
+  const Pieces pieces = evaluate(roof(distance_roof, {shape}, {60}), {}, messages);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_TRUE(is_closed(pieces[0].solid()->mesh()));
+  size_t tops = 0;
+  for (const Vec3& p : pieces[0].solid()->mesh().points) {
+    EXPECT_NEAR(p.z, distance_to(region.rings[0], {p.x, p.y}), 1e-2);
+    tops += p.z > 3 ? 1U : 0U;
+  }
+  EXPECT_GT(tops, 5U);
+}
+
 }  // namespace
 }  // namespace ombre::solids

@@ -6,6 +6,7 @@
 
 #include "base/text/error.h"
 #include "base/text/file_ending.h"
+#include "base/text/text.h"
 #include "formats/containers/file.h"
 #include "formats/containers/text_scanner.h"
 #include "formats/images/png.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr size_t most_heights = 4'000'000;
 
 struct Heights {
-  size_t columns = 0, rows = 0;
+  size_t columns = 0, rows = 0, missing = 0;
   std::vector<double> values;  // row by row, the first at y = 0
 
   double at(size_t column, size_t row) const { return values[row * columns + column]; }
@@ -42,6 +43,7 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
   if (heights.rows * heights.columns > most_heights)
     scanner.fail_here("the grid has more than 4 million places", "use a coarser grid");
   for (std::vector<double>& row : rows) {
+    heights.missing += heights.columns - row.size();
     row.resize(heights.columns);
     heights.values.insert(heights.values.end(), row.begin(), row.end());
   }
@@ -51,7 +53,7 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
 // Reads heights from 0 for black to 100 for white. If inverted, they are those of OpenSCAD 2021.01: 100/255 - height.
 Heights heights_of_picture(const std::string& path, const std::string& bytes, bool is_inverted) {
   const formats::PngImage image = formats::decode_png(bytes, path, most_heights);
-  Heights heights{image.width, image.height, {}};
+  Heights heights{image.width, image.height, 0, {}};
   for (uint32_t row = image.height; row-- > 0;)
     for (uint32_t column = 0; column < image.width; ++column) {
       const formats::Rgba c = image.colour(column, row);
@@ -162,6 +164,9 @@ TriangleMesh mesh_of(const Surface& surface, const SourceRange& where, Diagnosti
       messages.error(where, "surface needs at least two rows and two columns of heights");
       return {};
     }
+    if (heights.missing > 0)
+      messages.warning(where, format_count(heights.missing) + " heights are missing, since lines of '" + surface.path +
+                                  "' are shorter than the longest; they are 0");
     return HeightMesh(heights, surface.centred).make();
   } catch (const DesignError&) {
     messages.note(where, "the surface is used here");

@@ -92,19 +92,37 @@ double finite_bound(const Call& call, double bound, const char* which, double ot
   return otherwise;
 }
 
+// Returns the remainder of a number modulo the prime 2^31 - 1, as Python's rules for hashes of numbers have it: a
+// fraction m / n is m times the inverse of n. 2^31 is 1 modulo this prime, so that powers of two repeat.
+int64_t remainder_of(double value) {
+  constexpr int64_t prime = 0x7fffffff, infinite = 314159;
+  constexpr int period = 31, digits = std::numeric_limits<double>::digits;
+  if (std::isnan(value)) return 0;
+  if (std::isinf(value)) return value > 0 ? infinite : -infinite;
+  int exponent = 0;
+  const auto mantissa = static_cast<int64_t>(std::ldexp(std::frexp(std::abs(value), &exponent), digits));
+  const int shift = ((exponent - digits) % period + period) % period;
+  const int64_t remainder = ((mantissa % prime) << shift) % prime;
+  return value < 0 ? -remainder : remainder;
+}
+
+double wanted_count(const Call& call, double wanted) {
+  if (std::isfinite(wanted)) return std::trunc(std::abs(wanted));
+  call.fail("rands() cannot create an infinite number of results");
+  call.note("resetting number of results to 1");
+  return 1;
+}
+
 Value rands(const Call& call) {
   const double *from = call[0].number(), *to = call[1].number(), *wanted = call[2].number();
   if (!from || !to || !wanted || (call.size() == 4 && !call[3].number())) return {};
   constexpr double most = std::numeric_limits<double>::max() / 2;
   double low = finite_bound(call, *from, "min", -most), high = finite_bound(call, *to, "max", most);
   if (low > high) std::swap(low, high);
-  const double count = std::isfinite(*wanted) ? std::trunc(std::abs(*wanted)) : 1;
+  const double count = wanted_count(call, *wanted);
   if (count > static_cast<double>(call.meter.limits().elements)) call.meter.too_many_elements();
   std::mt19937 seeded;
-  if (call.size() == 4) {
-    const double seed = std::clamp(std::trunc(*call[3].number()), -0x1p62, 0x1p62);
-    seeded.seed(static_cast<uint32_t>(static_cast<int64_t>(std::isnan(seed) ? 0 : seed)));
-  }
+  if (call.size() == 4) seeded.seed(static_cast<uint32_t>(remainder_of(*call[3].number())));
   std::mt19937& random = call.size() == 4 ? seeded : call.random;
   ListBuilder result(call.meter);
   call.meter.spend(static_cast<uint64_t>(count));

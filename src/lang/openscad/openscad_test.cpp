@@ -102,6 +102,30 @@ TEST(Openscad, RandomNumbersAreThoseOfTheMersenneTwister) {
   EXPECT_EQ(value_of("rands(0, 1, 3, 42)"), "ECHO: [0.796543, 0.183435, 0.779691]\n");
 }
 
+// 2^31 - 1 is the prime of Python's rules for hashes of numbers; 0.5 is the inverse of 2 modulo this prime.
+TEST(Openscad, SeedsOfRandomNumbersAreRemaindersOfAPrime) {
+  EXPECT_EQ(value_of("rands(1, 2, 3, 0.5)"), value_of("rands(1, 2, 3, 1073741824)"));
+  EXPECT_EQ(value_of("rands(1, 2, 3, 2147483649)"), value_of("rands(1, 2, 3, 2)"));
+  EXPECT_EQ(value_of("rands(1, 2, 3, 0 / 0)"), value_of("rands(1, 2, 3, 0)"));
+  EXPECT_EQ(value_of("rands(1, 2, 3, 4.1)"), "ECHO: [1.96977, 1.55343, 1.99383]\n");
+  EXPECT_EQ(value_of("rands(1, 2, 3, -4.1)"), "ECHO: [1.19758, 1.92189, 1.67397]\n");
+  EXPECT_EQ(value_of("rands(1, 2, 3, 1 / 0)"), "ECHO: [1.07767, 1.99766, 1.38584]\n");
+  EXPECT_EQ(value_of("rands(1, 2, 1 / 0, 4)"),
+            "WARNING: rands() cannot create an infinite number of results in file t.scad, line 1\n"
+            "WARNING: resetting number of results to 1\nECHO: [1.90062]\n");
+}
+
+TEST(Openscad, WrongPointsAndOriginsAreNamed) {
+  const auto warned = [](const std::string& text) { return "WARNING: " + text + " in file t.scad, line 1\n"; };
+  EXPECT_EQ(run_text("polygon([[0, 0], [1, 0], [\"a\", 1]]);").lines,
+            warned("Unable to convert points[2] = [\"a\", 1] to a vec2 of numbers"));
+  EXPECT_EQ(run_text("polyhedron([[0, 0, 0], 5], [[0, 1, 1]]);").lines,
+            warned("Unable to convert points[1] = 5 to a vec3 of numbers"));
+  EXPECT_EQ(run_text("rotate_extrude(origin = [1]) square();").lines,
+            warned("rotate_extrude(..., origin=[1]) could not be converted"));
+  EXPECT_EQ(run_text("linear_extrude(2, origin = [1, 2]) square();").lines, "");
+}
+
 TEST(Openscad, AMessageIsNotRepeatedMoreThanFiveTimes) {
   std::string five;
   for (int i = 0; i < 5; ++i) five += "WARNING: Ignoring unknown variable 'x' in file t.scad, line 1\n";

@@ -49,8 +49,17 @@ TreePtr projection(ModuleCall& call) {
   return call.with_children(solids::Projection{call.flag("cut", false), whole(call.number("convexity", 0))});
 }
 
+// Warns of an `origin` that is no pair of finite numbers; it counts for files alone.
+void check_origin(const ModuleCall& call) {
+  const auto origin = numbers<2>(call["origin"]);
+  const bool is_pair = origin && std::isfinite((*origin)[0]) && std::isfinite((*origin)[1]);
+  if (call.has("origin") && !is_pair)
+    call.warn(call.name() + "(..., origin=" + call.shown("origin") + ") could not be converted");
+}
+
 // Extrudes the children, or the area in a file, which older scripts name instead of a child.
 TreePtr extruded(ModuleCall& call, solids::Operation operation) {
+  check_origin(call);
   if (!call["file"].text()) return call.with_children(std::move(operation));
   const std::string name = call.name().starts_with("dxf_") ? call.name().substr(4) : call.name();
   call.deprecate("Support for reading files in " + name +

@@ -240,9 +240,8 @@ std::string ModuleCall::text(std::string_view parameter, const std::string& othe
   return text ? text->text : otherwise;
 }
 
-std::string ModuleCall::shown(std::string_view parameter) const {
-  return value_text((*this)[parameter], true, evaluator_.meter_);
-}
+std::string ModuleCall::shown(std::string_view parameter) const { return shown_value((*this)[parameter]); }
+std::string ModuleCall::shown_value(const Value& value) const { return value_text(value, true, evaluator_.meter_); }
 
 void ModuleCall::warn(const std::string& text) const { evaluator_.warn(text, statement_.span); }
 void ModuleCall::deprecate(const std::string& text) const {

@@ -38,6 +38,7 @@ class ModuleCall {
   bool flag(std::string_view parameter, bool otherwise) const;
   std::string text(std::string_view parameter, const std::string& otherwise = "") const;
   std::string shown(std::string_view parameter) const;  // value as messages show it
+  std::string shown_value(const Value& value) const;
   void warn(const std::string& text) const;
   void deprecate(const std::string& text) const;
   void deprecate_here(const std::string& text) const;

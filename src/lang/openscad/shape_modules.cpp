@@ -74,7 +74,9 @@ std::vector<Vec3> points_of(const ModuleCall& call, const std::string& kind) {
   if (!call["points"].list()) return points;
   for (const Value& item : call["points"].list()->items) {
     const auto point = vector3(item, 0);
-    if (!point) call.warn("Unable to convert " + call.name() + "(points=...) element to a " + kind + " of numbers");
+    if (!point)
+      call.warn("Unable to convert points[" + std::to_string(points.size()) + "] = " + call.shown_value(item) +
+                " to a " + kind + " of numbers");
     points.push_back(point.value_or(Vec3{}));
   }
   return points;

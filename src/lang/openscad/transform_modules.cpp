@@ -155,7 +155,7 @@ TreePtr color(ModuleCall& call) {
     if (const auto colour = colour_of(name->text)) {
       result.colour = *colour;
     } else {
-      call.warn("Unable to parse color \"" + name->text + '"');
+      call.warn("Unable to parse color \"" + to_lower(name->text) + '"');
       call.note("Please see https://en.wikipedia.org/wiki/Web_colors");
     }
   }
