@@ -516,6 +516,23 @@ TEST_F(Operations, Texts) {
 }
 
 // The box of a text's area is that which measures_of() gives.
+// A column of letters is aligned by the widest letter and by the sum of the advances.
+TEST_F(Operations, VerticalTexts) {
+  if (!draw::can_outline_text() || !draw::search_font("DejaVu Sans", false, false)) GTEST_SKIP();
+  const auto box = [](const std::string& across, const std::string& up) {
+    Text text{"HI", 10, "DejaVu Sans", across, up};
+    text.direction = "ttb";
+    text.spacing = 2;
+    return bounds_of(*evaluated(node(text)).at(0).region());
+  };
+  const Box plain = box("left", "bottom"), middle = box("center", "center"), moved = box("right", "top");
+  const double width = 1000.0 / 1024 * (plain.hi.x - plain.lo.x);
+  EXPECT_NEAR(moved.lo.x - plain.lo.x, -width, 1e-2);
+  EXPECT_NEAR(middle.lo.x - plain.lo.x, -width / 2, 1e-2);
+  EXPECT_GT(moved.lo.y, plain.lo.y);
+  EXPECT_NEAR(moved.lo.y - plain.lo.y, 2 * (middle.lo.y - plain.lo.y), 1e-6);
+}
+
 TEST_F(Operations, MeasuresOfTexts) {
   if (!draw::can_outline_text() || !draw::search_font("DejaVu Sans", false, false)) GTEST_SKIP();
   Diagnostics messages;
