@@ -1,16 +1,14 @@
 // Roofs over regions, from their straight skeletons.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_with_holes_2.h>
-#include <CGAL/Straight_skeleton_builder_2.h>
+#include <CGAL/create_straight_skeleton_from_polygon_with_holes_2.h>
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <numeric>
 
 #include "base/text/error.h"
 #include "solids/cgal/cgal_body.h"
-#include "solids/cgal/roof_reach.h"
 
 namespace ombre::solids {
 namespace {
@@ -50,87 +48,6 @@ std::vector<Area> areas_of(std::span<const Ring> rings) {
   return areas;
 }
 
-using Skeleton = CGAL::Straight_skeleton_2<Quick>;
-using UsualTraits = CGAL::Straight_skeleton_builder_traits_2<Quick>;
-
-// Numbers of the sides that a corner's wave can meet. CGAL's builder asks for them in this order: first it announces a
-// corner, then it asks about each side.
-class SidesInReach {
- public:
-  template <class Sides>
-  void enter(Vec2 before, Vec2 corner, Vec2 after, Sides begin, Sides end) {
-    if (sides_.empty()) {
-      for (auto side = begin; side != end; ++side) {
-        sides_.push_back({at((*side)->opposite()->vertex()), at((*side)->vertex())});
-        numbers_.push_back(static_cast<size_t>((*side)->id()));
-      }
-      is_near_.resize(*std::max_element(numbers_.begin(), numbers_.end()) + 1);
-    }
-    const Vec2 in = corner - before, out = after - corner;
-    const Vec2 along = (1 / length(in)) * in + (1 / length(out)) * out;
-    const CornerPath path{corner, (1 / length(along)) * Vec2{-along.y, along.x}};
-    const double height = path.most_height(sides_);
-    for (size_t n = 0; n < sides_.size(); ++n) is_near_[numbers_[n]] = path.can_meet(sides_[n], height);
-    is_known_ = true;
-  }
-  void forget() { is_known_ = false; }
-  bool holds(size_t side) const { return !is_known_ || is_near_[side]; }
-
-  template <class Vertex>
-  static Vec2 at(const Vertex& vertex) {
-    return {vertex->point().x(), vertex->point().y()};
-  }
-
- private:
-  std::vector<RoofSide> sides_;
-  std::vector<size_t> numbers_;
-  std::vector<bool> is_near_;
-  bool is_known_ = false;
-};
-
-// CGAL compares each inward corner with all sides, mostly in exact arithmetic. These traits answer for sides that are
-// too far away in double precision.
-class NearTraits : public UsualTraits {
- public:
-  class Is_edge_facing_ss_node_2 {
-   public:
-    using result_type = bool;
-    Is_edge_facing_ss_node_2(const UsualTraits& usual, const SidesInReach& sides)
-        : usual_(usual.get(static_cast<const UsualTraits::Is_edge_facing_ss_node_2*>(nullptr))), sides_(sides) {}
-    template <class Node, class Side>
-    bool operator()(const Node& node, const Side& side) const {
-      return sides_.holds(side.mID) && usual_(node, side);
-    }
-
-   private:
-    UsualTraits::Is_edge_facing_ss_node_2 usual_;
-    const SidesInReach& sides_;
-  };
-
-  using UsualTraits::get;
-  Is_edge_facing_ss_node_2 get(const Is_edge_facing_ss_node_2*) const { return {*this, *sides_}; }
-
-  template <class Vertex, class Sides>
-  void ComputeFilteringBound(Vertex before, Vertex corner, Vertex after, Sides begin, Sides end) const {
-    mApproximate_traits.mFilteringBound = boost::none;
-    if (corner->is_contour() && before->is_contour() && after->is_contour())
-      sides_->enter(SidesInReach::at(before), SidesInReach::at(corner), SidesInReach::at(after), begin, end);
-    else
-      sides_->forget();
-  }
-
- private:
-  std::shared_ptr<SidesInReach> sides_ = std::make_shared<SidesInReach>();
-};
-
-template <class Traits>
-boost::shared_ptr<Skeleton> skeleton_of(const Area& area) {
-  CGAL::Straight_skeleton_builder_2<Traits, Skeleton> builder;
-  builder.enter_contour(area.outer_boundary().vertices_begin(), area.outer_boundary().vertices_end());
-  for (const Outline& hole : area.holes()) builder.enter_contour(hole.vertices_begin(), hole.vertices_end());
-  return builder.construct_skeleton();
-}
-
 // Collects the faces above areas. Ends of short edges count as one point, so that faces that meet in a point do so
 // although the point is computed for each of them.
 class RoofMaker {
@@ -142,11 +59,10 @@ class RoofMaker {
         roof_.points.push_back({p.x, p.y, 0});
         extent_ = std::max({extent_, std::abs(p.x), std::abs(p.y)});
       }
-    is_blunt_ = largest_inward_turn(rings) <= most_inward_turn;
   }
 
   void add(const Area& area) {
-    const auto skeleton = is_blunt_ ? skeleton_of<NearTraits>(area) : skeleton_of<UsualTraits>(area);
+    const auto skeleton = CGAL::create_interior_straight_skeleton_2(area);
     if (!skeleton) throw Error(Code::surface_crosses, "CGAL finds no straight skeleton of its outline");
     number_nodes(*skeleton);
     for (auto face = skeleton->faces_begin(); face != skeleton->faces_end(); ++face) {
@@ -162,6 +78,7 @@ class RoofMaker {
   TriangleMesh take() { return std::move(roof_); }
 
  private:
+  template <class Skeleton>
   void number_nodes(const Skeleton& skeleton) {
     node_.clear();
     for (auto vertex = skeleton.vertices_begin(); vertex != skeleton.vertices_end(); ++vertex) {
@@ -212,7 +129,6 @@ class RoofMaker {
   std::map<std::pair<double, double>, uint32_t> number_;
   std::map<int, uint32_t> node_;  // numbers of points by the identity of vertices of a skeleton
   double extent_ = 0;
-  bool is_blunt_ = false;
 };
 
 }  // namespace
