@@ -21,6 +21,8 @@ import sys
 import tempfile
 import warnings
 
+import other_libraries
+
 PACKAGES = ("vtk", "meshio", "h5py", "numpy")
 FLAT = set(range(0, 10)) | {21, 22, 23, 28, 30, 34, 35, 36, 68, 69, 70}
 GRADIENT = (2.0, 3.0, 5.0)
@@ -461,22 +463,13 @@ WORK = (("VTK's .vtu, .pvtu and .pvd", ("vtk", "numpy"), with_vtk_xml), ("VTK's 
         ("VTK's .vtkhdf", ("vtk", "numpy"), with_vtkhdf), ("meshio", ("vtk", "numpy", "meshio", "h5py"), with_meshio))
 
 
-def install(folder):
-    """Runs this program again in a virtual environment that has the libraries."""
-    python = pathlib.Path(folder).resolve() / "bin" / "python"
-    if not python.exists():
-        subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "--quiet", "install", *PACKAGES], check=True)
-    os.execv(python, [str(python), "-B", *(word for word in sys.argv if word not in ("--install", folder))])
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("ombre", type=pathlib.Path, help="the program")
-    parser.add_argument("--install", metavar="FOLDER", help="a virtual environment for VTK and meshio")
+    other_libraries.add_option(parser)
     given = parser.parse_args()
     if given.install:
-        install(given.install)
+        other_libraries.use(given.install, PACKAGES)
     warnings.simplefilter("ignore")
     different = 0
     for name, needed, work in WORK:

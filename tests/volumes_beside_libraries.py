@@ -2,10 +2,12 @@
 """Volumes beside the libraries that other programs use: their own test files, and files that they write.
 
 Each file is the same (shape, spacing and all numbers), refused with a message, or different, which is never right. Libraries
-that are not installed are named and passed over.
+that are not installed are named and passed over; with --install FOLDER they are put into a virtual environment there, by
+pip.
 
-    PYTHONPATH=build/release/python python3 tests/volumes_beside_libraries.py
+    PYTHONPATH=build/release/python python3 tests/volumes_beside_libraries.py [--install FOLDER]
 """
+import argparse
 import collections
 import importlib
 import itertools
@@ -15,11 +17,13 @@ import sys
 import tempfile
 import warnings
 
-import numpy as np
+import other_libraries
 
-import ombre
-
+PACKAGES = ("numpy", "nibabel", "pydicom[basic]", "pynrrd", "tifffile", "SimpleITK")
 MOST_VOXELS = 2_000_000
+
+
+np = ombre = None  # imported once the libraries are there
 
 
 def quoted(path):
@@ -226,7 +230,14 @@ LIBRARIES = (("nibabel", with_nibabel), ("pydicom", with_pydicom), ("nrrd", with
 
 
 def main():
+    global np, ombre
+    parser = argparse.ArgumentParser()
+    other_libraries.add_option(parser)
+    given = parser.parse_args()
+    if given.install:
+        other_libraries.use(given.install, PACKAGES)
     warnings.simplefilter("ignore")
+    np, ombre = importlib.import_module("numpy"), importlib.import_module("ombre")
     different = 0
     for name, work in LIBRARIES:
         try:
