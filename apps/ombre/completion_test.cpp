@@ -36,7 +36,7 @@ using Words = std::vector<std::string>;
 
 TEST(Completion, OfCommandsAndOptionsByTheirBeginning) {
   EXPECT_EQ(words_for({"sl"}), Words{"slice"});
-  EXPECT_EQ(words_for({"p"}), (Words{"printers", "probe"}));
+  EXPECT_EQ(words_for({"pr"}), (Words{"printers", "probe"}));
   EXPECT_EQ(words_for({"--ver"}), Words{"--version"});
   EXPECT_EQ(words_for({"slice", "part.vcad", "--dry"}), Words{"--dry-run"});
   EXPECT_EQ(words_for({"slice", "--me"}), Words{"--memory"});

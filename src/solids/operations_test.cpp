@@ -443,6 +443,18 @@ TEST_F(Operations, DiagonalsOfExtrusions) {
   EXPECT_SIZE(size_of(node(wedge, {node(Polygon{{{20, 3}, {20, -2}, {1, -10}, {0, 10}}, {}})})), 1446.66667);
 }
 
+// The walls inside and outside meet in one point: a pyramid of 4 less one of 1.
+TEST_F(Operations, FramesThatNarrowToAPointAreCombined) {
+  LinearExtrude narrowing;
+  narrowing.height = 3;
+  narrowing.scale = {0, 0};
+  const TreePtr frame =
+      node(narrowing, {difference({moved(-1, -1, 0, {square(2, 2)}), moved(-0.5, -0.5, 0, {square(1, 1)})})});
+  EXPECT_NEAR(size_of(frame), 3, 1e-9);
+  EXPECT_NEAR(size_of(unite({frame, moved(-0.25, -0.25, -1, {cube(0.5, 0.5, 1.5)})})), 3.375, 1e-9);
+  EXPECT_NEAR(size_of(difference({frame, moved(0, -2, -1, {cube(4, 4, 5)})})), 1.5, 1e-9);
+}
+
 // An index out of bounds is left out of a path.
 TEST_F(Operations, WrongPaths) {
   Diagnostics messages;

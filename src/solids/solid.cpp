@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text/error.h"
 #include "solids/kernel.h"
 
 namespace ombre::solids {
@@ -119,11 +120,25 @@ const TriangleMesh& Solid::mesh() const {
   return *state_->mesh;
 }
 
+namespace {
+
+// A surface without a flaw may still touch itself, such as that of a frame that narrows to a point.
+BodyPtr body_of(const TriangleMesh& mesh, Flaw flaw) {
+  if (flaw == Flaw::crosses) return kernel().wound(mesh);
+  try {
+    std::string remark;
+    return kernel().body(mesh, true, remark);
+  } catch (const Error& error) {
+    if (error.code() != Code::surface_crosses) throw;
+    return kernel().wound(mesh);
+  }
+}
+
+}  // namespace
+
 const BodyPtr& Solid::body() const {
   const std::lock_guard lock(state_->mutex);
-  std::string remark;
-  if (!state_->body && state_->flaw == Flaw::crosses) state_->body = kernel().wound(*state_->mesh);
-  if (!state_->body) state_->body = kernel().body(*state_->mesh, true, remark);
+  if (!state_->body) state_->body = body_of(*state_->mesh, state_->flaw);
   return state_->body;
 }
 

@@ -70,7 +70,7 @@ void add_to_set(const Keyword& keyword, const DeckLine& line, std::map<std::stri
 }  // namespace
 
 std::span<const uint64_t> DeckPart::nodes_of(const Element& element) const {
-  return std::span(element_nodes_).subspan(element.first, node_count(element.kind));
+  return std::span(element_nodes_).subspan(element.first, element.node_count());
 }
 
 uint32_t DeckPart::place_of(const Element& element, uint64_t node) const {
@@ -79,6 +79,11 @@ uint32_t DeckPart::place_of(const Element& element, uint64_t node) const {
     element.line.fail("element " + std::to_string(element.number) + " names node " + std::to_string(node) +
                       ", which is not there");
   return found->second;
+}
+
+DeckPart::Set DeckPart::element_set(std::string_view name) const {
+  const auto found = element_sets_.find(name);
+  return found == element_sets_.end() ? Set() : sorted(found->second);
 }
 
 std::vector<ResultSet> DeckPart::sets() const {
@@ -106,10 +111,10 @@ void DeckPart::add_node(const DeckLine& line, uint64_t number, Vec3 at, const st
 }
 
 void DeckPart::add_element(const DeckLine& line, uint64_t number, ElementKind kind, std::span<const uint64_t> nodes,
-                           const std::string& set) {
+                           const std::string& set, bool is_shell) {
   if (!element_places_.try_emplace(number, static_cast<uint32_t>(elements_.size())).second)
     line.fail("element " + std::to_string(number) + " comes twice");
-  elements_.push_back({number, element_nodes_.size(), kind, line});
+  elements_.push_back({number, element_nodes_.size(), kind, line, is_shell});
   element_nodes_.insert(element_nodes_.end(), nodes.begin(), nodes.end());
   if (!set.empty()) element_sets_[set].push_back(number);
 }
@@ -217,10 +222,10 @@ void DeckPart::copy_nodes(const Keyword& ncopy, const Affine& move) {
 void DeckPart::copy_elements(const Keyword& elcopy) {
   refuse_parameters(elcopy, {"reflect"});
   const std::string old_set = elcopy.name_of("old set"), set = elcopy.name_of("new set");
-  const auto found = element_sets_.find(old_set);
-  if (found == element_sets_.end()) elcopy.line.fail("there is no set of elements " + formats::quoted(old_set));
-  count_generated(elcopy.line, static_cast<int64_t>(found->second.size()));
-  for (const uint64_t number : sorted(found->second))
+  const Set elements = element_set(old_set);
+  if (elements.empty()) elcopy.line.fail("there is no set of elements " + formats::quoted(old_set));
+  count_generated(elcopy.line, static_cast<int64_t>(elements.size()));
+  for (const uint64_t number : elements)
     copy_element(elcopy.line, element_at(elcopy.line, number), whole_parameter(elcopy, "element shift", 0),
                  whole_parameter(elcopy, "shift nodes", 0), set);
 }
@@ -231,7 +236,7 @@ void DeckPart::copy_element(const DeckLine& line, const Element& master, int64_t
   for (const uint64_t node : nodes_of(master))
     nodes.push_back(deck_number(line, static_cast<double>(static_cast<int64_t>(node) + nodes_by)));
   const auto number = deck_number(line, static_cast<double>(static_cast<int64_t>(master.number) + by));
-  add_element(line, number, master.kind, nodes, set);
+  add_element(line, number, master.kind, nodes, set, master.is_shell);
 }
 
 DeckPart::Set DeckPart::node_set(const DeckLine& line, std::string_view name) const {

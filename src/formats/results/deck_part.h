@@ -13,6 +13,13 @@
 
 namespace ombre::formats {
 
+// The thickness of the shells of a set.
+struct ShellSection {
+  std::string set;          // in lower case
+  double thickness_mm = 0;  // of all layers
+  double offset = 0;        // from the middle of the shells to their nodes, along the normal, in thicknesses
+};
+
 class DeckPart {
  public:
   using Set = std::vector<uint64_t>;
@@ -26,7 +33,15 @@ class DeckPart {
     size_t first = 0;  // of its nodes
     ElementKind kind = ElementKind::brick8;
     DeckLine line;
+    bool is_shell = false;  // its kind is the solid that it becomes, which has more nodes
+
+    size_t node_count() const { return is_shell ? shell_node_count(kind) : formats::node_count(kind); }
   };
+
+  // Returns the number of nodes of a shell that becomes a solid element.
+  static size_t shell_node_count(ElementKind kind) {
+    return kind == ElementKind::brick20 ? 8 : formats::node_count(kind) / 2;
+  }
 
   // Both stand in the order in which they were added.
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -37,6 +52,11 @@ class DeckPart {
   uint32_t place_of(const Element& element, uint64_t node) const;
   bool has_element(uint64_t number) const { return element_places_.contains(number); }
 
+  const std::vector<ShellSection>& shell_sections() const { return shell_sections_; }
+  ShellSection& add_shell_section(ShellSection section) { return shell_sections_.emplace_back(std::move(section)); }
+  // Returns the members of a set in their order, each once; none if there is no such set.
+  Set element_set(std::string_view name) const;
+
   // Returns the sets with how many members they have, in the order of their names.
   std::vector<ResultSet> sets() const;
   // Returns how many members the set of that name has, or 1 for the number of a node or element.
@@ -46,7 +66,7 @@ class DeckPart {
   // may be empty.
   void add_node(const DeckLine& line, uint64_t number, Vec3 at, const std::string& set);
   void add_element(const DeckLine& line, uint64_t number, ElementKind kind, std::span<const uint64_t> nodes,
-                   const std::string& set);
+                   const std::string& set, bool is_shell = false);
 
   // Each takes a line of data below the keyword.
   void add_to_node_set(const Keyword& nset, const DeckLine& line);
@@ -74,6 +94,7 @@ class DeckPart {
   std::vector<uint64_t> element_nodes_;
   std::unordered_map<uint64_t, uint32_t> node_places_, element_places_;
   Sets node_sets_, element_sets_;
+  std::vector<ShellSection> shell_sections_;
   int64_t generated_ = 0;
   std::set<std::string> unsorted_sets_;
 };

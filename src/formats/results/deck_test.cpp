@@ -89,7 +89,7 @@ TEST(Decks, NodesMayComeTwiceAtOnePlace) {
 TEST(Decks, SolidFamiliesAreBricks) {
   for (const char* type : {"C3D8R", "DC3D8", "SC8R", "COH3D8", "GK3D8", "c3d8i"})
     expect_cube(replaced(cube, "C3D8", type));
-  for (const char* type : {"S4R", "SFM3D8", "CONN3D2"})
+  for (const char* type : {"M3D8", "SFM3D8", "CONN3D2"})
     expect_refused(replaced(cube, "C3D8", type), "(" + std::string(type) + ") are left out");
   expect_refused(replaced(cube, "C3D8", "C3D27"), "elements of the type \"c3d27\" are not read");
 }
@@ -205,6 +205,82 @@ TEST(Decks, KeywordsThatChangeTheMeshAreRefused) {
   EXPECT_EQ(removed.elements(), 1U);
   EXPECT_NE(removed.said.find("removes elements in a step"), std::string::npos) << removed.said;
   expect_cube(cube + "*TRANSFORM, NSET=all, TYPE=C\n0, 0, 0, 0, 0, 1\n");
+}
+
+const std::string plate = "*NODE\n1, 0, 0, 0\n2, 10, 0, 0\n3, 10, 10, 0\n4, 0, 10, 0\n";
+const std::string plate_shell = "*ELEMENT, TYPE=S4R, ELSET=skin\n1, 1, 2, 3, 4\n";
+
+// The shell is 10 mm by 10 mm large.
+TEST(Decks, ShellsHaveTheThicknessOfTheirSection) {
+  const auto box = [](const std::string& section) {
+    const Deck deck(plate + plate_shell + section);
+    EXPECT_EQ(deck.elements(), 1U) << deck.said;
+    return deck.elements() == 1 ? deck.box_of(0) : Box();
+  };
+  expect_box(box("*SHELL SECTION, ELSET=skin, MATERIAL=a\n2., 5\n"), {0, 0, -1}, {10, 10, 1});
+  expect_box(box("*Shell Section, elset=SKIN, material=a, OFFSET=SPOS\n2\n"), {0, 0, -2}, {10, 10, 0});
+  expect_box(box("*SHELL SECTION, ELSET=skin, OFFSET=-0.5\n2\n"), {0, 0, 0}, {10, 10, 2});
+  expect_box(box("*SHELL SECTION, ELSET=skin, COMPOSITE\n1, 3, a, 0\n0.5, 3, b, 90\n"), {0, 0, -0.75}, {10, 10, 0.75});
+  expect_box(box("*SHELL GENERAL SECTION, ELSET=skin, MATERIAL=a\n2\n"), {0, 0, -1}, {10, 10, 1});
+  const std::string section = "*SHELL SECTION, ELSET=skin\n";
+  expect_refused(plate + plate_shell + section + "0\n", "expected the thickness of the shells, above 0");
+  expect_refused(plate + plate_shell + "*SHELL SECTION, ELSET=skin, NODAL THICKNESS\n", "a thickness that varies");
+  expect_refused(plate + plate_shell + section + "1\n*NORMAL\n1, 1, 0, 0, 1\n", "the normals of shells are not read");
+  const Deck thin(cube + "*ELEMENT, TYPE=S4\n2, 1, 2, 3, 4\n");
+  EXPECT_EQ(thin.elements(), 1U);
+  EXPECT_NE(thin.said.find("1 shells without a thickness"), std::string::npos) << thin.said;
+}
+
+TEST(Decks, ShellsHaveTheValuesOfTheirNodes) {
+  const Deck warm(plate + plate_shell + "*SHELL SECTION, ELSET=skin\n2\n", {},
+                  ResultsFile{"t.csv", "node, t\n1, 10\n2, 20\n3, 30\n4, 40\n"});
+  ASSERT_EQ(warm.elements(), 1U) << warm.said;
+  const std::vector<double>& values = warm.results->fields.at(0).values;
+  for (size_t n = 0; n < 8; ++n) EXPECT_EQ(values[warm.results->nodes[n]], 10.0 * static_cast<double>(n % 4 + 1));
+}
+
+TEST(Decks, ShellsOfEveryKindAreSolids) {
+  const std::string section = "*SHELL SECTION, ELSET=all\n2\n";
+  const Deck triangle(plate + "*ELEMENT, TYPE=S3, ELSET=all\n1, 1, 2, 3\n" + section);
+  ASSERT_EQ(triangle.elements(), 1U) << triangle.said;
+  EXPECT_EQ(triangle.results->kinds[0], ElementKind::wedge6);
+  expect_box(triangle.box_of(0), {0, 0, -1}, {10, 10, 1});
+  const Deck curved(plate + "5, 5, 0, 0\n6, 10, 5, 0\n7, 5, 10, 0\n8, 0, 5, 0\n*ELEMENT, TYPE=S8R, ELSET=all\n" +
+                    "1, 1, 2, 3, 4, 5, 6, 7, 8\n" + section);
+  ASSERT_EQ(curved.elements(), 1U) << curved.said;
+  ASSERT_EQ(curved.results->kinds[0], ElementKind::brick20);
+  expect_box(curved.box_of(0), {0, 0, -1}, {10, 10, 1});
+  const Vec3 twelfth = curved.results->points[curved.results->nodes[11]];  // between the first and fourth corner below
+  EXPECT_NEAR(length(twelfth - Vec3{0, 5, -1}), 0, 1e-12);
+  const Vec3 seventeenth = curved.results->points[curved.results->nodes[16]];  // between the first and fifth corner
+  EXPECT_NEAR(length(seventeenth - Vec3{0, 0, 0}), 0, 1e-12);
+}
+
+// Shells at a right angle keep their normals; those of a tube of 36 plates share radial ones.
+TEST(Decks, ShellsThatMeetNearlyFlatShareTheirNormals) {
+  const Deck corner(plate + "5, 10, 0, 10\n6, 10, 10, 10\n" + plate_shell +
+                    "2, 2, 5, 6, 3\n*SHELL SECTION, ELSET=skin\n2\n");
+  ASSERT_EQ(corner.elements(), 2U) << corner.said;
+  expect_box(corner.box_of(0), {0, 0, -1}, {10, 10, 1});
+  expect_box(corner.box_of(1), {9, 0, 0}, {11, 10, 10});
+
+  constexpr int count = 36;
+  std::string nodes = "*NODE, SYSTEM=C\n", shells = "*ELEMENT, TYPE=S4, ELSET=tube\n";
+  for (int n = 0; n < count; ++n) {
+    for (const int level : {0, 1})
+      nodes += std::to_string(2 * n + level + 1) + ", 20, " + std::to_string(10 * n) + ", " +
+               std::to_string(30 * level) + "\n";
+    const int a = 2 * n + 1, b = 2 * ((n + 1) % count) + 1;
+    shells += std::to_string(n + 1) + ", " + std::to_string(a) + ", " + std::to_string(b) + ", " +
+              std::to_string(b + 1) + ", " + std::to_string(a + 1) + "\n";
+  }
+  const Deck tube(nodes + shells + "*SHELL SECTION, ELSET=tube\n3\n");
+  ASSERT_EQ(tube.elements(), 36U) << tube.said;
+  for (const uint32_t node : tube.results->nodes) {
+    const Vec3 p = tube.results->points[node];
+    const double radius = std::hypot(p.x, p.y);
+    EXPECT_NEAR(std::abs(radius - 20), 1.5, 1e-9);
+  }
 }
 
 std::string sets_of(const Deck& deck) {

@@ -9,6 +9,7 @@
 #include "base/text/text.h"
 #include "formats/results/deck_part.h"
 #include "formats/results/deck_sets.h"
+#include "formats/results/deck_shells.h"
 #include "formats/results/results_readers.h"
 
 namespace ombre::formats {
@@ -89,6 +90,9 @@ class InpReader : public DeckListener {
     if (keyword.name == "*node") system_here_ = system_letter();
     if (keyword.name == "*element") begin_elements();
     if (keyword.name == "*system") part().system = Affine();
+    if (keyword.name == "*normal") normals_ = keyword.line;
+    section_ = nullptr;
+    if (keyword.name == "*shell section" || keyword.name == "*shell general section") begin_section();
     if (keyword.name == "*elcopy") mesh().copy_elements(keyword);
     if (keyword.name == "*model change" && keyword.has("remove")) ++removed_;
   }
@@ -98,6 +102,8 @@ class InpReader : public DeckListener {
     const std::string& name = keyword_.name;
     if (name == "*node")
       add_node(line);
+    else if (name == "*shell section" || name == "*shell general section")
+      add_thickness(line);
     else if (name == "*element")
       add_element_numbers(line);
     else if (name == "*instance")
@@ -175,11 +181,39 @@ class InpReader : public DeckListener {
     const std::string type = keyword_.name_of("type");
     if (type.empty()) keyword_.line.fail("expected the type of the elements", "write for example TYPE=C3D8");
     const auto nodes = solid_nodes(type);
-    kind_ = nodes ? kind_of_nodes(*nodes) : std::nullopt;
+    is_shell_ = !nodes && thick_shell_kind(type);
+    kind_ = nodes ? kind_of_nodes(*nodes) : thick_shell_kind(type);
     if (nodes && !kind_)
       keyword_.line.fail("elements of the type " + formats::quoted(type) + " are not read",
                          "read are C3D4, C3D10, C3D8, C3D20, C3D6 and C3D5");
-    if (!nodes) left_out_.insert(keyword_.value("type"));
+    if (!kind_) left_out_.insert(keyword_.value("type"));
+  }
+
+  // Begins a section of shells, whose lines of data give the thickness. Without a material a general section has
+  // stiffnesses in their place.
+  void begin_section() {
+    if (keyword_.has("nodal thickness") || keyword_.has("shell thickness"))
+      keyword_.line.fail("shells with a thickness that varies are not read", "save the mesh of solids that they make");
+    if (keyword_.name == "*shell general section" && !keyword_.has("material") && !keyword_.has("composite")) return;
+    section_ = &mesh().add_shell_section({keyword_.name_of("elset"), 0, offset_of_section()});
+  }
+
+  double offset_of_section() const {
+    if (!keyword_.has("offset")) return 0;
+    const std::string offset = keyword_.name_of("offset");
+    if (offset == "spos" || offset == "sneg") return offset == "spos" ? 0.5 : -0.5;
+    const auto number = parse_number(offset);
+    if (!number) keyword_.line.fail("expected OFFSET=SPOS, SNEG or a number, found " + formats::quoted(offset));
+    return *number;
+  }
+
+  // The first line of a section has its thickness, each line of a composite one that of a layer.
+  void add_thickness(const DeckLine& line) {
+    if (!section_ || (data_lines_ > 1 && !keyword_.has("composite"))) return;
+    const auto fields = line.fields();
+    const auto thickness = fields.empty() ? std::nullopt : parse_number(fields[0]);
+    if (!thickness || !(*thickness > 0)) line.fail("expected the thickness of the shells, above 0");
+    section_->thickness_mm += *thickness;
   }
 
   void add_node(const DeckLine& line) {
@@ -205,17 +239,20 @@ class InpReader : public DeckListener {
     }
     if (element_.empty()) element_line_ = line;
     for (const double number : line.numbers()) element_.push_back(deck_number(line, number));
-    if (element_.size() > node_count(*kind_)) finish_element();
+    if (element_.size() > nodes_of_element()) finish_element();
   }
 
   void finish_element() {
     if (element_.empty()) return;
-    if (element_.size() != node_count(*kind_) + 1)
+    if (element_.size() != nodes_of_element() + 1)
       element_line_.fail("element " + std::to_string(element_[0]) + " has " + std::to_string(element_.size() - 1) +
-                         " nodes; its type has " + std::to_string(node_count(*kind_)));
-    mesh().add_element(element_line_, element_[0], *kind_, std::span(element_).subspan(1), keyword_.name_of("elset"));
+                         " nodes; its type has " + std::to_string(nodes_of_element()));
+    mesh().add_element(element_line_, element_[0], *kind_, std::span(element_).subspan(1), keyword_.name_of("elset"),
+                       is_shell_);
     element_.clear();
   }
+
+  size_t nodes_of_element() const { return is_shell_ ? DeckPart::shell_node_count(*kind_) : node_count(*kind_); }
 
   // Masters that are no solids have been left out, and so are the elements that they generate.
   void generate_elements(const DeckLine& line) {
@@ -300,11 +337,29 @@ class InpReader : public DeckListener {
       result_.results.points.push_back(move(node.at));
     }
     for (const DeckPart::Element& element : mesh.elements()) {
+      if (element.is_shell) continue;
       std::array<uint32_t, 20> places{};
       size_t n = 0;
       for (const uint64_t node : mesh.nodes_of(element)) places[n++] = first + mesh.place_of(element, node);
       result_.element_places.try_emplace(element.number, static_cast<uint32_t>(result_.results.kinds.size()));
       result_.results.add_element(element.kind, places.data());
+    }
+    add_shells(ThickShells(mesh), move);
+  }
+
+  void add_shells(const ThickShells& shells, const Affine& move) {
+    thin_ += shells.thin();
+    if (shells.solids().empty()) return;
+    if (normals_) normals_->fail("the normals of shells are not read", "save the mesh of solids that they make");
+    const auto first = static_cast<uint32_t>(result_.results.points.size());
+    for (size_t n = 0; n < shells.points().size(); ++n) {
+      result_.copies.emplace_back(first + n, result_.node_places.at(shells.nodes()[n]));
+      result_.results.points.push_back(move(shells.points()[n]));
+    }
+    for (ThickShells::Solid solid : shells.solids()) {
+      for (uint32_t& point : solid.points) point += first;
+      result_.element_places.try_emplace(solid.shell->number, static_cast<uint32_t>(result_.results.kinds.size()));
+      result_.results.add_element(solid.shell->kind, solid.points.data());
     }
   }
 
@@ -314,6 +369,7 @@ class InpReader : public DeckListener {
     };
     leave(flat_, "lines of elements that are no solids (" +
                      join(std::vector<std::string>(left_out_.begin(), left_out_.end()), ", ") + ")");
+    leave(thin_, "shells without a thickness (*SHELL SECTION)");
     leave(unused_parts_, "parts of which the assembly has no instance");
     if (removed_ > 0)
       diagnostics_.warning({make_source(name_, ""), 0, 0}, "*model change removes elements in a step; they are read");
@@ -329,10 +385,13 @@ class InpReader : public DeckListener {
   std::vector<DeckInstance> instances_;
   bool in_instance_ = false;
   char system_here_ = 'r';
-  std::optional<ElementKind> kind_;  // null: no solid
+  std::optional<ElementKind> kind_;  // null: neither a solid nor a shell
+  bool is_shell_ = false;
+  ShellSection* section_ = nullptr;  // which the lines of data belong to
+  std::optional<DeckLine> normals_;  // the line of *NORMAL
   std::vector<uint64_t> element_;    // number of the element, followed by those of its nodes
   DeckLine element_line_;
-  uint64_t flat_ = 0, unused_parts_ = 0, removed_ = 0;
+  uint64_t flat_ = 0, thin_ = 0, unused_parts_ = 0, removed_ = 0;
   std::set<std::string> left_out_;  // types of elements
   DeckSets sets_;
   NumberedResults result_;

@@ -143,7 +143,7 @@ std::span<const ResultFormat> result_formats() {
         true,
         nullptr,
         "keywords that change the mesh and are not known",
-        "elements that are not solids; steps, loads and constraints"},
+        "elements that are neither solids nor shells with a thickness; steps, loads and constraints"},
        true,
        is_deck,
        read_deck,

@@ -211,6 +211,11 @@ void add_csv_values(const std::string& name, std::string_view bytes, NumberedRes
     places.push_back(found->second);
   }
   add_fields(table, 1, places, is_given.size(), is_of_elements, mesh.results);
+  if (is_of_elements) return;
+  for (ResultField& field : mesh.results.fields)
+    for (const auto& [to, from] : mesh.copies)
+      std::copy_n(field.values.begin() + static_cast<ptrdiff_t>(from * field.components), field.components,
+                  field.values.begin() + static_cast<ptrdiff_t>(to * field.components));
 }
 
 namespace {

@@ -32,7 +32,8 @@ Results read_frd(const std::string& name, std::string_view bytes, uint64_t step,
 struct NumberedResults {
   Results results;
   std::unordered_map<uint64_t, uint32_t> node_places, element_places;
-  bool is_of_several_parts = false;  // numbers may stand for several nodes and elements
+  bool is_of_several_parts = false;                        // numbers may stand for several nodes and elements
+  std::vector<std::pair<uint32_t, uint32_t>> copies = {};  // points that have the values of other points
 
   // Adds a node. Returns false if the number is already used.
   bool add_node(uint64_t number, Vec3 point);
