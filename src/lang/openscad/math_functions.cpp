@@ -92,8 +92,8 @@ double finite_bound(const Call& call, double bound, const char* which, double ot
   return otherwise;
 }
 
-// Returns the remainder of a number modulo the prime 2^31 - 1, by Python's rules for hashes of numbers. A fraction m / n
-// is m times the inverse of n. Powers of two repeat, since 2^31 is 1 modulo this prime.
+// Returns the remainder of a number modulo the prime 2^31 - 1, by Python's rules for hashes of numbers. A fraction m /
+// n is m times the inverse of n. Powers of two repeat, since 2^31 is 1 modulo this prime.
 int64_t remainder_of(double value) {
   constexpr int64_t prime = 0x7fffffff, infinite = 314159;
   constexpr int period = 31, digits = std::numeric_limits<double>::digits;
