@@ -108,8 +108,10 @@ def sets_of_decks_are_described(folder):
     found = next(event for event in folder.events("info", "a.inp") if event["event"] == "results")
     expect(found["sets"] == [{"name": "all", "of": "nodes", "count": 4}, {"name": "Held", "of": "nodes", "count": 2},
                              {"name": "Body", "of": "elements", "count": 1},
+                             {"name": "skin", "of": "elements", "count": 1},
                              {"name": "under", "of": "sides", "count": 1}], found["sets"])
-    expect(found["left_out"] == [{"what": "lines of elements that are no solids (S3)", "count": 1}], found["left_out"])
+    expect(found["left_out"] == [{"what": "shells without a thickness (*SHELL SECTION)", "count": 1}],
+           found["left_out"])
     expect(found["step_times"] == [] and found["step"] is None, found)
     text = folder.run("info", "a.inp").stdout
     expect("Held: 2 nodes" in text and "under: 1 sides" in text, text)
