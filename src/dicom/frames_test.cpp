@@ -103,7 +103,7 @@ TEST_F(Dicom, PaddingIsOutside) {
   EXPECT_EQ(read({.outside = 40}).whole, (std::vector<int16_t>{40, 0, 2, -1040}));
   EXPECT_EQ(read().whole[0], -1040);
   EXPECT_EQ(read({.is_outside_high = true}).whole[0], 2);
-  // Where all others lie within a solid, padding lies beyond its level.
+  // Padding lies beyond the level of a solid that holds all other numbers.
   EXPECT_EQ(read({.level = -1000}).whole[0], -1040);
   EXPECT_EQ(read({.level = -1050}).whole[0], -1060);
   EXPECT_EQ(read({.level = -1040}).whole[0], -1041);

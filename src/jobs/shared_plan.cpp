@@ -7,7 +7,7 @@
 #include "base/text/record.h"
 #include "base/text/text.h"
 #include "jobs/common/session.h"
-#include "jobs/slice/slice_choices.h"
+#include "jobs/common/shard_option.h"
 
 namespace ombre::jobs {
 namespace {
@@ -93,7 +93,7 @@ std::vector<int64_t> shards_by_engine(int64_t count) {
 }  // namespace
 
 std::vector<PieceRange> shards_of(const std::vector<double>& costs, int64_t first, int64_t count) {
-  // Where nothing is known, all pieces cost the same.
+  // All pieces cost the same if their costs are unknown.
   const double total = std::accumulate(costs.begin(), costs.end(), 0.0);
   const auto cost = [&](size_t piece) {
     return total > 0 ? costs[piece] / total : 1.0 / static_cast<double>(costs.size());

@@ -418,8 +418,8 @@ TEST_F(Operations, SlicesOfScaledExtrusions) {
   EXPECT_SIZE(by(400, {3, 3}), 337.619056);
 }
 
-// Where both diagonals of a wall's quadrilateral are equally long, those of holes differ from those of outlines; where
-// the last slice is a line, the longer ones count. The expected volumes are from Debian's openscad 2021.01.
+// Walls of holes and of outlines are cut along different diagonals if both are equally long. The longer ones count if
+// the last slice is a line. The expected volumes are from Debian's openscad 2021.01.
 TEST_F(Operations, DiagonalsOfExtrusions) {
   LinearExtrude twisted;
   twisted.height = 10;

@@ -6,13 +6,10 @@
 
 #include "jobs/check/emit.h"
 #include "jobs/common/job_options.h"
+#include "jobs/common/shard_option.h"
 #include "jobs/slice/plan.h"
 
 namespace ombre::compile {
-
-// Reads a share of a job, "3/40". Throws options::WrongValue.
-stores::Shard parse_shard(const std::string& text, const std::string& option);
-inline constexpr options::Kind<stores::Shard> shard_kind{"share", parse_shard};
 
 struct SliceChoices {
   DesignOptions design;
