@@ -31,7 +31,7 @@ constexpr const char* plan_footer =
     "  ombre plan job.json --shards 40            plan.json\n"
     "  ombre run plan.json --shard 3              the third share; again after an interruption\n"
     "  seq 40 | parallel ombre run plan.json --shard {}\n"
-    "  sbatch --array=1-40 --wrap 'ombre run plan.json'\n"
+    "  ombre submit plan.json --to slurm          all of them, in a job array\n"
     "  ombre status plan.json\n"
     "  ombre gather plan.json                     one finished job of all shares\n";
 
@@ -133,11 +133,10 @@ int plan(const PlanChoices& a, Session& session) {
   const SharedJobPtr job = saved ? share(*saved, session, diagnostics) : nullptr;
   session.events.diagnose(diagnostics);
   if (!job) return wrong_input;
-  const std::vector<double> costs = job->costs(session);
-  const SharedPlan made{std::move(*saved), job->description(),
-                        shards_of(costs, job->pieces().begin, count_for(a, costs))};
+  const PieceCosts costs = job->costs(session);
+  const SharedPlan made = plan_of(std::move(*saved), *job, costs, count_for(a, costs.seconds));
   exporting::write_file(a.output, plan_text(made, session.program));
-  session.events.say(format_count(made.shards.size()) + " shares of " + format_count(costs.size()) + " " +
+  session.events.say(format_count(made.shards.size()) + " shares of " + format_count(costs.seconds.size()) + " " +
                      job->stored().words().pieces + " are in " + a.output + "; ombre run " + a.output +
                      " --shard 1 does the first");
   session.events.event("shared_plan",

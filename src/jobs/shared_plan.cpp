@@ -40,12 +40,27 @@ void read_shards(SharedPlan& plan, const Data& data, const MemberReader& reader)
   if (plan.shards.empty()) reader.fail(data, "a plan has one share at least");
 }
 
+void read_seconds(SharedPlan& plan, const Data& data, const MemberReader& reader) {
+  const DataList* all = reader.list(data, "seconds");
+  if (!all) return;
+  for (const Data& seconds : *all)
+    plan.seconds.push_back(reader.number(seconds, "the seconds of a share", {0}).value_or(0));
+}
+
+void check_plan(SharedPlan& plan, const Data& data, const MemberReader& reader) {
+  if (plan.seconds.size() != plan.shards.size())
+    reader.fail(data, "a plan has as many \"seconds\" as \"shards\"", "make the plan anew: ombre plan");
+}
+
 const Record<SharedPlan>& plan_record() {
   static const Record<SharedPlan> record =
       Record<SharedPlan>("a plan", {field::special("job", read_job).required("ombre plan writes it"),
                                     field::special("describes", read_description).required("ombre plan writes it"),
-                                    field::special("shards", read_shards).required("ombre plan writes it")})
-          .knows({"format", "program"});
+                                    field::special("shards", read_shards).required("ombre plan writes it"),
+                                    field::special("seconds", read_seconds).required("ombre plan writes it"),
+                                    field::number("memory_bytes", &SharedPlan::memory_bytes, {0})})
+          .knows({"format", "program"})
+          .checked(check_plan);
   return record;
 }
 
@@ -111,6 +126,15 @@ std::vector<PieceRange> shards_of(const std::vector<double>& costs, int64_t firs
   return shards;
 }
 
+SharedPlan plan_of(SavedJob job, const SharedJob& shared, const PieceCosts& costs, int64_t count) {
+  const int64_t first = shared.pieces().begin;
+  SharedPlan plan{std::move(job), shared.description(), shards_of(costs.seconds, first, count), {}, costs.memory_bytes};
+  for (const PieceRange& shard : plan.shards)
+    plan.seconds.push_back(std::accumulate(costs.seconds.begin() + (shard.begin - first),
+                                           costs.seconds.begin() + (shard.end - first), 0.0));
+  return plan;
+}
+
 std::string plan_text(const SharedPlan& plan, const std::string& program) {
   DataList shards;
   for (const PieceRange& range : plan.shards) shards.emplace_back(DataList{number(range.begin), number(range.end)});
@@ -118,7 +142,9 @@ std::string plan_text(const SharedPlan& plan, const std::string& program) {
                                 {"program", program},
                                 {"job", saved_data(plan.job, program)},
                                 {"describes", plan.describes},
-                                {"shards", std::move(shards)}});
+                                {"shards", std::move(shards)},
+                                {"seconds", DataList(plan.seconds.begin(), plan.seconds.end())},
+                                {"memory_bytes", plan.memory_bytes}});
 }
 
 std::optional<SharedPlan> read_plan(const SourcePtr& source, Diagnostics& diagnostics) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/text/diagnostic.h"
+#include "jobs/common/shared_job.h"
 #include "jobs/saved_job.h"
 #include "stores/gather.h"
 
@@ -15,10 +16,14 @@ struct SharedPlan {
   SavedJob job;
   DataMembers describes;                   // everything that decides the pieces, as the job describes it
   std::vector<stores::PieceRange> shards;  // pieces of each share; some may have none
+  std::vector<double> seconds;             // what each share is thought to take on one thread
+  double memory_bytes = 0;                 // what a process is thought to take
 };
 
 // Returns ranges of about equal cost that follow one another, from piece `first` on.
 std::vector<stores::PieceRange> shards_of(const std::vector<double>& costs, int64_t first, int64_t count);
+// Plans shares of these costs. The job's description is its own.
+SharedPlan plan_of(SavedJob job, const SharedJob& shared, const PieceCosts& costs, int64_t count);
 
 // Returns the plan as JSON.
 std::string plan_text(const SharedPlan& plan, const std::string& program);

@@ -1,23 +1,16 @@
 #include "fea/files/calculix.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
+#include "base/system/other_program.h"
 #include "base/system/tasks.h"
 #include "base/system/temporary_folder.h"
 #include "base/text/error.h"
@@ -49,61 +42,24 @@ std::string words_of_failure(const std::string& log) {
   return line.empty() ? "it said nothing" : "it said: " + line;
 }
 
-// Waits for the process; ends it when the flag is set.
-int status_of(pid_t process, const StopFlag* stop) {
-  int status = 0;
-  for (;;) {
-    const pid_t ended = waitpid(process, &status, stop ? WNOHANG : 0);
-    if (ended == process) return status;
-    if (ended < 0 && errno != EINTR)
-      throw Error(Code::other_program, std::string("CalculiX cannot be waited for: ") + std::strerror(errno));
-    if (stop && stop->requested()) {
-      kill(process, SIGKILL);
-      waitpid(process, &status, 0);
-      throw Cancelled();
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
-
 // Runs ccx on job.inp in the folder; its output goes to job.log.
 void run_program(const TemporaryFolder& folder, int threads, const StopFlag* stop) {
   const std::string log = folder.file("job.log");
-  std::vector<std::string> variables;
-  for (char** entry = environ; *entry; ++entry)
-    if (!std::string_view(*entry).starts_with("OMP_NUM_THREADS=")) variables.emplace_back(*entry);
-  variables.push_back("OMP_NUM_THREADS=" + std::to_string(threads > 0 ? threads : core_count()));
-  std::vector<char*> environment;
-  for (std::string& variable : variables) environment.push_back(variable.data());
-  environment.push_back(nullptr);
-  std::string program = "ccx", flag = "-i", name = "job";
-  std::array<char*, 4> arguments{program.data(), flag.data(), name.data(), nullptr};
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
   // The program writes files of its own into the working folder.
-  posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // so that Ctrl-C does not reach the program
-  pid_t process = 0;
-  const int failure =
-      posix_spawnp(&process, program.c_str(), &actions, &attributes, arguments.data(), environment.data());
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  if (failure == ENOENT)
+  const OtherProgram program{{"ccx", "-i", "job"},
+                             folder.path(),
+                             log,
+                             {{"OMP_NUM_THREADS", std::to_string(threads > 0 ? threads : core_count())}},
+                             SIGKILL};
+  const auto status = program.run(stop);
+  if (!status)
     throw Error(Code::other_program, "there is no program ccx: install CalculiX (calculix-ccx), or solve without " +
                                          spelled::option("--solver", "calculix"));
-  if (failure != 0) throw Error(Code::other_program, std::string("ccx cannot be started: ") + std::strerror(failure));
-  const int status = status_of(process, stop);
   const std::string words = text_of_file(log);
   // The exit code of ccx is not used, since it is 0 even for some failures.
-  if (WIFSIGNALED(status))
-    throw Error(Code::other_program, "CalculiX was ended by signal " + std::to_string(WTERMSIG(status)) +
-                                         (WTERMSIG(status) == SIGKILL ? ", perhaps since memory ran out" : "") + "; " +
+  if (WIFSIGNALED(*status))
+    throw Error(Code::other_program, "CalculiX was ended by signal " + std::to_string(WTERMSIG(*status)) +
+                                         (WTERMSIG(*status) == SIGKILL ? ", perhaps since memory ran out" : "") + "; " +
                                          words_of_failure(words));
   if (words.find("Job finished") == std::string::npos)
     throw Error(Code::other_program, "CalculiX did not finish; " + words_of_failure(words));

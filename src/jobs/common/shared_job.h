@@ -12,6 +12,12 @@
 
 namespace ombre::jobs {
 
+// What the pieces of a job are thought to take.
+struct PieceCosts {
+  std::vector<double> seconds;  // of each piece on one thread, from the first one on
+  double memory_bytes = 0;      // of a process
+};
+
 // A job that is planned. All processes plan it alike, each for itself. Methods throw as the kind's jobs do, and return
 // exit codes.
 class SharedJob {
@@ -27,8 +33,7 @@ class SharedJob {
   // Returns the first difference of an earlier description, such as "seed is 1 there and 2 here"; empty if there is
   // none.
   virtual std::string difference(const DataMembers& earlier) const = 0;
-  // Returns about the seconds that each piece takes on one thread, from the first one on.
-  virtual std::vector<double> costs(Session& session) const = 0;
+  virtual PieceCosts costs(Session& session) const = 0;
   // Makes those of the pieces that the share has not made yet.
   virtual int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const = 0;
   // Joins the shares' pieces, and makes what is missing.

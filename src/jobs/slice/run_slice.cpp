@@ -163,12 +163,12 @@ class SharedSlices final : public SharedJob {
     return compile::first_difference(earlier, description());
   }
 
-  std::vector<double> costs(Session& session) const override {
+  PieceCosts costs(Session& session) const override {
     const auto estimate = compile::estimate_slice(plan_.request, plan_.samples, options_, &session.stop);
-    std::vector<double> seconds;
+    PieceCosts costs{{}, static_cast<double>(estimate.memory_bytes)};
     for (int64_t layer = pieces().begin; layer < pieces().end; ++layer)
-      seconds.push_back(estimate.costs.of({layer, layer + 1}).seconds);
-    return seconds;
+      costs.seconds.push_back(estimate.costs.of({layer, layer + 1}).seconds);
+    return costs;
   }
 
   int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const override {
