@@ -17,7 +17,7 @@
 namespace ombre {
 namespace {
 
-// What posix_spawn is to do, which is freed here.
+// Actions and attributes of posix_spawn, which are freed here.
 class SpawnPlan {
  public:
   explicit SpawnPlan(const OtherProgram& program) {

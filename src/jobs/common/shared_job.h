@@ -12,7 +12,7 @@
 
 namespace ombre::jobs {
 
-// What the pieces of a job are thought to take.
+// Estimated costs of the pieces of a job.
 struct PieceCosts {
   std::vector<double> seconds;  // of each piece on one thread, from the first one on
   double memory_bytes = 0;      // of a process
