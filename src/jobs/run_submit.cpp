@@ -43,7 +43,8 @@ struct SubmitChoices {
     constexpr double most = 1e6;
     static const options::Spec<SubmitChoices> spec{
         option("plan", &SubmitChoices::plan, kind::file, "The plan: a file that ombre plan wrote", "PLAN").required(),
-        choice("--to", &SubmitChoices::to, names_in(engines()), "The engine that begins the processes", "ENGINE").required(),
+        choice("--to", &SubmitChoices::to, names_in(engines()), "The engine that begins the processes", "ENGINE")
+            .required(),
         flag("--print", &SubmitChoices::prints, "Print the script, and do nothing else"),
         option("-o,--output", &SubmitChoices::output, kind::file,
                "The script to write (default: the plan's name, .slurm.sh for example)", "FILE"),

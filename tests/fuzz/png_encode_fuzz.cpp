@@ -15,7 +15,7 @@ namespace {
 using namespace ombre;
 using namespace ombre::formats;
 
-constexpr size_t longest = 4096;  // longer ones only take longer
+constexpr size_t longest = 4096;           // longer ones only take longer
 constexpr uint32_t most_voxels = 1 << 15;  // three of the longest rows, longer than matches reach
 
 using fuzz::require;
