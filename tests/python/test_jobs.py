@@ -100,7 +100,7 @@ bars = []
 def test_progress_of_each_job(job, unit, tmp_path, monkeypatch):
     from ombre import _commands
     bars.clear()
-    monkeypatch.setattr(_commands._Progress, "_find_tqdm", staticmethod(lambda: Bar))
+    monkeypatch.setattr(_commands.Progress, "_find_tqdm", staticmethod(lambda: Bar))
     part = ombre.function("sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)", min=(-9, -9, -9), max=(9, 9, 9))
     options = {"slice": {"voxel": 0.006, "layers": ":600"}, "mesh": {"cell": 0.2},
                "contours": {"layer_height": 0.08, "cell": 0.03, "tolerance": 0.1}}[job]

@@ -30,9 +30,9 @@ SourcePtr read_source(const std::string& file) {
 
 SourcePtr source_of(const std::string& file) {
   static auto* const known = new std::map<std::string, SourcePtr>();  // exists as long as the process
-  const auto [entry, is_new] = known->try_emplace(file);
-  if (is_new) entry->second = read_source(file);
-  return entry->second;
+  if (const auto found = known->find(file); found != known->end()) return found->second;
+  const SourcePtr read = read_source(file);  // other threads may run meanwhile, and read it, too
+  return known->try_emplace(file, read).first->second;
 }
 
 SourceRange line_range(const SourcePtr& source, int number) {

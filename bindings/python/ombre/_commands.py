@@ -102,7 +102,7 @@ class Report(dict):
         self.events = events
 
 
-class _Progress:
+class Progress:
     """Shows the progress of a job: by tqdm if it is installed, by a function of the share that is done, or not at all."""
 
     def __init__(self, progress):
@@ -133,7 +133,7 @@ class _Progress:
         elif self._is_plain:
             print(f"\r{100 * done / max(total, 1):3.0f}%", end="", file=sys.stderr, flush=True)
 
-    def close(self, is_complete):
+    def close(self, is_complete=True):
         if self._bar is not None:
             if is_complete and self._bar.total:
                 self._bar.update(self._bar.total - self._bar.n)
@@ -165,7 +165,7 @@ def voxel_grids(options, design, progress=None):
 def _watched(kind, progress, work):
     """Runs a job; returns its events and its other results."""
     events = []
-    shown = _Progress(progress)
+    shown = Progress(progress)
 
     def take(event):
         if event["event"] != "progress":

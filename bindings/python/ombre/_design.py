@@ -11,6 +11,7 @@ import numpy
 from . import _core
 from ._commands import keywords_of, length_text, options_of, run, voxel_grids
 from ._errors import DesignError
+from ._shares import slice_by
 from ._solid import Solid, _is_solid, _nodes, wrap
 
 
@@ -301,8 +302,16 @@ class Design:
         own = {} if path is None else {"output": os.fspath(path)}
         return run(kind, own, options, self._core, progress)[0]
 
-    def slice(self, folder, progress=None, **options):
-        """Writes a printable slice stack to a folder; see `ombre slice`."""
+    def slice(self, folder, progress=None, client=None, shares=None, **options):
+        """Writes a printable slice stack to a folder; see `ombre slice`.
+
+        With a client of Dask, or an executor of concurrent.futures, its workers make the layers, in as many shares,
+        and need to see the folder; the bytes are the same.
+        """
+        if client is not None:
+            return slice_by(client, self, folder, shares, progress, options)
+        if shares is not None:
+            raise TypeError("shares are for a client: slice(folder, client=..., shares=40)")
         if options.get("resume"):
             self.to_json()  # raises for a design with Python functions, which cannot be resumed
         return self._job("slice", folder, progress, options)

@@ -162,12 +162,15 @@ def _options(command, without=()):
 _job_results = {"render": "Any"}
 
 
+_parameter_types = {"progress": "Progress", "client": "Any", "shares": "Optional[int]"}
+
+
 def _parameters(function):
     """Parameters that stand before the options."""
     text = ""
     for name, parameter in list(inspect.signature(function).parameters.items())[1:-1]:
-        if name == "progress":
-            text += ", progress: Progress = ..."
+        if name in _parameter_types:
+            text += f", {name}: {_parameter_types[name]} = ..."
         else:
             text += f", {name}: Path" if parameter.default is inspect.Parameter.empty else f", {name}: Optional[Path] = ..."
     return text
