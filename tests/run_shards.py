@@ -82,6 +82,33 @@ def archive(folder):
     expect(not (folder.path / "shared.zip.pieces").exists(), "the pieces are left")
 
 
+def frames(folder):
+    """Processes share the frames of a turntable as they share layers."""
+    folder.write("part.vcad", DESIGN)
+    picture = ("render", "part.vcad", "--frames", 11, "--size", "60x40")
+    folder.run(*picture, "-o", "alone/")
+    folder.run(*picture, "-o", "shared/", "--save-job", "job.json")
+    wrong = folder.run("plan", "job.json", "--minutes", 5, status=1).stderr
+    expect("how long this job takes is not known; write for example --shards 40" in wrong, wrong)
+    folder.run("plan", "job.json", "--shards", 3)
+    for n in (3, 1):
+        folder.run("run", "plan.json", "--shard", n)
+    wrong = folder.run("gather", "plan.json", status=2).stderr
+    expect("frames 4:7 are missing, of shares 2" in wrong, wrong)
+    folder.run("run", "plan.json", "--shard", 2)
+    gather(folder)
+    for unknown, option in (("how long the shares take", "--minutes 30"), ("how much memory they take", "--memory 4096")):
+        known = ("--minutes", 30) if option != "--minutes 30" else ()
+        wrong = folder.run("submit", "plan.json", "--to", "slurm", "--print", *known, status=1).stderr
+        expect(f"{unknown} is not known; write for example {option}" in wrong, wrong)
+    folder.write("part.vcad", DESIGN.replace("height = 4", "height = 3"))
+    wrong = folder.run("run", "plan.json", "--shard", 2, status=2).stderr
+    expect("plan.json is the plan of another job: part.vcad differs" in wrong, wrong)
+    folder.run("render", "part.vcad", "-o", "one.png", "--save-job", "one.json")
+    wrong = folder.run("plan", "one.json", "--shards", 3, "-o", "one_plan.json", status=1).stderr
+    expect("of pictures the frames in a folder or an archive are shared out" in wrong, wrong)
+
+
 def killed_processes(folder):
     """A share that is killed goes on where it was, and a torn journal costs one layer."""
     begin(folder, 2)
@@ -182,6 +209,7 @@ CHECKS = program.named((
     one_share,
     seven_shares_in_any_order,
     more_shares_than_layers,
+    frames,
     archive,
     killed_processes,
     missing_shares,

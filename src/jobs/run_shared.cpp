@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 using stores::PieceRange;
 
 constexpr const char* plan_footer =
-    "JOB is a file that --save-job wrote. The plan says which layers belong to which share, so that each takes about "
+    "JOB is a file that --save-job wrote. The plan says which layers or frames belong to which share, so that each "
+    "takes about "
     "as\n"
     "long as the others. Any machine with the plan, the design and its files, and the folder of the layers may run a\n"
     "share.\n\n"
@@ -83,7 +84,8 @@ struct StatusChoices {
 
 SharedJobPtr share(const SavedJob& saved, Session& session, Diagnostics& diagnostics) {
   if (!saved.kind->share)
-    throw WrongArgument("jobs of the kind " + saved.kind->name + " are not shared out yet; slices are");
+    throw WrongArgument("jobs of the kind " + saved.kind->name +
+                        " are not shared out yet; slices and frames of render are");
   const std::shared_ptr<void> job = saved.kind->make();
   options::read_members(saved.kind->options(), job.get(), saved.options);
   return saved.kind->share(job.get(), session, diagnostics);
@@ -109,7 +111,7 @@ std::optional<Opened> open_plan(const std::string& path, Session& session) {
   const PieceRange planned{plan->shards.front().begin, plan->shards.back().end};
   if (!difference.empty() || planned != job->pieces())
     throw Error(Code::other_job,
-                path + " is the plan of another job: " + (difference.empty() ? "its layers are others" : difference) +
+                path + " is the plan of another job: " + (difference.empty() ? "its pieces are others" : difference) +
                     "; make it anew: ombre plan",
                 {{"file", path}});
   return Opened{std::move(*plan), std::move(job)};
@@ -121,6 +123,7 @@ int64_t count_for(const PlanChoices& a, const std::vector<double>& costs) {
   constexpr double seconds_in_minute = 60;
   double seconds = 0;
   for (const double cost : costs) seconds += cost;
+  if (seconds == 0) throw WrongArgument("how long this job takes is not known; write for example --shards 40");
   const double count = std::ceil(seconds / (core_count() * *a.minutes * seconds_in_minute));
   return static_cast<int64_t>(std::clamp(count, 1.0, static_cast<double>(std::max<size_t>(costs.size(), 1))));
 }

@@ -80,6 +80,12 @@ const Engine& engine_of(const SubmitChoices& a) {
 Submission submission_of(const SubmitChoices& a, const SharedPlan& plan) {
   constexpr double seconds_in_minute = 60, bytes_in_mib = 1 << 20;
   const double slowest = *std::ranges::max_element(plan.seconds) / a.cores;
+  if (slowest == 0 && !a.minutes)
+    throw WrongArgument("how long the shares take is not known; write for example " +
+                        spelled::option("--minutes", "30"));
+  if (plan.memory_bytes == 0 && !a.memory_mib)
+    throw WrongArgument("how much memory they take is not known; write for example " +
+                        spelled::option("--memory", "4096"));
   Submission made;
   made.plan = a.plan;
   made.folder = fs::current_path().string();

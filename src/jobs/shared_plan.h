@@ -16,7 +16,7 @@ struct SharedPlan {
   SavedJob job;
   DataMembers describes;                   // everything that decides the pieces, as the job describes it
   std::vector<stores::PieceRange> shards;  // pieces of each share; some may have none
-  std::vector<double> seconds;             // what each share is thought to take on one thread
+  std::vector<double> seconds;             // what each share is thought to take on one thread; 0 if unknown
   double memory_bytes = 0;                 // what a process is thought to take
 };
 

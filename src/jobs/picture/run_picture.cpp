@@ -1,14 +1,11 @@
 // `ombre render` draws pictures of a design.
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
-#include <set>
 
 #include "base/text/file_ending.h"
 #include "base/text/text.h"
 #include "export/output_file.h"
-#include "formats/images/png.h"
 #include "jobs/common/events.h"
 #include "jobs/common/job_design.h"
 #include "jobs/common/job_kind.h"
@@ -16,6 +13,7 @@
 #include "jobs/common/overwrite.h"
 #include "jobs/common/session.h"
 #include "jobs/info/result_files.h"
+#include "jobs/picture/frame_job.h"
 #include "jobs/picture/picture_choices.h"
 #include "jobs/picture/stored_frames.h"
 #include "load/load.h"
@@ -41,11 +39,6 @@ constexpr const char* render_footer =
     "  ombre render part.vcad --frames 36 -o turn.png       turn_00.png to turn_35.png, all around the part\n"
     "  ombre render part.vcad --frames 360 -o turn/ --resume     frame_000.png ..., to go on after an interruption\n"
     "  ombre render part.vcad --frames 36 -o - | ffmpeg -f image2pipe -i - turn.mp4\n";
-
-stores::FolderUse folder_use(const PictureChoices& a) {
-  if (a.force) return stores::FolderUse::replace;
-  return a.resume ? stores::FolderUse::resume : stores::FolderUse::fresh;
-}
 
 // True if the frames go into a folder or an archive, from which a stopped job is resumed.
 bool is_stored(const PictureChoices& a) {
@@ -97,26 +90,11 @@ compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diag
   return load_design(a.design, session, diagnostics, a.work.threads);
 }
 
-std::string bytes_of(const compile::PictureRequest& request, const compile::Picture& picture) {
-  return formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
-}
-
-using Take = std::function<void(int frame, const compile::Picture& picture)>;
-
-int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request, Session& session,
-                  JobProgress& progress, const Take& take) {
-  Diagnostics diagnostics;
-  const bool is_done = compile::take_pictures(loaded, request, session.stop, take, diagnostics, &progress);
-  progress.finish();
-  session.events.diagnose(diagnostics);
-  return is_done && !diagnostics.has_errors() ? done : wrong_input;
-}
-
 int write_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request,
                    const std::vector<std::string>& files, Session& session) {
   JobProgress progress(session.events, Counted::steps);
   return take_pictures(loaded, request, session, progress, [&](int frame, const compile::Picture& picture) {
-    const std::string bytes = bytes_of(request, picture);
+    const std::string bytes = png_of(request, picture);
     if (files.empty()) return session.events.print(bytes);
     const std::string& file = files[static_cast<size_t>(frame)];
     exporting::write_file(file, bytes);
@@ -126,55 +104,13 @@ int write_pictures(const compile::Loaded& loaded, const compile::PictureRequest&
   });
 }
 
-// Returns everything that the pictures depend on: the design, and the options but for those of work and place.
-stores::JobKey key_of(const PictureChoices& a, const compile::Loaded& loaded, const Session& session) {
-  static const std::set<std::string> without{"design", "--output", "--threads", "--memory", "--force", "--resume"};
-  stores::JobKey key;
-  key.add(a.design.design, design::hash(loaded.design).hex());
-  std::map<std::string, std::string> settings;
-  for (const std::string& setting : a.settings) {
-    const std::string name = setting.substr(0, setting.find('='));
-    if (!without.contains(name)) settings[name] += setting + '\n';
-  }
-  for (const auto& [name, setting] : settings) key.add(name, setting);
-  key.add("the version of Ombre", session.program);
-  return key;
-}
-
-int store_frames(const PictureChoices& a, const compile::Loaded& loaded, compile::PictureRequest request,
-                 Session& session) {
-  JobProgress progress(session.events, Counted::steps);
-  const compile::StoredFrames job(a.frames, key_of(a, loaded, session));
-  const auto store = stores::open_store(a.output, job, folder_use(a), {a.work.threads, &progress, &session.stop});
-  const size_t kept = store->finished().size();
-  request.wants = [&](int frame) { return !store->finished().contains(frame); };
-  const auto take = [&](int frame, const compile::Picture& picture) {
-    store->put({frame, {{job.file_name(frame), bytes_of(request, picture)}}, {{"pixel_mm", picture.pixel_mm}}});
-  };
-  try {
-    if (const int code = take_pictures(loaded, request, session, progress, take); code != done) return code;
-  } catch (const Cancelled&) {
-    progress.finish();
-    session.events.say("interrupted; " + format_count(store->finished().size()) + " frames are in " +
-                       stores::pieces_folder(a.output) + ", the same command with --resume goes on");
-    throw;
-  }
-  store->close();
-  session.events.say(format_count(store->finished().size() - kept) + " frames written to " + a.output +
-                     (kept > 0 ? ", " + format_count(kept) + " finished before" : ""));
-  session.events.event("frames", {{"folder", a.output},
-                                  {"frames_written", number(store->finished().size() - kept)},
-                                  {"frames_kept", number(kept)}});
-  return done;
-}
-
 int render_design(const PictureChoices& a, Session& session) {
   const compile::PictureRequest request = a.request();
   check_output(a, session);
   const std::vector<std::string> files = is_stored(a) ? std::vector<std::string>() : output_files(a);
   JobSteps<compile::LoadedPtr> steps;
   steps.refuse = [&] {
-    if (is_stored(a)) stores::refuse_used(a.output, folder_use(a), compile::frame_words());
+    if (is_stored(a)) refuse_used_folder(a);
     for (const std::string& file : files) refuse_to_overwrite(file, a.force);
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
@@ -187,11 +123,22 @@ int render_design(const PictureChoices& a, Session& session) {
   return take_steps(steps, session);
 }
 
+SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) {
+  const auto& choices = *static_cast<const PictureChoices*>(job);
+  if (!is_stored(choices) || choices.force || choices.resume)
+    throw WrongArgument("of pictures the frames in a folder or an archive are shared out; write for example " +
+                        spelled::option("--frames", "360") + " -o turn/, without " + spelled::option("--force") +
+                        " and " + spelled::option("--resume"));
+  const compile::LoadedPtr loaded = load_pictured(choices, session, diagnostics);
+  return loaded ? share_frames(choices, loaded, session) : nullptr;
+}
+
 }  // namespace
 
 JobKind render_kind() {
   JobKind kind = job_kind<PictureChoices>("render", "Make pictures of a design", render_footer, render_design);
   kind.endings = {".png"};
+  kind.share = share;
   return kind;
 }
 

@@ -1,0 +1,139 @@
+#include "jobs/picture/frame_job.h"
+
+#include <map>
+#include <set>
+
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "formats/images/png.h"
+#include "jobs/picture/stored_frames.h"
+#include "stores/open_store.h"
+
+namespace ombre::jobs {
+namespace {
+
+using compile::PictureChoices;
+
+stores::FolderUse folder_use(const PictureChoices& a) {
+  if (a.force) return stores::FolderUse::replace;
+  return a.resume ? stores::FolderUse::resume : stores::FolderUse::fresh;
+}
+
+// Returns everything that the pictures depend on: the design, and the options but for those of work and place.
+stores::JobKey key_of(const PictureChoices& a, const compile::Loaded& loaded, const Session& session) {
+  static const std::set<std::string> without{"design", "--output", "--threads", "--memory", "--force", "--resume"};
+  stores::JobKey key;
+  key.add(a.design.design, design::hash(loaded.design).hex());
+  std::map<std::string, std::string> settings;
+  for (const std::string& setting : a.settings) {
+    const std::string name = setting.substr(0, setting.find('='));
+    if (!without.contains(name)) settings[name] += setting + '\n';
+  }
+  for (const auto& [name, setting] : settings) key.add(name, setting);
+  key.add("the version of Ombre", session.program);
+  return key;
+}
+
+// Adds the frames of a range that the store lacks; returns an exit code.
+int add_frames(const compile::Loaded& loaded, compile::PictureRequest request, const compile::StoredFrames& job,
+               stores::Store& store, stores::PieceRange range, JobProgress& progress, Session& session) {
+  request.wants = [&](int frame) {
+    return range.begin <= frame && frame < range.end && !store.finished().contains(frame);
+  };
+  return take_pictures(loaded, request, session, progress, [&](int frame, const compile::Picture& picture) {
+    store.put({frame, {{job.file_name(frame), png_of(request, picture)}}, {{"pixel_mm", picture.pixel_mm}}});
+  });
+}
+
+void say_stored(const PictureChoices& a, size_t written, size_t kept, Session& session) {
+  session.events.say(format_count(written) + " frames written to " + a.output +
+                     (kept > 0 ? ", " + format_count(kept) + " finished before" : ""));
+  session.events.event("frames",
+                       {{"folder", a.output}, {"frames_written", number(written)}, {"frames_kept", number(kept)}});
+}
+
+// Frames that several processes make.
+class SharedFrames final : public SharedJob {
+ public:
+  SharedFrames(const PictureChoices& choices, compile::LoadedPtr loaded, stores::JobKey key)
+      : choices_(choices), loaded_(std::move(loaded)), key_(std::move(key)), stored_(choices.frames, key_) {}
+
+  std::string folder() const override { return stores::pieces_folder(choices_.output); }
+  const stores::StoredJob& stored() const override { return stored_; }
+  stores::PieceRange pieces() const override { return {0, choices_.frames}; }
+  DataMembers description() const override { return {{"frames", number(choices_.frames)}, {"key", key_.data()}}; }
+  std::string difference(const DataMembers& earlier) const override {
+    const auto key = stores::JobKey::read(Data(earlier).find("key"));
+    const std::vector<std::string> changed = key_.differences(key.value_or(stores::JobKey()));
+    return changed.empty() ? "" : ombre::join(changed, ", ") + (changed.size() == 1 ? " differs" : " differ");
+  }
+  // How long a frame takes is not known before one is made.
+  PieceCosts costs(Session&) const override { return {std::vector<double>(static_cast<size_t>(choices_.frames)), 0}; }
+
+  int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const override {
+    JobProgress progress(session.events, Counted::steps);
+    const auto store =
+        stores::open_shard(choices_.output, stored_, shard, {choices_.work.threads, &progress, &session.stop});
+    const size_t kept = store->finished().size();
+    const int code = add_frames(*loaded_, choices_.request(), stored_, *store, range, progress, session);
+    if (code == done) say_stored(choices_, store->finished().size() - kept, kept, session);
+    return code;
+  }
+
+  int join(Session& session) const override {
+    PictureChoices resumed = choices_;
+    resumed.resume = true;
+    return store_frames(resumed, *loaded_, choices_.request(), session);
+  }
+
+ private:
+  PictureChoices choices_;
+  compile::LoadedPtr loaded_;
+  stores::JobKey key_;
+  compile::StoredFrames stored_;
+};
+
+}  // namespace
+
+std::string png_of(const compile::PictureRequest& request, const compile::Picture& picture) {
+  return formats::encode_png(static_cast<uint32_t>(request.width), static_cast<uint32_t>(request.height), picture.rgba);
+}
+
+int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request, Session& session,
+                  JobProgress& progress, const TakePicture& take) {
+  Diagnostics diagnostics;
+  const bool is_done = compile::take_pictures(loaded, request, session.stop, take, diagnostics, &progress);
+  progress.finish();
+  session.events.diagnose(diagnostics);
+  return is_done && !diagnostics.has_errors() ? done : wrong_input;
+}
+
+void refuse_used_folder(const PictureChoices& a) {
+  stores::refuse_used(a.output, folder_use(a), compile::frame_words());
+}
+
+int store_frames(const PictureChoices& a, const compile::Loaded& loaded, const compile::PictureRequest& request,
+                 Session& session) {
+  JobProgress progress(session.events, Counted::steps);
+  const compile::StoredFrames job(a.frames, key_of(a, loaded, session));
+  const auto store = stores::open_store(a.output, job, folder_use(a), {a.work.threads, &progress, &session.stop});
+  const size_t kept = store->finished().size();
+  try {
+    if (const int code = add_frames(loaded, request, job, *store, {0, a.frames}, progress, session); code != done)
+      return code;
+  } catch (const Cancelled&) {
+    progress.finish();
+    session.events.say("interrupted; " + format_count(store->finished().size()) + " frames are in " +
+                       stores::pieces_folder(a.output) + ", the same command with --resume goes on");
+    throw;
+  }
+  store->close();
+  say_stored(a, store->finished().size() - kept, kept, session);
+  return done;
+}
+
+SharedJobPtr share_frames(const PictureChoices& a, const compile::LoadedPtr& loaded, const Session& session) {
+  return std::make_unique<SharedFrames>(a, loaded, key_of(a, *loaded, session));
+}
+
+}  // namespace ombre::jobs
