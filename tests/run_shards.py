@@ -20,6 +20,13 @@ fgrade(["(z + 2) / 4", "(2 - z) / 4"], [red, blue]) union() {
   translate(3, 0, 0) rectprism([2, 2, height], red);
 }
 """
+# All shares need the supports, which are values of the whole job.
+SUPPORTED = """
+support() union() {
+  cube(2);
+  translate(1, 0, 1.75) rectprism([4, 2, 0.5]);
+}
+"""
 OPTIONS = ["--voxel", "0.1,0.1,0.05"]  # 80 layers
 
 
@@ -30,7 +37,8 @@ def begin(folder, shards=7, design=DESIGN, output="shared"):
     folder.run("slice", "part.vcad", *OPTIONS, "-o", "alone" + ending)
     folder.run("slice", "part.vcad", *OPTIONS, "-o", output, "--save-job", "job.json")
     said = folder.run("plan", "job.json", "--shards", shards).stderr
-    expect(f"{shards:,} shares of 80 layers" in said, said)
+    layers = 80 if design == DESIGN else 60
+    expect(f"{shards:,} shares of {layers} layers" in said, said)
 
 
 def contents(path):
@@ -107,6 +115,24 @@ def frames(folder):
     folder.run("render", "part.vcad", "-o", "one.png", "--save-job", "one.json")
     wrong = folder.run("plan", "one.json", "--shards", 3, "-o", "one_plan.json", status=1).stderr
     expect("of pictures the frames in a folder or an archive are shared out" in wrong, wrong)
+
+
+def values_of_all_shares(folder):
+    """Supports are made once, and the shares read them."""
+    begin(folder, 3, SUPPORTED)
+    folder.run("run", "plan.json", "--shard", 1)
+    expect(not (folder.path / "shared/stages").exists(), "a share keeps what others need")
+    folder.run("run", "plan.json", "--stages")
+    [kept] = (folder.path / "shared/stages").glob("*.stage")
+    changed = kept.stat().st_mtime_ns
+    folder.run("run", "plan.json", "--stages")
+    expect(kept.stat().st_mtime_ns == changed, "supports are made again")
+    folder.run("run", "plan.json", "--shard", 2)
+    kept.write_bytes(b"damaged")  # which costs time alone
+    folder.run("run", "plan.json", "--shard", 3)
+    gather(folder)
+    begin_again = folder.run("run", "plan.json", "--stages", "--shard", 1, status=1).stderr
+    expect("--stages" in begin_again and "--shard" in begin_again, begin_again)
 
 
 def killed_processes(folder):
@@ -210,6 +236,7 @@ CHECKS = program.named((
     seven_shares_in_any_order,
     more_shares_than_layers,
     frames,
+    values_of_all_shares,
     archive,
     killed_processes,
     missing_shares,

@@ -15,7 +15,7 @@ import sys
 import program
 import slurm_cluster
 from program import expect
-from run_shards import begin, contents
+from run_shards import SUPPORTED, begin, contents
 
 PATH = slurm_cluster.PATH  # Debian's python3 comes first, which has Dask
 
@@ -88,8 +88,9 @@ def wrong_submissions(folder):
 def gnu_parallel(folder):
     if is_missing("parallel"):
         return is_missing("parallel")
-    begin(folder)
-    submit(folder, "--to", "parallel")
+    begin(folder, design=SUPPORTED)
+    said = submit(folder, "--to", "parallel")
+    expect("what all shares need is kept in shared" in said, said)
     expect_same(folder)
 
 
@@ -97,7 +98,7 @@ def dask(folder):
     python = shutil.which("python3", path=PATH)
     if subprocess.run([python, "-c", "import distributed"], stderr=subprocess.DEVNULL).returncode:
         return "skipped: there is no dask.distributed"
-    begin(folder)
+    begin(folder, design=SUPPORTED)
     submit(folder, "--to", "dask")
     expect_same(folder)
 
@@ -137,7 +138,7 @@ else:
 def kubernetes(folder):
     if subprocess.run(["/usr/bin/python3", "-c", "import yaml"], stderr=subprocess.DEVNULL).returncode:
         return "skipped: there is no python3-yaml"
-    begin(folder)
+    begin(folder, design=SUPPORTED)
     (folder.path / "bin").mkdir()
     kubectl = folder.path / "bin/kubectl"
     kubectl.write_text(KUBECTL)
@@ -150,7 +151,7 @@ def in_slurm(folder, shares, disturb):
     """Submits to a Slurm of its own; `disturb` gets it while the shares run."""
     if not slurm_cluster.is_installed():
         return "skipped: there is no Slurm"
-    begin(folder, shares)
+    begin(folder, shares, design=SUPPORTED)
     home = folder.path / "slurm"
     home.mkdir()
     with slurm_cluster.Cluster(home) as cluster:

@@ -60,13 +60,17 @@ struct PlanChoices {
 
 struct RunChoices {
   std::string plan, shard;
+  bool only_stages = false;
 
   static const options::Spec<RunChoices>& options() {
     using namespace options;
     static const options::Spec<RunChoices> spec{
         option("plan", &RunChoices::plan, kind::file, "The plan: a file that ombre plan wrote", "PLAN").required(),
         option("--shard", &RunChoices::shard, kind::text,
-               "The share: 3, 3/40, or all, one after the other (default: that of the job array or MPI process)", "N")};
+               "The share: 3, 3/40, or all, one after the other (default: that of the job array or MPI process)", "N"),
+        flag("--stages", &RunChoices::only_stages,
+             "Instead of a share, make what all shares need, such as supports, so that each does not")
+            .excludes({"--shard"})};
     return spec;
   }
 };
@@ -150,6 +154,7 @@ int plan(const PlanChoices& a, Session& session) {
 int run(const RunChoices& a, Session& session) {
   const auto opened = open_plan(a.plan, session);
   if (!opened) return wrong_input;
+  if (a.only_stages) return opened->job->prepare(session);
   for (const int64_t number : chosen_shards(a.shard, opened->count())) {
     const PieceRange range = opened->plan.shards[static_cast<size_t>(number - 1)];
     const int code = opened->job->make(range, {number, opened->count()}, session);

@@ -90,6 +90,7 @@ Submission submission_of(const SubmitChoices& a, const SharedPlan& plan) {
   made.plan = a.plan;
   made.folder = fs::current_path().string();
   made.shares = static_cast<int64_t>(plan.shards.size());
+  made.has_stages = plan.has_stages;
   made.cores = a.cores;
   made.minutes = a.minutes.value_or(static_cast<int>(std::min(1e6, 10 + std::ceil(3 * slowest / seconds_in_minute))));
   made.memory_mib =

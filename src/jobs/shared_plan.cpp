@@ -58,7 +58,8 @@ const Record<SharedPlan>& plan_record() {
                                     field::special("describes", read_description).required("ombre plan writes it"),
                                     field::special("shards", read_shards).required("ombre plan writes it"),
                                     field::special("seconds", read_seconds).required("ombre plan writes it"),
-                                    field::number("memory_bytes", &SharedPlan::memory_bytes, {0})})
+                                    field::number("memory_bytes", &SharedPlan::memory_bytes, {0}),
+                                    field::flag("has_stages", &SharedPlan::has_stages)})
           .knows({"format", "program"})
           .checked(check_plan);
   return record;
@@ -128,7 +129,8 @@ std::vector<PieceRange> shards_of(const std::vector<double>& costs, int64_t firs
 
 SharedPlan plan_of(SavedJob job, const SharedJob& shared, const PieceCosts& costs, int64_t count) {
   const int64_t first = shared.pieces().begin;
-  SharedPlan plan{std::move(job), shared.description(), shards_of(costs.seconds, first, count), {}, costs.memory_bytes};
+  SharedPlan plan{std::move(job),     shared.description(), shards_of(costs.seconds, first, count), {},
+                  costs.memory_bytes, shared.has_stages()};
   for (const PieceRange& shard : plan.shards)
     plan.seconds.push_back(std::accumulate(costs.seconds.begin() + (shard.begin - first),
                                            costs.seconds.begin() + (shard.end - first), 0.0));
@@ -144,7 +146,8 @@ std::string plan_text(const SharedPlan& plan, const std::string& program) {
                                 {"describes", plan.describes},
                                 {"shards", std::move(shards)},
                                 {"seconds", DataList(plan.seconds.begin(), plan.seconds.end())},
-                                {"memory_bytes", plan.memory_bytes}});
+                                {"memory_bytes", plan.memory_bytes},
+                                {"has_stages", plan.has_stages}});
 }
 
 std::optional<SharedPlan> read_plan(const SourcePtr& source, Diagnostics& diagnostics) {

@@ -18,6 +18,7 @@ struct SharedPlan {
   std::vector<stores::PieceRange> shards;  // pieces of each share; some may have none
   std::vector<double> seconds;             // what each share is thought to take on one thread; 0 if unknown
   double memory_bytes = 0;                 // what a process is thought to take
+  bool has_stages = false;                 // all shares need values of the whole job
 };
 
 // Returns ranges of about equal cost that follow one another, from piece `first` on.

@@ -57,11 +57,30 @@ std::vector<Place> places_of(const Submission& s) {
           {"attempts", text(s.attempts)},
           {"retries", text(s.attempts - 1)},
           {"failures", text(s.shares * (s.attempts - 1))},
+          {"after first", s.has_stages ? " --dependency=afterok:\"${first%%;*}\" --kill-on-invalid-dep=yes" : ""},
           {"quoted plan", print_json_line(s.plan)},
           {"quoted folder", print_json_line(s.folder)},
           {"quoted image", print_json_line(s.image)},
           {"quoted claim", print_json_line(s.claim)}};
 }
+
+// What each script does first where all shares need values of the whole job.
+constexpr std::string_view slurm_first =
+    R"(first=$(sbatch --parsable --job-name={name}-first --cpus-per-task={cores} --mem={memory}M --time={minutes} --requeue \
+  --open-mode=append --output={name}-first.log <<'END'
+#!/bin/bash
+exec "$OMBRE" run "$PLAN" --stages
+END
+)
+)";
+constexpr std::string_view kubernetes_first =
+    R"(job {name}-first "run, $PLAN, --stages" 'backoffLimit: {retries}' | kubectl apply --filename -
+wait_for {name}-first
+)";
+constexpr std::string_view parallel_first = R"("$OMBRE" run "$PLAN" --stages
+)";
+constexpr std::string_view dask_first = R"(    subprocess.run([OMBRE, "run", PLAN, "--stages"], cwd=FOLDER, check=True)
+)";
 
 constexpr std::string_view slurm = R"(#!/bin/bash
 # Hands the shares of a plan to Slurm, as a job array, and a job that joins them. Change what your cluster wants, such as
@@ -70,8 +89,8 @@ set -euo pipefail
 cd {folder}
 export OMBRE="${OMBRE:-ombre}" PLAN={plan}
 
-shares=$(sbatch --parsable --job-name={name} --array=1-{shares} --cpus-per-task={cores} --mem={memory}M \
-  --time={minutes} --requeue --open-mode=append --output={name}-%a.log <<'END'
+{first}shares=$(sbatch --parsable --job-name={name} --array=1-{shares} --cpus-per-task={cores} --mem={memory}M \
+  --time={minutes}{after first} --requeue --open-mode=append --output={name}-%a.log <<'END'
 #!/bin/bash
 # The same share is begun again if its machine failed (2), not if the design is wrong (1).
 for attempt in $(seq {attempts}); do
@@ -147,7 +166,7 @@ PLAN=$(cat <<'END'
 {quoted plan}
 END
 )
-job {name} "run, $PLAN, --quiet" 'completions: {shares}' 'parallelism: {shares}' 'completionMode: Indexed' \
+{first}job {name} "run, $PLAN, --quiet" 'completions: {shares}' 'parallelism: {shares}' 'completionMode: Indexed' \
   'backoffLimit: {failures}' | kubectl apply --filename -
 wait_for {name}
 job {name}-join "gather, $PLAN" 'backoffLimit: {retries}' | kubectl apply --filename -
@@ -160,7 +179,7 @@ constexpr std::string_view parallel = R"(#!/bin/bash
 set -euo pipefail
 cd {folder}
 export OMBRE="${OMBRE:-ombre}" PLAN={plan}
-seq {shares} | parallel --will-cite --jobs 1 --env OMBRE --env PLAN --retries {attempts} --halt soon,fail=1 \
+{first}seq {shares} | parallel --will-cite --jobs 1 --env OMBRE --env PLAN --retries {attempts} --halt soon,fail=1 \
   --joblog {name}.log '"$OMBRE" run "$PLAN" --shard {} --quiet'
 exec "$OMBRE" gather "$PLAN"
 )";
@@ -187,25 +206,28 @@ def make(share):
 
 
 if __name__ == "__main__":
-    with Client(sys.argv[1]) if len(sys.argv) > 1 else Client(n_workers=1, threads_per_worker=1) as client:
+{first}    with Client(sys.argv[1]) if len(sys.argv) > 1 else Client(n_workers=1, threads_per_worker=1) as client:
         futures = client.map(make, range(1, {shares} + 1), retries={retries}, pure=False)
         for count, future in enumerate(as_completed(futures), 1):
             print(f"share {future.result()} is done, {count} of {shares}", file=sys.stderr)
     sys.exit(subprocess.run([OMBRE, "gather", PLAN], cwd=FOLDER).returncode)
 )";
 
-template <const std::string_view& text>
+template <const std::string_view& text, const std::string_view& first>
 std::string script(const Submission& submission) {
-  return filled(text, places_of(submission));
+  std::vector<Place> places = places_of(submission);
+  places.push_back({"first", submission.has_stages ? filled(first, places) : ""});
+  return filled(text, places);
 }
 
 }  // namespace
 
 const std::vector<Engine>& engines() {
-  static const std::vector<Engine> all{{"slurm", "sbatch", ".slurm.sh", "bash", false, script<slurm>},
-                                       {"kubernetes", "kubectl", ".kubernetes.sh", "bash", true, script<kubernetes>},
-                                       {"parallel", "parallel", ".parallel.sh", "bash", false, script<parallel>},
-                                       {"dask", "python3", ".dask.py", "python3", false, script<dask>}};
+  static const std::vector<Engine> all{
+      {"slurm", "sbatch", ".slurm.sh", "bash", false, script<slurm, slurm_first>},
+      {"kubernetes", "kubectl", ".kubernetes.sh", "bash", true, script<kubernetes, kubernetes_first>},
+      {"parallel", "parallel", ".parallel.sh", "bash", false, script<parallel, parallel_first>},
+      {"dask", "python3", ".dask.py", "python3", false, script<dask, dask_first>}};
   return all;
 }
 

@@ -12,6 +12,7 @@ struct Submission {
   std::string plan;    // the path of the plan, in the folder
   std::string folder;  // where the processes work
   int64_t shares = 1;
+  bool has_stages = false;   // a process makes what all shares need before they begin
   int cores = 1;             // of each process
   int64_t minutes = 1;       // after which the engine may end a share
   int64_t memory_mib = 1;    // of each process

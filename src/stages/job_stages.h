@@ -31,6 +31,8 @@ class JobStages final : public design::StageHost {
   // Does nothing if that has been done. Throws Error if memory does not suffice, and Cancelled.
   void prepare(const StageLoan& loan);
   bool is_prepared() const;
+  // True if a stage is computed as a whole, which prepare() does.
+  bool has_whole_stages() const { return !prepared().empty(); }
   // Makes stages that are not prepared 0 everywhere, for estimates.
   void leave_out_unprepared();
   // Returns the most memory that stages hold while the job goes through its layers on the loan's threads.

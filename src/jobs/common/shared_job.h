@@ -34,6 +34,10 @@ class SharedJob {
   // none.
   virtual std::string difference(const DataMembers& earlier) const = 0;
   virtual PieceCosts costs(Session& session) const = 0;
+  // True if all shares need values of the whole job, such as supports, which prepare() makes and keeps in the folder. A
+  // share makes them for itself where they are not kept.
+  virtual bool has_stages() const { return false; }
+  virtual int prepare(Session&) const { return done; }
   // Makes those of the pieces that the share has not made yet.
   virtual int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const = 0;
   // Joins the shares' pieces, and makes what is missing.

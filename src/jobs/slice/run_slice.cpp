@@ -171,6 +171,20 @@ class SharedSlices final : public SharedJob {
     return costs;
   }
 
+  bool has_stages() const override { return options_.stages && options_.stages->has_whole_stages(); }
+
+  int prepare(Session& session) const override {
+    if (!has_stages()) return done;
+    compile::SliceOptions options = options_;
+    options.use = compile::FolderUse::resume;
+    options.only_stages = true;
+    SliceProgress progress(session.events, options.folder);
+    compile::slice(plan_.request, plan_.producer, options, &progress, &session.stop);
+    progress.finish();
+    session.events.say("what all shares need is kept in " + folder());
+    return done;
+  }
+
   int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const override {
     compile::SliceOptions options = options_;
     options.layers = compile::LayerRange{range.begin, range.end};

@@ -72,6 +72,7 @@ class SliceRun {
         slices_(request),
         store_(open_store(options, slices_, {size_.threads, progress, stop})),
         stages_(stores::pieces_folder(options.folder), options.use, {size_.threads, progress, stop}),
+        shared_stages_(stores::pieces_folder(options.folder), {size_.threads, progress, stop}),
         layers_(requested_layers(request, options)),
         slabs_(missing_slabs(layers_, store_->finished(), size_.slab_layers)),
         forecast_(slabs_, size_.threads),
@@ -79,7 +80,7 @@ class SliceRun {
 
   SliceReport run() {
     count_finished();
-    if (!failed_check_ && prepare_stages()) write();
+    if (!failed_check_ && prepare_stages() && !options_.only_stages) write();
     report_.whole_job_finished = !options_.shard && slices_.is_complete(store_->finished());
     if (report_.whole_job_finished) stages_.remove();
     store_->close();
@@ -108,7 +109,8 @@ class SliceRun {
     if (!options_.stages || slabs_.empty()) return true;
     try {
       StageLoan loan = stage_loan(options_, watched_, stop_);
-      if (!options_.shard) loan.keeper = &stages_;  // other processes prepare the same stages
+      loan.keeper = &stages_;
+      if (options_.shard) loan.keeper = &shared_stages_;  // other processes need the same stages
       options_.stages->prepare(loan);
     } catch (const Cancelled&) {
       skipped_ = true;
@@ -196,6 +198,7 @@ class SliceRun {
   StoredSlices slices_;
   std::unique_ptr<stores::Store> store_;
   StoredStages stages_;
+  SharedStages shared_stages_;
   LayerRange layers_;
   const std::vector<LayerRange> slabs_;  // slabs that are missing
   Forecast forecast_;

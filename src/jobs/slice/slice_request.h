@@ -84,6 +84,7 @@ struct SliceOptions {
   size_t memory_bytes = size_t{2} << 30;  // for layers in flight; one at a time is always allowed
   bool strict = false;                    // stops at the first slab in which a check fails
   JobStagesPtr stages = nullptr;          // to be prepared before layers are made; null: there are none
+  bool only_stages = false;               // keeps the stages, and makes no layers
 };
 
 struct CheckReport {

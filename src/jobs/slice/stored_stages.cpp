@@ -6,6 +6,7 @@
 
 #include "base/text/json.h"
 #include "formats/containers/file.h"
+#include "stores/gather.h"
 
 namespace ombre::compile {
 namespace {
@@ -23,11 +24,9 @@ const std::string* made_from_of(const stores::Entry& entry) {
   return member == entry.record.end() ? nullptr : member->second.string();
 }
 
-}  // namespace
-
 // The values of each stage are a piece. What they are made from is in their record, so that the folder may hold values
 // of other designs, too.
-class StoredStages::Job : public stores::StoredJob {
+class StageJob : public stores::StoredJob {
  public:
   const stores::JobWords& words() const override {
     static const stores::JobWords words{"set of stages", "stages", "stages.json", "stage", std::string(stage_ending)};
@@ -51,8 +50,20 @@ class StoredStages::Job : public stores::StoredJob {
   }
 };
 
+std::string stages_folder(const std::string& job_folder) { return (fs::path(job_folder) / "stages").string(); }
+
+std::optional<std::string> values_in(const std::string& folder, const stores::Entries& kept, const Hash& made_from) {
+  for (const auto& [id, entry] : kept)
+    if (*made_from_of(entry) == made_from.hex()) return formats::read_file((fs::path(folder) / file_name(id)).string());
+  return std::nullopt;
+}
+
+}  // namespace
+
+class StoredStages::Job : public StageJob {};
+
 StoredStages::StoredStages(const std::string& job_folder, stores::FolderUse use, stores::Checking checking)
-    : folder_((fs::path(job_folder) / "stages").string()),
+    : folder_(stages_folder(job_folder)),
       use_(use == stores::FolderUse::resume ? use : stores::FolderUse::replace),
       checking_(checking),
       job_(std::make_unique<Job>()) {}
@@ -65,10 +76,7 @@ stores::FolderStore& StoredStages::store() {
 }
 
 std::optional<std::string> StoredStages::find(const Hash& made_from) {
-  for (const auto& [id, entry] : store().finished())
-    if (*made_from_of(entry) == made_from.hex())
-      return formats::read_file((fs::path(folder_) / file_name(id)).string());
-  return std::nullopt;
+  return values_in(folder_, store().finished(), made_from);
 }
 
 void StoredStages::keep(const Hash& made_from, std::string values) {
@@ -83,6 +91,14 @@ void StoredStages::remove() {
   if (!store_ && !fs::exists(fs::path(folder_) / job_->words().description_file)) return;
   store().remove();
   store_.reset();
+}
+
+SharedStages::SharedStages(const std::string& job_folder, stores::Checking checking)
+    : folder_(stages_folder(job_folder)), checking_(checking) {}
+
+std::optional<std::string> SharedStages::find(const Hash& made_from) {
+  if (!kept_ && fs::exists(folder_)) kept_ = stores::gather(folder_, StageJob(), {}, checking_).finished;
+  return kept_ ? values_in(folder_, *kept_, made_from) : std::nullopt;
 }
 
 }  // namespace ombre::compile

@@ -1,5 +1,5 @@
-// Keeps the values of a slice job's stages beside its layers until the job is complete, so that a resumed run does not
-// compute them again.
+// Keeps the values of a slice job's stages beside its layers until the job is complete, so that a resumed run, or
+// processes that share the job, do not compute them again.
 #pragma once
 
 #include <map>
@@ -9,6 +9,7 @@
 
 #include "stages/stage_keeper.h"
 #include "stores/folder_store.h"
+#include "stores/journal_folder.h"
 
 namespace ombre::compile {
 
@@ -34,6 +35,20 @@ class StoredStages : public StageKeeper {
   stores::Checking checking_;
   std::unique_ptr<const Job> job_;
   std::unique_ptr<stores::FolderStore> store_;
+};
+
+// Finds what a StoredStages has kept, also while other processes do. It keeps nothing.
+class SharedStages : public StageKeeper {
+ public:
+  SharedStages(const std::string& job_folder, stores::Checking checking);
+
+  std::optional<std::string> find(const Hash& made_from) override;
+  void keep(const Hash&, std::string) override {}
+
+ private:
+  std::string folder_;
+  stores::Checking checking_;
+  std::optional<stores::Entries> kept_;  // once they are read
 };
 
 }  // namespace ombre::compile
