@@ -64,7 +64,7 @@ std::vector<Place> places_of(const Submission& s) {
           {"quoted claim", print_json_line(s.claim)}};
 }
 
-// What each script does first where all shares need values of the whole job.
+// Beginnings of the scripts of jobs whose shares all need values of the whole job.
 constexpr std::string_view slurm_first =
     R"(first=$(sbatch --parsable --job-name={name}-first --cpus-per-task={cores} --mem={memory}M --time={minutes} --requeue \
   --open-mode=append --output={name}-first.log <<'END'
