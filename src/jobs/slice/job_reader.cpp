@@ -27,9 +27,9 @@ void read_pitch(Sampling& sampling, const Data& data, const MemberReader& reader
 }
 
 Record<PartOfJob> part_record() {
-  return Record<PartOfJob>(
-      "\"part_of\"", {field::numbers("first_voxel", &PartOfJob::first, "[i, j, k]", first_voxel).required(),
-                      field::numbers("voxels", &PartOfJob::count, "[x, y, z]", voxel_count).required()});
+  return Record<PartOfJob>("\"part_of\"",
+                           {field::numbers("first_voxel", &PartOfJob::first, "[i, j, k]", first_voxel).required(),
+                            field::numbers("voxels", &PartOfJob::count, "[x, y, z]", voxel_count).required()});
 }
 
 // Each rule is an option, which knows how its text is read.
@@ -47,14 +47,19 @@ Field<Sampling> rule_field(const options::Option& option) {
 Record<Sampling> sampling_record() {
   std::vector<Field<Sampling>> fields{
       field::special("pitch", read_pitch).required(),
-      Field<Sampling>("voxels", [](Sampling& sampling, const Data& data, const MemberReader& reader) {
-        if (const auto counts = reader.numbers(data, "voxels", 3, "[x, y, z]", voxel_count))
-          for (size_t axis = 0; axis < 3; ++axis) sampling.lattice.count[axis] = static_cast<int64_t>((*counts)[axis]);
-      }).required(),
-      Field<Sampling>("origin_mm", [](Sampling& sampling, const Data& data, const MemberReader& reader) {
-        if (const auto corner = reader.numbers(data, "origin_mm", 3, "[x, y, z] in mm"))
-          sampling.lattice.origin = {(*corner)[0], (*corner)[1], (*corner)[2]};
-      }).required(),
+      Field<Sampling>("voxels",
+                      [](Sampling& sampling, const Data& data, const MemberReader& reader) {
+                        if (const auto counts = reader.numbers(data, "voxels", 3, "[x, y, z]", voxel_count))
+                          for (size_t axis = 0; axis < 3; ++axis)
+                            sampling.lattice.count[axis] = static_cast<int64_t>((*counts)[axis]);
+                      })
+          .required(),
+      Field<Sampling>("origin_mm",
+                      [](Sampling& sampling, const Data& data, const MemberReader& reader) {
+                        if (const auto corner = reader.numbers(data, "origin_mm", 3, "[x, y, z] in mm"))
+                          sampling.lattice.origin = {(*corner)[0], (*corner)[1], (*corner)[2]};
+                      })
+          .required(),
       field::object("part_of", &Sampling::part, part_record())};
   for (const options::Option& option : SamplingRules::options().options()) fields.push_back(rule_field(option));
   return Record<Sampling>("\"sampling\"", std::move(fields)).knows({"pitch_mm", "size_mm"});
@@ -68,8 +73,9 @@ struct ReadMaterial {
 
 Record<ReadMaterial> material_record() {
   using M = ReadMaterial;
-  return Record<M>("a material", {field::text("name", &M::name).required(), field::whole("id", &M::id, 0, 255).required(),
-                                  field::numbers("rgba", &M::rgba, "[r, g, b, a]", byte).required()});
+  return Record<M>("a material",
+                   {field::text("name", &M::name).required(), field::whole("id", &M::id, 0, 255).required(),
+                    field::numbers("rgba", &M::rgba, "[r, g, b, a]", byte).required()});
 }
 
 // Reads the materials, the first of which is void.
@@ -140,11 +146,12 @@ void read_flip(voxel::Images& images, const Data& data, const MemberReader& read
 
 Record<voxel::Images> images_record() {
   using I = voxel::Images;
-  return Record<I>("\"images\"", {field::choice("format", &I::format, voxel::image_format_names()).required(),
-                                  field::value("files", &I::files, read_pattern).required(),
-                                  field::whole("first_index", &I::first_index, -most_voxels, 2 * most_voxels).required(),
-                                  field::choice("empty_layers", &I::drop_empty_layers, {"keep", "drop"}).required(),
-                                  field::special("flip", read_flip).required()});
+  return Record<I>("\"images\"",
+                   {field::choice("format", &I::format, voxel::image_format_names()).required(),
+                    field::value("files", &I::files, read_pattern).required(),
+                    field::whole("first_index", &I::first_index, -most_voxels, 2 * most_voxels).required(),
+                    field::choice("empty_layers", &I::drop_empty_layers, {"keep", "drop"}).required(),
+                    field::special("flip", read_flip).required()});
 }
 
 void read_checks(DescribedJob& job, const Data& data, const MemberReader& reader) {
@@ -173,17 +180,15 @@ Field<DescribedJob> text_field(const std::string& name, std::string SliceRequest
 const Record<DescribedJob>& job_record() {
   using J = DescribedJob;
   static const Record<J> record =
-      Record<J>("job.json", {text_field("program", &SliceRequest::program).required(),
-                             text_field("design_hash", &SliceRequest::design_hash).required(),
-                             text_field("printer", &SliceRequest::printer).required(),
-                             part_field("sampling", sampling_record()).required(),
-                             field::special("materials", read_materials), field::special("channels", read_channels),
-                             part_field("images", images_record()).required(),
-                             field::special("checks", read_checks).required(),
-                             field::choice("status", &J::is_complete, {"unfinished", "complete"}),
-                             Field<J>("totals", [](J& job, const Data& data, const MemberReader&) {
-                               job.totals = data;
-                             })})
+      Record<J>("job.json",
+                {text_field("program", &SliceRequest::program).required(),
+                 text_field("design_hash", &SliceRequest::design_hash).required(),
+                 text_field("printer", &SliceRequest::printer).required(),
+                 part_field("sampling", sampling_record()).required(), field::special("materials", read_materials),
+                 field::special("channels", read_channels), part_field("images", images_record()).required(),
+                 field::special("checks", read_checks).required(),
+                 field::choice("status", &J::is_complete, {"unfinished", "complete"}),
+                 Field<J>("totals", [](J& job, const Data& data, const MemberReader&) { job.totals = data; })})
           .knows({"format", "shades"})  // jobs of values had shades in an earlier version
           .checked([](J& job, const Data& data, const MemberReader& reader) {
             if (job.request.channels.empty()) reader.fail(data, "a job has \"materials\" or \"channels\"");

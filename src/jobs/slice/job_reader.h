@@ -8,7 +8,7 @@
 
 namespace ombre::compile {
 
-// What a job.json says of its job.
+// A job as its job.json describes it.
 struct DescribedJob {
   SliceRequest request;
   bool is_complete = false;

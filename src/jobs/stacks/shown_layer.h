@@ -7,25 +7,25 @@
 #include <vector>
 
 #include "jobs/slice/slice_request.h"
-#include "jobs/verify/findings.h"
+#include "jobs/stacks/findings.h"
 #include "stores/journal.h"
 
 namespace ombre::compile {
 
-// What images show of the voxels of a channel in a box, x fastest, then y: of materials the id of the first one that
-// looks the same, 0 for void; of numbers the shade; of colours red, green, blue and alpha, 8 bits each.
+// The voxels of a channel in a box as images show them, x fastest, then y. A material is the id of the first one with
+// the same pixels, and void is 0. A number is its shade, and a colour is red, green, blue and alpha, 8 bits each.
 using Shown = std::vector<uint32_t>;
 
 // Stands for a pixel that shows nothing of the job.
 inline constexpr uint32_t shows_nothing = UINT32_MAX;
 
 // Tells which materials the images of a job can tell apart.
-class Looks {
+class Appearance {
  public:
-  explicit Looks(const SliceRequest& request);
+  explicit Appearance(const SliceRequest& request);
 
   uint32_t of(MaterialId id) const { return of_[id]; }
-  // Returns names of materials that look like an earlier one, or like void.
+  // Returns names of materials that have the pixels of an earlier one, or of void.
   const std::vector<std::string>& hidden() const { return hidden_; }
 
  private:
@@ -34,14 +34,14 @@ class Looks {
 };
 
 // Returns what images of this job would show of the pixels of a channel.
-Shown shown_of(const voxel::ChannelPixels& pixels, voxel::ChannelType type, const Looks& looks);
+Shown shown_of(const voxel::ChannelPixels& pixels, voxel::ChannelType type, const Appearance& appearance);
 
 // Thread-safe.
 class LayerReader {
  public:
-  explicit LayerReader(const SliceRequest& request) : request_(request), looks_(request) {}
+  explicit LayerReader(const SliceRequest& request) : request_(request), appearance_(request) {}
 
-  const Looks& looks() const { return looks_; }
+  const Appearance& appearance() const { return appearance_; }
   // Reads the files of a layer, whose names and bytes are given, channel by channel. Adds what is wrong with them.
   // Returns nothing if one of them cannot be read, or has another size.
   std::optional<std::vector<Shown>> read(int64_t layer, const std::vector<std::string>& names,
@@ -50,18 +50,18 @@ class LayerReader {
   std::vector<Shown> blank() const;
   // Adds a finding for each count of the layer's line in the journal that its images do not have.
   void compare_counts(const std::vector<Shown>& channels, const stores::Entry& entry, Findings& findings) const;
-  // Returns the voxels of each of the job's materials and other channels, as Looks tells them apart.
+  // Returns the voxels of each of the job's materials and other channels that images tell apart.
   std::vector<uint64_t> counts(const std::vector<Shown>& channels) const;
   // Returns the names of what is counted.
   std::vector<std::string> counted() const;
-  // Returns stated counts of materials as Looks tells them apart.
+  // Adds stated counts of materials to those of materials with the same pixels.
   std::vector<uint64_t> seen_together(const std::vector<uint64_t>& stated) const;
 
  private:
   size_t voxels() const;
 
   const SliceRequest& request_;
-  Looks looks_;
+  Appearance appearance_;
 };
 
 }  // namespace ombre::compile

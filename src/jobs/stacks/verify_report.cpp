@@ -1,9 +1,9 @@
-#include "jobs/verify/verify_report.h"
+#include "jobs/stacks/verify_report.h"
 
 #include <map>
 
 #include "base/text/text.h"
-#include "formats/containers/base64.h"
+#include "jobs/stacks/report_page.h"
 
 namespace ombre::jobs {
 namespace {
@@ -49,26 +49,6 @@ std::string verdict(const Verification& all) {
   return format_count(count) + (count == 1 ? " thing does not hold" : " things do not hold");
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '&')
-      result += "&amp;";
-    else
-      result += c;
-  }
-  return result;
-}
-
-std::string list_of(const std::string& title, const std::vector<std::string>& lines) {
-  if (lines.empty()) return "";
-  std::string html = "<h2>" + title + "</h2>\n<ul>\n";
-  for (const std::string& line : lines) html += "<li>" + escaped(line) + "</li>\n";
-  return html + "</ul>\n";
-}
-
 }  // namespace
 
 void tell_verification(const Events& events, const Verification& all) {
@@ -100,20 +80,14 @@ void tell_verification(const Events& events, const Verification& all) {
 }
 
 std::string verification_page(const std::string& stack, const Verification& all) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + escaped(stack) +
-      "</title>\n<style>body { font-family: sans-serif; max-width: 60em; margin: 2em auto; } img { max-width: 100%; }"
-      "</style>\n</head>\n<body>\n<h1>" +
-      escaped(stack) + ": " + verdict(all) + "</h1>\n";
-  html += list_of("Looked at", summary(all)) + list_of("Does not hold", shortened(all.findings())) +
-          list_of("Not checked", all.unchecked());
-  if (all.design && !all.design->pictures.empty()) {
-    html += "<h2>Where voxels differ</h2>\n<p>Voxels that the design does not give are red.</p>\n";
-    for (const FindingPicture& picture : all.design->pictures)
-      html += "<h3>" + escaped(picture.title) + "</h3>\n<img alt=\"" + escaped(picture.title) +
-              "\" src=\"data:image/png;base64," + formats::to_base64(picture.png) + "\">\n";
-  }
-  return html + "</body>\n</html>\n";
+  ReportPage page(stack + ": " + verdict(all));
+  page.add_list("Looked at", summary(all));
+  page.add_list("Does not hold", shortened(all.findings()));
+  page.add_list("Not checked", all.unchecked());
+  if (!all.design || all.design->pictures.empty()) return page.html();
+  page.add_heading("Voxels that the design does not give, in red");
+  for (const FindingPicture& picture : all.design->pictures) page.add_picture(picture.title, picture.png);
+  return page.html();
 }
 
 }  // namespace ombre::jobs

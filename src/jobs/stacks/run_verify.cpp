@@ -8,8 +8,8 @@
 #include "jobs/common/job_steps.h"
 #include "jobs/common/overwrite.h"
 #include "jobs/common/shard_ranges.h"
-#include "jobs/verify/verify_choices.h"
-#include "jobs/verify/verify_report.h"
+#include "jobs/stacks/verify_choices.h"
+#include "jobs/stacks/verify_report.h"
 
 namespace ombre::jobs {
 namespace {
@@ -40,7 +40,7 @@ std::vector<int64_t> borders_of(const std::string& plan, Diagnostics& diagnostic
   return borders;
 }
 
-// What is compared with the stack.
+// A design and the choice of voxels that are compared with the stack.
 struct Compared {
   compile::LoadedPtr design;  // null if none was given
   compile::SampleChoice choice;
@@ -64,8 +64,7 @@ int run(const VerifyChoices& a, const Compared& compared, Session& session) {
   JobProgress progress(session.events, Counted::steps);
   const compile::CheckWork work{a.work.threads, a.work.memory_bytes, &progress, &session.stop};
   Diagnostics diagnostics;
-  const auto result =
-      compile::verify(a.stack, compared.design, compared.choice, session.program, work, diagnostics);
+  const auto result = compile::verify(a.stack, compared.design, compared.choice, session.program, work, diagnostics);
   progress.finish();
   session.events.diagnose(diagnostics);
   if (!result) return wrong_input;

@@ -1,4 +1,4 @@
-#include "jobs/verify/marked_layer.h"
+#include "jobs/stacks/marked_layer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,14 +25,13 @@ formats::Rgba pale(const formats::Rgba& colour) {
 struct Under {
   int64_t begin, end;
   Under(uint32_t pixel, uint32_t pixels, int64_t voxels)
-      : begin(int64_t{pixel} * voxels / pixels),
-        end(std::max(begin + 1, (int64_t{pixel} + 1) * voxels / pixels)) {}
+      : begin(int64_t{pixel} * voxels / pixels), end(std::max(begin + 1, (int64_t{pixel} + 1) * voxels / pixels)) {}
 };
 
 }  // namespace
 
 std::string marked_layer(const voxel::Lattice& lattice, const std::function<formats::Rgba(size_t voxel)>& colour,
-                         const std::vector<uint8_t>& marks) {
+                         const std::vector<uint8_t>& flags) {
   const Vec3 size = lattice.box().size();
   const double scale = longest_side / std::max(size.x, size.y);
   const auto pixels = [&](double mm) { return static_cast<uint32_t>(std::max(1.0, std::round(scale * mm))); };
@@ -44,7 +43,7 @@ std::string marked_layer(const voxel::Lattice& lattice, const std::function<form
       uint8_t mark = 0;
       for (int64_t j = y.begin; j < y.end; ++j)
         for (int64_t i = x.begin; i < x.end; ++i)
-          mark = std::max(mark, marks[static_cast<size_t>(j * lattice.count[0] + i)]);
+          mark = std::max(mark, flags[static_cast<size_t>(j * lattice.count[0] + i)]);
       const auto voxel = static_cast<size_t>(y.begin * lattice.count[0] + x.begin);
       picture.set(column, row, mark > 0 ? mark_colours[mark] : pale(colour(voxel)));
     }

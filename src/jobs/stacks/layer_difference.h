@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "jobs/verify/design_voxels.h"
-#include "jobs/verify/shown_layer.h"
+#include "jobs/stacks/design_voxels.h"
+#include "jobs/stacks/shown_layer.h"
 
 namespace ombre::compile {
 
@@ -25,8 +25,8 @@ struct LikelyCause {
 // Returns what a whole layer must show.
 using ExpectedLayer = std::function<Shown(int64_t layer)>;
 
-// Looks for a cause: the layer is mirrored, it shows one of these other layers, or it is dithered anew. `expected` is
-// what it must show; `changes` is the number of voxels that other draws are expected to change.
+// Appearance for a cause: the layer is mirrored, it shows one of these other layers, or it is dithered anew. `expected`
+// is what it must show; `changes` is the number of voxels that other draws are expected to change.
 LikelyCause likely_cause(const Shown& shown, const Shown& expected, int64_t width,
                          const std::vector<int64_t>& other_layers, const ExpectedLayer& expected_layer, double changes);
 

@@ -1,4 +1,4 @@
-#include "jobs/verify/fraction_windows.h"
+#include "jobs/stacks/fraction_windows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ bool is_too_large(double square, uint64_t count) {
 
 }  // namespace
 
-FractionWindows::FractionWindows(const std::vector<SliceMaterial>& materials, const Looks& looks)
-    : materials_(materials), looks_(looks), sums_(materials.size()) {}
+FractionWindows::FractionWindows(const std::vector<SliceMaterial>& materials, const Appearance& appearance)
+    : materials_(materials), appearance_(appearance), sums_(materials.size()) {}
 
 void FractionWindows::add(int64_t width, const Shown& shown, const std::vector<voxel::ChannelPixels>& fractions) {
   const int64_t height = static_cast<int64_t>(shown.size()) / width;
@@ -38,7 +38,7 @@ void FractionWindows::add(int64_t width, const Shown& shown, const std::vector<v
             const double fraction = share(m, n);
             expected += fraction;
             variance += fraction * (1 - fraction);
-            found += shown[n] != 0 && shown[n] == looks_.of(materials_[m].id) ? 1 : 0;
+            found += shown[n] != 0 && shown[n] == appearance_.of(materials_[m].id) ? 1 : 0;
           }
         }
         expected_changes_ += variance;

@@ -10,10 +10,10 @@ namespace ombre::compile {
 
 struct SampleChoice {
   bool all = false;
-  double voxels = 2e7;                 // the most, apart from layers at borders
-  uint64_t seed = 0;                   // decides which
-  std::vector<int64_t> borders = {};   // first layers of shares; they, and those below them, are taken whole
-  bool whole_layers = false;           // no windows, where a window costs as much as its layer
+  double voxels = 2e7;                // the most, apart from layers at borders
+  uint64_t seed = 0;                  // decides which
+  std::vector<int64_t> borders = {};  // first layers of shares; they, and those below them, are taken whole
+  bool whole_layers = false;          // no windows, where a window costs as much as its layer
 };
 
 // Windows of a layer that do not lie over each other.

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/verify/shown_layer.h"
+#include "jobs/stacks/shown_layer.h"
 
 namespace ombre::compile {
 
@@ -18,7 +18,7 @@ inline constexpr double chi_square_level = 1e-6;
 
 class FractionWindows {
  public:
-  FractionWindows(const std::vector<SliceMaterial>& materials, const Looks& looks);
+  FractionWindows(const std::vector<SliceMaterial>& materials, const Appearance& appearance);
 
   // Adds a layer of a width, with the fractions of each material in 1/65535.
   void add(int64_t width, const Shown& shown, const std::vector<voxel::ChannelPixels>& fractions);
@@ -36,7 +36,7 @@ class FractionWindows {
   };
 
   const std::vector<SliceMaterial>& materials_;
-  const Looks& looks_;
+  const Appearance& appearance_;
   std::vector<Sum> sums_;
   uint64_t windows_ = 0;
   double expected_changes_ = 0;

@@ -1,4 +1,4 @@
-// What a check of a stack found.
+// Findings of a check of a stack.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "jobs/verify/stack_checks.h"
+#include "jobs/stacks/stack_checks.h"
 
 #include <algorithm>
 #include <iterator>
@@ -18,7 +18,7 @@
 namespace ombre::compile {
 namespace {
 
-// What was found in one layer.
+// The result of checking one layer.
 struct LayerCheck {
   Findings findings;
   bool is_read = false;
@@ -50,7 +50,7 @@ class StackChecker {
  private:
   bool holds(const std::string& name) const { return stack_.names.contains(name); }
 
-  // Looks for images that are of no layer, and lists files of others.
+  // Appearance for images that are of no layer, and lists files of others.
   void find_extra_files() {
     uint64_t others = 0;
     for (const std::string& name : stack_.names) {
@@ -63,11 +63,12 @@ class StackChecker {
     }
     if (others > 0) result_.unchecked.push_back(format_count(others) + " files in the folder are not of the job");
     if (!stack_.has_journal)
-      result_.unchecked.push_back("there is no journal, so hashes of files and counts of single layers are not checked");
+      result_.unchecked.push_back(
+          "there is no journal, so hashes of files and counts of single layers are not checked");
     if (!stack_.job.is_complete)
       result_.unchecked.push_back("the job is unfinished: layers that are not there yet, and totals, are not checked");
-    if (!reader_.looks().hidden().empty())
-      result_.unchecked.push_back("the images do not tell " + join(reader_.looks().hidden(), ", ") +
+    if (!reader_.appearance().hidden().empty())
+      result_.unchecked.push_back("the images do not tell " + join(reader_.appearance().hidden(), ", ") +
                                   " from other materials or from void");
   }
 
@@ -102,8 +103,9 @@ class StackChecker {
     LayerCheck result{{}, true, 0, 0, std::vector<uint64_t>(counts_.size())};
     for (const std::string& name : names)
       if (holds(name))
-        result.findings.push_back({"extra", name + " is in the folder, but the journal says that the layer is empty " +
-                                                "and left out", entry.id});
+        result.findings.push_back(
+            {"extra", name + " is in the folder, but the journal says that the layer is empty " + "and left out",
+             entry.id});
     return result;
   }
 

@@ -1,4 +1,4 @@
-#include "jobs/verify/design_checks.h"
+#include "jobs/stacks/design_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
-#include "jobs/verify/fraction_windows.h"
-#include "jobs/verify/layer_difference.h"
-#include "jobs/verify/marked_layer.h"
+#include "jobs/stacks/fraction_windows.h"
+#include "jobs/stacks/layer_difference.h"
+#include "jobs/stacks/marked_layer.h"
 #include "load/turned.h"
 #include "questions/build.h"
 
@@ -43,20 +43,20 @@ voxel::Lattice placed(const Stack& stack, const Box& box, Findings& findings) {
     else
       lattice.origin[axis] = origin;
     if (before < 0 || before + needed > count)
-      findings.push_back({"place", "the design is longer along " + letter + " than the stack: " +
-                                       format_count(static_cast<unsigned long long>(needed)) + " voxels from number " +
-                                       std::to_string(static_cast<int64_t>(before)) + " on, of " +
-                                       format_count(static_cast<unsigned long long>(count))});
+      findings.push_back({"place", "the design is longer along " + letter +
+                                       " than the stack: " + format_count(static_cast<unsigned long long>(needed)) +
+                                       " voxels from number " + std::to_string(static_cast<int64_t>(before)) +
+                                       " on, of " + format_count(static_cast<unsigned long long>(count))});
   }
   return lattice;
 }
 
-// What was compared in one layer.
+// The result of comparing one layer.
 struct Compared {
   bool is_read = false;
   uint64_t voxels = 0, rounded = 0, diffused = 0;
   LayerDifference difference;
-  Shown diffused_layer;                          // what the images of a layer with diffused voxels show
+  Shown diffused_layer;                         // what the images of a layer with diffused voxels show
   std::vector<voxel::ChannelPixels> fractions;  // of its materials
 };
 
@@ -72,7 +72,7 @@ class DesignChecker {
         work_(work),
         result_(result),
         reference_(design.voxels(Evaluator::reference)),
-        windows_(request_.materials, reader.looks()) {
+        windows_(request_.materials, reader.appearance()) {
     if (request_.evaluator != Evaluator::reference) as_made_ = design.voxels(request_.evaluator);
     for (int axis = 0; axis < 3; ++axis)
       for (const double side : {-1.0, 1.0}) {
@@ -115,7 +115,7 @@ class DesignChecker {
     const std::vector<voxel::LayerResult> made = voxels(box, work_.stop);
     std::vector<Shown> channels;
     for (size_t n = 0; n < request_.channels.size(); ++n)
-      channels.push_back(shown_of(made.front().channels[n], request_.channels[n].type, reader_.looks()));
+      channels.push_back(shown_of(made.front().channels[n], request_.channels[n].type, reader_.appearance()));
     return channels;
   }
 
@@ -134,8 +134,7 @@ class DesignChecker {
     std::vector<size_t> found;
     for_each(window, [&](size_t n, size_t m) {
       bool differs = false;
-      for (size_t c = 0; c < made.size(); ++c)
-        differs |= !is_same(images[c][n], made[c][m], request_.channels[c].type);
+      for (size_t c = 0; c < made.size(); ++c) differs |= !is_same(images[c][n], made[c][m], request_.channels[c].type);
       if (differs) found.push_back(n);
     });
     return found;
@@ -278,13 +277,13 @@ class DesignChecker {
     }
     double changes = static_cast<double>(images->front().size());
     if (request_.has_materials() && request_.dither != voxel::Dither::threshold) {
-      FractionWindows windows(request_.materials, reader_.looks());
+      FractionWindows windows(request_.materials, reader_.appearance());
       windows.add(width(), images->front(), fractions_of(difference.layer));
       changes = windows.expected_changes();
     }
     const auto expected_layer = [&](int64_t layer) { return shown(reference_, layer, whole()).front(); };
-    const LikelyCause cause = likely_cause(images->front(), expected.front(), width(), others(difference.layer),
-                                           expected_layer, changes);
+    const LikelyCause cause =
+        likely_cause(images->front(), expected.front(), width(), others(difference.layer), expected_layer, changes);
     difference.finding.kind = cause.kind;
     if (!cause.text.empty()) difference.finding.text += "; " + cause.text;
     add_picture(difference, images->front());
@@ -301,8 +300,8 @@ class DesignChecker {
   }
 
   void add_picture(const LayerDifference& difference, const Shown& images) {
-    std::vector<uint8_t> marks(images.size());
-    for (const size_t n : difference.voxels) marks[n] = 1;
+    std::vector<uint8_t> flags(images.size());
+    for (const size_t n : difference.voxels) flags[n] = 1;
     const auto colour = [&](size_t n) -> formats::Rgba {
       for (const SliceMaterial& material : request_.materials)
         if (material.id == images[n]) return material.rgba;
@@ -310,7 +309,7 @@ class DesignChecker {
       return {128, 128, 128, alpha};
     };
     result_.pictures.push_back(
-        {"layer " + std::to_string(difference.layer), marked_layer(request_.lattice, colour, marks)});
+        {"layer " + std::to_string(difference.layer), marked_layer(request_.lattice, colour, flags)});
   }
 
   const Stack& stack_;
@@ -339,7 +338,8 @@ void compare_materials(const Stack& stack, const design::Design& design, const s
                        Findings& findings) {
   for (const SliceMaterial& listed : stack.request().materials) {
     const design::Material* there = design.materials.find(listed.name);
-    if (!there || there->id != listed.id || std::ranges::find(possible, listed.id, &SliceMaterial::id) == possible.end())
+    if (!there || there->id != listed.id ||
+        std::ranges::find(possible, listed.id, &SliceMaterial::id) == possible.end())
       findings.push_back({"materials", "the design has no material " + listed.name + " with the number " +
                                            std::to_string(listed.id) + ", which job.json lists"});
     else if (there->colour != listed.rgba)

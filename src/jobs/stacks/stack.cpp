@@ -1,4 +1,4 @@
-#include "jobs/verify/stack.h"
+#include "jobs/stacks/stack.h"
 
 #include <filesystem>
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "jobs/common/events.h"
-#include "jobs/verify/verify.h"
+#include "jobs/stacks/verify.h"
 
 namespace ombre::jobs {
 

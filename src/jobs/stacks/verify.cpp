@@ -1,4 +1,4 @@
-#include "jobs/verify/verify.h"
+#include "jobs/stacks/verify.h"
 
 #include <iterator>
 

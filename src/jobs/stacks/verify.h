@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "jobs/verify/design_checks.h"
+#include "jobs/stacks/design_checks.h"
 
 namespace ombre::compile {
 
@@ -13,8 +13,8 @@ struct Verification {
   StackCheck stack;
   std::optional<DesignCheck> design;
 
-  Findings findings() const;                     // of both, and of journals
-  std::vector<std::string> unchecked() const;    // of both
+  Findings findings() const;                   // of both, and of journals
+  std::vector<std::string> unchecked() const;  // of both
   Findings journals;
 };
 

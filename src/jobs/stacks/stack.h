@@ -7,7 +7,7 @@
 
 #include "jobs/slice/job_reader.h"
 #include "jobs/slice/layer_files.h"
-#include "jobs/verify/findings.h"
+#include "jobs/stacks/findings.h"
 #include "stores/journal.h"
 
 namespace ombre::compile {

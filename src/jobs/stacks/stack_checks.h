@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "base/system/progress.h"
-#include "jobs/verify/shown_layer.h"
-#include "jobs/verify/stack.h"
+#include "jobs/stacks/shown_layer.h"
+#include "jobs/stacks/stack.h"
 
 namespace ombre::compile {
 
-// What a check may use. Progress and stop flag may be null.
+// Threads and memory that a check may use. Progress and stop flag may be null.
 struct CheckWork {
   int threads = 0;  // 0: all cores
   size_t memory_bytes = size_t{2} << 30;

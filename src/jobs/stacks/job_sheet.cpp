@@ -1,5 +1,5 @@
 // Draws contact sheets of slice jobs.
-#include "jobs/slice/job_sheet.h"
+#include "jobs/stacks/job_sheet.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,7 +23,9 @@ namespace {
 SliceRequest read_request(const std::string& path) {
   Diagnostics problems;
   auto job = read_job(make_source(path, formats::read_file(path)), problems);
-  if (!job) throw Error(Code::file_kind, path + " is not a slice job: " + std::string(trim(to_text(problems))), {{"file", path}});
+  if (!job)
+    throw Error(Code::file_kind, path + " is not a slice job: " + std::string(trim(to_text(problems))),
+                {{"file", path}});
   return std::move(job->request);
 }
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "jobs/verify/design_voxels.h"
-#include "jobs/verify/layer_samples.h"
-#include "jobs/verify/stack_checks.h"
+#include "jobs/stacks/design_voxels.h"
+#include "jobs/stacks/layer_samples.h"
+#include "jobs/stacks/stack_checks.h"
 
 namespace ombre::compile {
 

@@ -1,4 +1,4 @@
-#include "jobs/verify/design_voxels.h"
+#include "jobs/stacks/design_voxels.h"
 
 #include "jobs/slice/value_layers.h"
 #include "questions/design_stages.h"
@@ -64,11 +64,10 @@ RegionProducer DesignVoxels::voxels(voxel::Evaluator evaluator, Vec3 beside) con
   if (!built_) return in_part(sampling_, values(lattice, sampling_.channels, evaluator));
   voxel::EvaluatorOptions how;
   how.evaluator = evaluator;
-  const auto layers = std::make_shared<const voxel::LayerEvaluator>(built_->materials, lattice, sampling_.dither,
-                                                                    sampling_.seed, how);
-  return in_part(sampling_, [layers](const voxel::TileBox& box, const StopFlag* stop) {
-    return layers->region(box, stop);
-  });
+  const auto layers =
+      std::make_shared<const voxel::LayerEvaluator>(built_->materials, lattice, sampling_.dither, sampling_.seed, how);
+  return in_part(sampling_,
+                 [layers](const voxel::TileBox& box, const StopFlag* stop) { return layers->region(box, stop); });
 }
 
 RegionProducer DesignVoxels::fractions(const std::vector<SliceMaterial>& materials) const {

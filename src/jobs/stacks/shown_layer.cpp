@@ -1,4 +1,4 @@
-#include "jobs/verify/shown_layer.h"
+#include "jobs/stacks/shown_layer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ std::string colour_text(uint32_t colour) {
   return "(" + join(bytes, ", ") + ")";
 }
 
-// What one file of a layer shows: a channel, or one material of it.
+// The content of one file of a layer: a channel, or one material of it.
 struct FileContent {
   size_t channel = 0;
   const SliceMaterial* material = nullptr;  // null if it shows all of the channel
@@ -56,10 +56,10 @@ struct Colours {
 
 class FileReader {
  public:
-  FileReader(const SliceRequest& request, const Looks& looks, const FileContent& content, std::string name,
+  FileReader(const SliceRequest& request, const Appearance& appearance, const FileContent& content, std::string name,
              int64_t layer, Findings& findings)
       : request_(request),
-        looks_(looks),
+        appearance_(appearance),
         content_(content),
         channel_(request.channels[content.channel]),
         name_(std::move(name)),
@@ -131,9 +131,8 @@ class FileReader {
 
   void take_deep(std::string_view bytes, Shown& shown) {
     const formats::GrayImage image = formats::decode_gray_png(bytes, name_, most_pixels());
-    for_each_pixel([&](size_t n, uint32_t row, uint32_t column) {
-      shown[n] = image.pixels[size_t{row} * image.width + column];
-    });
+    for_each_pixel(
+        [&](size_t n, uint32_t row, uint32_t column) { shown[n] = image.pixels[size_t{row} * image.width + column]; });
   }
 
   void take(const PngImage& image, Shown& shown) {
@@ -150,17 +149,18 @@ class FileReader {
 
   Colours colours() const {
     if (request_.format == ImageFormat::mask)
-      return {{{packed(exporting::mask_off), 0}, {packed({255, 255, 255, 255}), looks_.of(content_.material->id)}}};
+      return {
+          {{packed(exporting::mask_off), 0}, {packed({255, 255, 255, 255}), appearance_.of(content_.material->id)}}};
     Colours all{{{packed(exporting::shown(request_.background, request_.format)), 0}}};
     for (const SliceMaterial& material : request_.materials)
       if (!content_.material || content_.material == &material)
-        all.meaning.emplace_back(packed(exporting::shown(material.rgba, request_.format)), looks_.of(material.id));
+        all.meaning.emplace_back(packed(exporting::shown(material.rgba, request_.format)), appearance_.of(material.id));
     return all;
   }
 
   // Returns what each entry of a palette shows, and reports entries that are not the job's.
   std::vector<uint32_t> entries(const PngImage& image) {
-    std::vector<uint32_t> looks(256, shows_nothing);
+    std::vector<uint32_t> shows(256, shows_nothing);
     for (size_t n = 0; n < image.palette.size() && n <= request_.materials.size(); ++n) {
       const Rgba wanted = n == 0 ? request_.background : request_.materials[n - 1].rgba;
       const std::string of = n == 0 ? "void" : request_.materials[n - 1].name;
@@ -168,18 +168,18 @@ class FileReader {
         add("colour", name_ + " has " + colour_text(packed(image.palette[n])) + " as entry " + std::to_string(n) +
                           " of its palette, where " + of + " has " + colour_text(packed(wanted)) + " in job.json");
       const bool may_show = n == 0 || !content_.material || content_.material == &request_.materials[n - 1];
-      if (may_show) looks[n] = n == 0 ? 0 : looks_.of(request_.materials[n - 1].id);
+      if (may_show) shows[n] = n == 0 ? 0 : appearance_.of(request_.materials[n - 1].id);
     }
-    return looks;
+    return shows;
   }
 
   void take_materials(const PngImage& image, Shown& shown) {
     const bool is_indexed = image.format == ImageFormat::indexed;
     const Colours known = is_indexed ? Colours() : colours();
-    const std::vector<uint32_t> looks = is_indexed ? entries(image) : std::vector<uint32_t>();
+    const std::vector<uint32_t> shows = is_indexed ? entries(image) : std::vector<uint32_t>();
     uint32_t last_colour = 0, last_look = is_indexed ? 0 : known.of(0);
     for_each_pixel([&](size_t n, uint32_t row, uint32_t column) {
-      if (is_indexed) return put(looks[image.pixels[size_t{row} * image.width + column]], image, row, column, shown[n]);
+      if (is_indexed) return put(shows[image.pixels[size_t{row} * image.width + column]], image, row, column, shown[n]);
       const uint32_t colour = packed(image.colour(column, row));
       if (colour != last_colour) last_look = known.of(last_colour = colour);
       put(last_look, image, row, column, shown[n]);
@@ -205,7 +205,7 @@ class FileReader {
   }
 
   const SliceRequest& request_;
-  const Looks& looks_;
+  const Appearance& appearance_;
   const FileContent& content_;
   const voxel::Channel& channel_;
   std::string name_;
@@ -216,14 +216,14 @@ class FileReader {
 };
 
 struct PixelsShown {
-  const Looks* looks;  // null for shades
+  const Appearance* appearance;  // null for shades
 
   Shown operator()(const RunLayer& layer) const {
     Shown shown;
     std::vector<MaterialId> row(layer.width());
     for (uint32_t j = 0; j < layer.height(); ++j) {
       layer.row(j).unpack(row.data());
-      for (const MaterialId id : row) shown.push_back(looks ? looks->of(id) : id);
+      for (const MaterialId id : row) shown.push_back(appearance ? appearance->of(id) : id);
     }
     return shown;
   }
@@ -237,7 +237,7 @@ struct PixelsShown {
 
 }  // namespace
 
-Looks::Looks(const SliceRequest& request) {
+Appearance::Appearance(const SliceRequest& request) {
   // Materials that the job does not list look like nothing of it.
   of_.fill(shows_nothing - 1);
   of_[0] = 0;
@@ -258,8 +258,8 @@ Looks::Looks(const SliceRequest& request) {
   }
 }
 
-Shown shown_of(const voxel::ChannelPixels& pixels, ChannelType type, const Looks& looks) {
-  return std::visit(PixelsShown{type == ChannelType::material ? &looks : nullptr}, pixels);
+Shown shown_of(const voxel::ChannelPixels& pixels, ChannelType type, const Appearance& appearance) {
+  return std::visit(PixelsShown{type == ChannelType::material ? &appearance : nullptr}, pixels);
 }
 
 size_t LayerReader::voxels() const {
@@ -274,7 +274,7 @@ std::optional<std::vector<Shown>> LayerReader::read(int64_t layer, const std::ve
   std::vector<Shown> channels = blank();
   bool is_read = names.size() == contents.size();
   for (size_t n = 0; n < names.size() && n < contents.size(); ++n)
-    is_read &= FileReader(request_, looks_, contents[n], names[n], layer, findings)
+    is_read &= FileReader(request_, appearance_, contents[n], names[n], layer, findings)
                    .read(bytes[n], channels[contents[n].channel]);
   return is_read ? std::optional(std::move(channels)) : std::nullopt;
 }
@@ -288,7 +288,7 @@ std::vector<uint64_t> LayerReader::counts(const std::vector<Shown>& channels) co
       for (const uint32_t look : channels[n])
         if (look < of.size()) ++of[look];
       for (const SliceMaterial& material : request_.materials)
-        counts.push_back(looks_.of(material.id) == material.id ? of[material.id] : 0);
+        counts.push_back(appearance_.of(material.id) == material.id ? of[material.id] : 0);
       continue;
     }
     const auto is_counted = [&](uint32_t value) { return (type == ChannelType::colour ? value & 255 : value) > 0; };
@@ -302,7 +302,7 @@ std::vector<std::string> LayerReader::counted() const { return shown_names(reque
 std::vector<uint64_t> LayerReader::seen_together(const std::vector<uint64_t>& stated) const {
   std::vector<uint64_t> together = stated;
   for (size_t n = 0; n < request_.materials.size(); ++n) {
-    const uint32_t look = looks_.of(request_.materials[n].id);
+    const uint32_t look = appearance_.of(request_.materials[n].id);
     if (look == request_.materials[n].id) continue;
     together[n] = 0;
     for (size_t other = 0; other < request_.materials.size(); ++other)

@@ -1,4 +1,4 @@
-#include "jobs/verify/layer_samples.h"
+#include "jobs/stacks/layer_samples.h"
 
 #include <algorithm>
 #include <map>
