@@ -21,6 +21,10 @@ using voxel::TileBox;
 
 constexpr size_t most_explained = 16;  // layers whose differences are looked at closely
 
+// A draw is a multiple of 2^-24, which a fraction of a float may reach or not by rounding. So a voxel in so many may
+// differ although no place beside it explains that.
+constexpr double voxels_for_one_draw = 1e6;
+
 std::string place_text(const Vec3& p) {
   return "(" + format_rounded(p.x, 5) + ", " + format_rounded(p.y, 5) + ", " + format_rounded(p.z, 5) + ") mm";
 }
@@ -56,6 +60,7 @@ struct Compared {
   bool is_read = false;
   uint64_t voxels = 0, rounded = 0, diffused = 0;
   LayerDifference difference;
+  uint64_t as_made = 0;                         // differing voxels that the evaluator that made the stack gives, too
   Shown diffused_layer;                         // what the images of a layer with diffused voxels show
   std::vector<voxel::ChannelPixels> fractions;  // of its materials
 };
@@ -90,6 +95,7 @@ class DesignChecker {
     const auto consume = [&](size_t n, Compared& layer) { take(n, layer); };
     constexpr size_t window = 16;
     run_ordered<Compared>(samples_.size(), work_.threads, window, produce, consume);
+    judge_as_made();
     if (result_.diffused > 0) check_fractions();
     explain();
   }
@@ -188,8 +194,16 @@ class DesignChecker {
     if (request_.dither == voxel::Dither::diffusion && request_.has_materials())
       compare_diffused(*images, sample.layer, result);
     else
-      result.rounded = remove_rounded(*images, sample.layer, result.difference.voxels);
+      compare_rounded(*images, sample.layer, result);
     return result;
+  }
+
+  void compare_rounded(const std::vector<Shown>& images, int64_t layer, Compared& result) const {
+    std::vector<size_t>& voxels = result.difference.voxels;
+    result.rounded = remove_rounded(images, layer, voxels);
+    if (voxels.empty() || !as_made_) return;
+    const std::vector<size_t> still = differing(images, as_made_, layer, around(voxels));
+    for (const size_t n : voxels) result.as_made += std::ranges::binary_search(still, n) ? 0 : 1;
   }
 
   // An error that is rounded otherwise changes the voxels after it. So the shape is compared with the reference, the
@@ -226,8 +240,27 @@ class DesignChecker {
     result_.diffused += layer.diffused;
     if (!layer.diffused_layer.empty()) windows_.add(width(), layer.diffused_layer, layer.fractions);
     if (!layer.is_read) ++unread_;
-    if (!layer.difference.voxels.empty()) differences_.push_back(std::move(layer.difference));
+    if (layer.difference.voxels.size() == layer.as_made)
+      take_as_made(layer);
+    else
+      differences_.push_back(std::move(layer.difference));
     if (work_.progress) work_.progress->update({n + 1, samples_.size()});
+  }
+
+  void take_as_made(Compared& layer) {
+    if (layer.as_made == 0) return;
+    as_made_voxels_ += layer.as_made;
+    as_made_differences_.push_back(std::move(layer.difference));
+  }
+
+  // Takes voxels for rounded that the evaluator that made the stack gives, too, if they are few enough.
+  void judge_as_made() {
+    if (static_cast<double>(as_made_voxels_) * voxels_for_one_draw <= static_cast<double>(result_.voxels)) {
+      result_.rounded += as_made_voxels_;
+      return;
+    }
+    std::ranges::move(as_made_differences_, std::back_inserter(differences_));
+    std::ranges::sort(differences_, {}, &LayerDifference::layer);
   }
 
   void check_fractions() {
@@ -322,7 +355,8 @@ class DesignChecker {
   RegionProducer reference_, as_made_;  // the latter is empty where the reference made the stack
   std::vector<RegionProducer> beside_;
   FractionWindows windows_;
-  std::vector<LayerDifference> differences_;
+  std::vector<LayerDifference> differences_, as_made_differences_;
+  uint64_t as_made_voxels_ = 0;
   uint64_t unread_ = 0;
 };
 

@@ -95,7 +95,10 @@ DataMembers members_of(const MaterialChanges& changes, const voxel::Lattice& lat
 }  // namespace
 
 void tell_changes(const Events& events, const MaterialChanges& changes, const voxel::Lattice& lattice) {
-  if (events.wants_data()) return events.event("changes", members_of(changes, lattice));
+  if (events.wants_data()) {
+    if (!changes.layers.empty()) events.warn(verdict(changes));
+    return events.event("changes", members_of(changes, lattice));
+  }
   std::string text;
   for (const std::string& line : change_lines(changes, lattice)) text += line + "\n";
   for (const std::string& line : layer_lines(changes, lattice)) text += "  " + line + "\n";

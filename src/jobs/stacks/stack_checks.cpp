@@ -80,15 +80,15 @@ class StackChecker {
     if (entry && entry->files.empty()) return check_dropped(*entry, names);
     if (stack_.has_journal && !entry) return without_entry(layer, names);
     std::vector<std::string> bytes;
-    for (const std::string& name : names) {
-      if (!holds(name)) {
-        add_missing(layer, name, result);
+    for (size_t n = 0; n < names.size(); ++n) {
+      if (!holds(names[n])) {
+        add_missing(layer, names[n], result);
         continue;
       }
-      bytes.push_back(formats::read_file(stack_.path(name)));
+      bytes.push_back(formats::read_file(stack_.path(names[n])));
       ++result.files;
       result.bytes += bytes.back().size();
-      if (entry) check_hash(layer, entry->files[bytes.size() - 1], bytes.back(), result.findings);
+      if (entry) check_hash(layer, entry->files[n], bytes.back(), result.findings);
     }
     if (bytes.size() != names.size()) return result;
     const auto channels = reader_.read(layer, names, bytes, result.findings);

@@ -71,11 +71,15 @@ void tell_verification(const Events& events, const Verification& all) {
     members.emplace_back("voxels_diffused", number(all.design->diffused));
     members.emplace_back("windows", number(all.design->windows));
   }
-  if (events.wants_data()) return events.event("verified", std::move(members));
+  const std::vector<std::string> wrong = shortened(all.findings());
+  if (events.wants_data()) {
+    for (const std::string& line : wrong) events.warn(line, Code::file_content);
+    return events.event("verified", std::move(members));
+  }
   std::string text;
   for (const std::string& line : summary(all)) text += line + "\n";
   for (const std::string& line : not_checked) text += "not checked: " + line + "\n";
-  for (const std::string& line : shortened(all.findings())) text += line + "\n";
+  for (const std::string& line : wrong) text += line + "\n";
   events.print(text + verdict(all) + "\n");
 }
 
