@@ -106,7 +106,8 @@ std::optional<Interval> read_range(const Data& data, const MemberReader& reader)
   return ends ? std::optional(Interval((*ends)[0], (*ends)[1])) : std::nullopt;
 }
 
-std::optional<std::string> read_unit(const Data& data, const MemberReader& reader) {
+// Reads a text that may be empty.
+std::optional<std::string> read_any_text(const Data& data, const MemberReader& reader) {
   if (data.string()) return *data.string();
   reader.fail_expected(data, "a text");
   return std::nullopt;
@@ -116,7 +117,7 @@ Record<voxel::Channel> channel_record() {
   using C = voxel::Channel;
   return Record<C>("a channel",
                    {field::text("name", &C::name).required(), field::value("type", &C::type, read_type).required(),
-                    field::value("unit", &C::unit, read_unit), field::value("range", &C::range, read_range)});
+                    field::value("unit", &C::unit, read_any_text), field::value("range", &C::range, read_range)});
 }
 
 void read_channels(DescribedJob& job, const Data& data, const MemberReader& reader) {
@@ -173,7 +174,7 @@ Field<DescribedJob> part_field(const std::string& name, Record<Part> record) {
 
 Field<DescribedJob> text_field(const std::string& name, std::string SliceRequest::*member) {
   return {name, [=](DescribedJob& job, const Data& data, const MemberReader& reader) {
-            if (const auto text = reader.text(data, name)) job.request.*member = *text;
+            if (const auto text = read_any_text(data, reader)) job.request.*member = *text;
           }};
 }
 

@@ -13,11 +13,11 @@
 
 namespace ombre::compile {
 
-// A ball and a block beside it, with no symmetry, of red and blue that change with the height.
+// A ball and a block beside it, with no symmetry, mixed of red and blue by fractions that change with the height.
 inline const std::string graded_text =
     "fgrade([\"(z + 2) / 4\", \"(2 - z) / 4\"], [red, blue]) union() {\n"
     "  sphere(2);\n"
-    "  translate(2.5, 1, 0) rectprism([2, 1, 4], red);\n"
+    "  translate(2.5, 1, 0) rectprism([2, 1, 4]);\n"
     "}\n";
 
 class StackTest : public Slice {

@@ -56,9 +56,11 @@ TEST_F(Verify, FindsOneVoxel) {
   const LoadedPtr loaded = load(graded_text);
   write_stack(loaded, [](const Plan& plan, int64_t k) {
     if (k != 12) return right_layer(plan, k);
-    // The block is 10 voxels long, 5 wide, and of red alone, from voxel (17, 12) on.
+    // Voxel (22, 14) is in the block, which is 10 voxels long and 5 wide from voxel (17, 12) on.
     return changed_layer(right_layer(plan, k), [&](auto& voxels, int64_t width) {
-      voxels[static_cast<size_t>(14 * width + 22)] = plan.request.materials.back().id;
+      MaterialId& voxel = voxels[static_cast<size_t>(14 * width + 22)];
+      const auto& materials = plan.request.materials;
+      voxel = voxel == materials.front().id ? materials.back().id : materials.front().id;
     });
   });
   EXPECT_EQ(texts(verified(nullptr)), "");  // its journal says what its images show
