@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 
 #include "base/system/tasks.h"
@@ -19,7 +20,7 @@ namespace {
 using voxel::Evaluator;
 using voxel::TileBox;
 
-constexpr size_t most_explained = 16;  // layers whose differences are looked at closely
+constexpr size_t most_explained = 16;  // layers that are told in detail
 
 // A draw is a multiple of 2^-24, which a fraction of a float may reach or not by rounding. So a voxel in so many may
 // differ although no place beside it explains that.
@@ -280,19 +281,29 @@ class DesignChecker {
     return "a material that job.json does not list";
   }
 
-  // Says of each layer what differs, and of the first ones why, with a picture.
+  // Says of each layer what differs, and of the worst ones why, with a picture.
   void explain() {
     if (unread_ > 0)
       result_.unchecked.push_back(format_count(unread_) + " layers have no images that can be read, and were not " +
                                   "compared with the design");
-    for (size_t n = 0; n < differences_.size(); ++n) {
-      LayerDifference& difference = differences_[n];
-      const std::string text = "layer " + std::to_string(difference.layer) + " has " +
-                               format_count(difference.voxels.size()) + " voxels that the design does not give";
+    find_worst();
+    for (LayerDifference& difference : differences_) {
+      const size_t count = difference.voxels.size();
+      const std::string text = "layer " + std::to_string(difference.layer) + " has " + format_count(count) +
+                               (count == 1 ? " voxel" : " voxels") + " that the design does not give";
       difference.finding = {"voxels", text, difference.layer};
-      if (n < most_explained) explain(difference);
+      if (std::ranges::binary_search(worst_, difference.layer)) explain(difference);
       result_.findings.push_back(difference.finding);
     }
+  }
+
+  void find_worst() {
+    std::vector<std::pair<size_t, int64_t>> sizes;
+    for (const LayerDifference& difference : differences_)
+      sizes.emplace_back(difference.voxels.size(), difference.layer);
+    std::ranges::sort(sizes, std::greater());
+    for (size_t n = 0; n < sizes.size() && n < most_explained; ++n) worst_.push_back(sizes[n].second);
+    std::ranges::sort(worst_);
   }
 
   void explain(LayerDifference& difference) {
@@ -327,8 +338,8 @@ class DesignChecker {
     std::vector<int64_t> list;
     for (const int64_t neighbour : {layer - 1, layer + 1})
       if (neighbour >= 0 && neighbour < request_.lattice.count[2]) list.push_back(neighbour);
-    for (size_t n = 0; n < differences_.size() && n < most_explained; ++n)
-      if (std::abs(differences_[n].layer - layer) > 1) list.push_back(differences_[n].layer);
+    for (const int64_t other : worst_)
+      if (std::abs(other - layer) > 1) list.push_back(other);
     return list;
   }
 
@@ -357,6 +368,7 @@ class DesignChecker {
   FractionWindows windows_;
   std::vector<LayerDifference> differences_, as_made_differences_;
   uint64_t as_made_voxels_ = 0;
+  std::vector<int64_t> worst_;  // layers with the most differing voxels, ascending
   uint64_t unread_ = 0;
 };
 

@@ -20,12 +20,19 @@ bool is_too_large(double square, uint64_t count) {
 }  // namespace
 
 FractionWindows::FractionWindows(const std::vector<SliceMaterial>& materials, const Appearance& appearance)
-    : materials_(materials), appearance_(appearance), sums_(materials.size()) {}
+    : materials_(materials), appearance_(appearance), sums_(materials.size()), seen_as_(materials.size()) {
+  for (size_t m = 0; m < materials.size(); ++m)
+    for (size_t other = 0; other < materials.size(); ++other)
+      if (appearance.of(materials[other].id) == materials[m].id) seen_as_[m].push_back(other);
+}
 
 void FractionWindows::add(int64_t width, const Shown& shown, const std::vector<voxel::ChannelPixels>& fractions) {
   const int64_t height = static_cast<int64_t>(shown.size()) / width;
   const auto share = [&](size_t material, size_t n) {
-    return std::get<voxel::Raster<uint16_t>>(fractions[material]).values[n] / 65535.0;
+    double sum = 0;
+    for (const size_t m : seen_as_[material])
+      sum += std::get<voxel::Raster<uint16_t>>(fractions[m]).values[n] / 65535.0;
+    return std::min(sum, 1.0);
   };
   for (int64_t j0 = 0; j0 < height; j0 += window_side) {
     for (int64_t i0 = 0; i0 < width; i0 += window_side) {

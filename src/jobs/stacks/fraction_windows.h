@@ -38,6 +38,8 @@ class FractionWindows {
   const std::vector<SliceMaterial>& materials_;
   const Appearance& appearance_;
   std::vector<Sum> sums_;
+  std::vector<std::vector<size_t>>
+      seen_as_;  // for each material those with its pixels; none if it has those of another
   uint64_t windows_ = 0;
   double expected_changes_ = 0;
 };

@@ -33,8 +33,9 @@ std::vector<std::string> summary(const Verification& all) {
                                  format_bytes(static_cast<double>(all.stack.bytes))};
   if (!all.design) return lines;
   const compile::DesignCheck& design = *all.design;
-  lines.push_back(format_count(design.voxels) + " voxels were evaluated again by the reference; " +
-                  format_count(design.rounded) + " of them lie within rounding of a boundary");
+  lines.push_back(
+      format_count(design.voxels) +
+      " voxels were evaluated again by the reference; within rounding of a boundary: " + format_count(design.rounded));
   if (design.diffused > 0)
     lines.push_back(format_count(design.diffused) +
                     " differ since diffusion passed on what was rounded; their layers are what the job's own "

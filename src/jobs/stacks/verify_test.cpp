@@ -66,7 +66,7 @@ TEST_F(Verify, FindsOneVoxel) {
   EXPECT_EQ(texts(verified(nullptr)), "");  // its journal says what its images show
   const Verification all = verified(loaded);
   EXPECT_EQ(kinds(all), Words{"voxels"}) << texts(all);
-  EXPECT_NE(texts(all).find("layer 12 has 1 voxels"), std::string::npos) << texts(all);
+  EXPECT_NE(texts(all).find("layer 12 has 1 voxel that"), std::string::npos) << texts(all);
   EXPECT_NE(texts(all).find("(22, 14)"), std::string::npos) << texts(all);
   EXPECT_EQ(all.design->pictures.size(), 1U);
 }
@@ -240,6 +240,19 @@ TEST(FractionWindows, FitTheirMixtureOrNot) {
   EXPECT_NEAR(right.expected_changes(), 64 * 64 * 0.25, 0.01);
   EXPECT_EQ(right.misfit(), std::nullopt);
   EXPECT_EQ(wrong.misfit(), "red");
+}
+
+// Two materials of one gray are told apart by nothing, so that all voxels fit if both have a half.
+TEST(FractionWindows, MaterialsWithTheSamePixelsAreOne) {
+  SliceRequest request;
+  request.format = ImageFormat::gray;
+  request.materials = {{"pale", 1, {100, 100, 100, 255}}, {"dull", 2, {100, 100, 100, 255}}};
+  const Appearance appearance(request);
+  EXPECT_EQ(appearance.hidden(), std::vector<std::string>{"dull"});
+  const std::vector<voxel::ChannelPixels> halves(2, voxel::Raster<uint16_t>{64, std::vector<uint16_t>(64 * 64, 32768)});
+  FractionWindows windows(request.materials, appearance);
+  windows.add(64, Shown(64 * 64, 1), halves);
+  EXPECT_EQ(windows.misfit(), std::nullopt);
 }
 
 }  // namespace ombre::compile
