@@ -94,7 +94,8 @@ class DesignChecker {
       return compare(samples_[n]);
     };
     const auto consume = [&](size_t n, Compared& layer) { take(n, layer); };
-    constexpr size_t window = 16;
+    const auto window =
+        static_cast<size_t>(std::max(work_.threads, 1));  // diffused layers are kept until it is their turn
     run_ordered<Compared>(samples_.size(), work_.threads, window, produce, consume);
     judge_as_made();
     if (result_.diffused > 0) check_fractions();

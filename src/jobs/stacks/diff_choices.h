@@ -30,7 +30,8 @@ struct DiffChoices {
                       "Set a variable of designs; may be repeated", "NAME=VALUE"),
         option("--report", &DiffChoices::report, kind::file,
                "Write a page with the changes and pictures of the layers that change most: an .html file", "FILE"),
-        group(&DiffChoices::work, WorkOptions::options("Most memory for stages of designs (default 2G)")),
+        group(&DiffChoices::work,
+              WorkOptions::options("Most memory for layers, and for stages of designs (default 2G)")),
         flag("--force", &DiffChoices::force, "Replace an existing report")};
     return spec;
   }

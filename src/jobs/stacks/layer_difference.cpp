@@ -45,8 +45,7 @@ LikelyCause likely_cause(const Shown& shown, const Shown& expected, int64_t widt
       return {"exchanged", "it shows what belongs into layer " + std::to_string(other)};
   constexpr size_t least_changes = 20;
   if (now >= least_changes && static_cast<double>(now) > 0.5 * changes && has_shape_of(shown, expected))
-    return {"seed",
-            "the shape is right, so that the layer was dithered with another seed or rule, or of other mixtures"};
+    return {"seed", "its shape is right, so it is dithered with another seed or rule, or of other mixtures"};
   return {"voxels", ""};
 }
 

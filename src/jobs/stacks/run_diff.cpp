@@ -67,7 +67,8 @@ int run(const DiffChoices& a, const DiffPlan& planned, Session& session) {
   JobProgress progress(session.events, Counted::steps);
   const compile::CheckWork work{a.work.threads, a.work.memory_bytes, &progress, &session.stop};
   const voxel::Lattice& lattice = planned.common.sampling.lattice;
-  const auto changes = compile::material_changes(planned.first, planned.second, lattice, work);
+  const auto changes =
+      compile::material_changes(planned.first, planned.second, lattice, compile::fitting(work, lattice));
   progress.finish();
   tell_changes(session.events, changes, lattice);
   if (!a.report.empty()) {

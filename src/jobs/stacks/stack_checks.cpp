@@ -192,6 +192,16 @@ class StackChecker {
 
 }  // namespace
 
+CheckWork fitting(CheckWork work, const voxel::Lattice& lattice) {
+  // A pixel of an image, and what it shows, beside what it is to show.
+  constexpr double bytes_for_voxel = 16;
+  const double layer = bytes_for_voxel * static_cast<double>(lattice.count[0]) * static_cast<double>(lattice.count[1]);
+  const double layers = std::max(1.0, static_cast<double>(work.memory_bytes) / layer);
+  const int threads = work.threads > 0 ? work.threads : core_count();
+  work.threads = static_cast<int>(std::min<double>(threads, layers));
+  return work;
+}
+
 StackCheck check_stack(const Stack& stack, const LayerReader& reader, const CheckWork& work) {
   return StackChecker(stack, reader, work).run();
 }

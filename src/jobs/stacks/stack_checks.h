@@ -18,6 +18,9 @@ struct CheckWork {
   const StopFlag* stop = nullptr;
 };
 
+// Returns the work with as many threads as layers of a lattice fit into its memory, at least one.
+CheckWork fitting(CheckWork work, const voxel::Lattice& lattice);
+
 struct StackCheck {
   int64_t layers = 0;  // layers whose images were read, or that need none
   uint64_t files = 0, bytes = 0;

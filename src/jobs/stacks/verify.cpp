@@ -27,9 +27,10 @@ std::optional<Verification> verify(const std::string& folder, const LoadedPtr& d
   const LayerReader reader(stack.request());
   result.program = stack.request().program;
   result.layer_count = stack.layer_count();
-  result.stack = check_stack(stack, reader, work);
+  const CheckWork fits = fitting(work, stack.request().lattice);
+  result.stack = check_stack(stack, reader, fits);
   if (!design) return result;
-  result.design = check_design(stack, reader, design, choice, work, diagnostics);
+  result.design = check_design(stack, reader, design, choice, fits, diagnostics);
   if (!result.design) return std::nullopt;
   if (result.program != program)
     result.design->unchecked.push_back("the stack is by " + result.program + ", and this is " + program +

@@ -48,7 +48,8 @@ struct VerifyChoices {
             .needs("--design"),
         option("--report", &VerifyChoices::report, kind::file,
                "Write a page with what was found, and pictures of where: an .html file", "FILE"),
-        group(&VerifyChoices::work, WorkOptions::options("Most memory for stages of the design (default 2G)")),
+        group(&VerifyChoices::work,
+              WorkOptions::options("Most memory for layers, and for stages of the design (default 2G)")),
         flag("--force", &VerifyChoices::force, "Replace an existing report")};
     return spec;
   }
