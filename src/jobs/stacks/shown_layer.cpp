@@ -87,7 +87,7 @@ class FileReader {
  private:
   int64_t width() const { return request_.lattice.count[0]; }
   int64_t height() const { return request_.lattice.count[1]; }
-  uint64_t most_pixels() const { return std::max<uint64_t>(1'000'000, 2 * uint64_t(width()) * uint64_t(height())); }
+  uint64_t most_pixels() const { return std::max<uint64_t>(1'000'000, 2 * static_cast<uint64_t>(width() * height())); }
   void add(const std::string& kind, const std::string& text) { findings_.push_back({kind, text, layer_}); }
 
   bool has_size(const PngImage& image) {
