@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <mutex>
 
 #include "base/system/tasks.h"
 #include "base/text/error.h"
@@ -80,12 +81,6 @@ class DesignChecker {
         reference_(design.voxels(Evaluator::reference)),
         windows_(request_.materials, reader.appearance()) {
     if (request_.evaluator != Evaluator::reference) as_made_ = design.voxels(request_.evaluator);
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double side : {-1.0, 1.0}) {
-        Vec3 beside;
-        beside[axis] = side * rounding_mm(axis);
-        beside_.push_back(design.voxels(Evaluator::reference, beside));
-      }
   }
 
   void run() {
@@ -169,12 +164,25 @@ class DesignChecker {
     return window;
   }
 
+  // Returns producers of voxels beside their centres, which are made when they are first needed.
+  const std::vector<RegionProducer>& beside() const {
+    std::call_once(beside_is_made_, [&] {
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+          Vec3 by;
+          by[axis] = side * rounding_mm(axis);
+          beside_.push_back(design_.voxels(Evaluator::reference, by));
+        }
+    });
+    return beside_;
+  }
+
   // Removes voxels that have what the images show at a place within rounding. Returns how many.
   uint64_t remove_rounded(const std::vector<Shown>& images, int64_t layer, std::vector<size_t>& voxels) const {
     const size_t before = voxels.size();
-    for (const RegionProducer& beside : beside_) {
+    for (const RegionProducer& producer : beside()) {
       if (voxels.empty()) break;
-      const std::vector<size_t> still = differing(images, beside, layer, around(voxels));
+      const std::vector<size_t> still = differing(images, producer, layer, around(voxels));
       std::erase_if(voxels, [&](size_t n) { return !std::ranges::binary_search(still, n); });
     }
     return before - voxels.size();
@@ -365,7 +373,8 @@ class DesignChecker {
   const CheckWork& work_;
   DesignCheck& result_;
   RegionProducer reference_, as_made_;  // the latter is empty where the reference made the stack
-  std::vector<RegionProducer> beside_;
+  mutable std::once_flag beside_is_made_;
+  mutable std::vector<RegionProducer> beside_;
   FractionWindows windows_;
   std::vector<LayerDifference> differences_, as_made_differences_;
   uint64_t as_made_voxels_ = 0;
