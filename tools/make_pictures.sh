@@ -74,6 +74,14 @@ DESIGN
   echo "$1"
 }
 
+# A layer of a knob beside a design with a thinner skin.
+draw_difference() {
+  "$ombre" slice examples/knob.vcad --voxel 0.2 -o "$scratch/knob" --force --quiet
+  "$ombre" verify "$scratch/knob" --design examples/knob.vcad -D skin=2 --report "$scratch/knob.html" --force >/dev/null || true
+  grep -o 'base64,[^"]*' "$scratch/knob.html" | sed -n 's/base64,//; 9p' | base64 -d >docs/user/checking_layer.png
+  echo docs/user/checking_layer.png
+}
+
 # A seat solved soft, and graded by what moved.
 draw_seat() {
   local study=examples/studies/rider.json
@@ -110,5 +118,6 @@ if [[ $# -eq 0 || " $* " == *" docs "* ]]; then
   draw_bands docs/user/mesh_bands.png
   draw_layers graded_wing docs/user/wing_layers.png 6 --layers 18:48
   draw_layers knob docs/user/knob_layers.png 8 --voxel 0.2
+  draw_difference
   draw_seat
 fi

@@ -1,7 +1,7 @@
 #include "jobs/test_slices.h"
 
 #include "export/output_file.h"
-#include "jobs/slice/job_sheet.h"
+#include "jobs/stacks/job_sheet.h"
 
 namespace ombre::compile {
 

@@ -8,6 +8,7 @@
 #include "base/text/text.h"
 #include "jobs/common/session.h"
 #include "jobs/common/shard_option.h"
+#include "jobs/common/shard_ranges.h"
 
 namespace ombre::jobs {
 namespace {
@@ -24,20 +25,8 @@ void read_description(SharedPlan& plan, const Data& data, const MemberReader& re
   if (const DataMembers* members = reader.named(data, "what the plan describes")) plan.describes = *members;
 }
 
-// Reads [[0, 25], [25, 60], ...], ranges that follow one another.
 void read_shards(SharedPlan& plan, const Data& data, const MemberReader& reader) {
-  const DataList* ranges = reader.list(data, "shards");
-  if (!ranges) return;
-  constexpr double most = 9007199254740992;  // 2^53
-  for (const Data& range : *ranges) {
-    const auto ends = reader.numbers(range, "a share", 2, "[first, end]", {0, most, true});
-    if (!ends) return;
-    const PieceRange read{static_cast<int64_t>((*ends)[0]), static_cast<int64_t>((*ends)[1])};
-    if (read.end < read.begin || (!plan.shards.empty() && plan.shards.back().end != read.begin))
-      return reader.fail(range, "a share begins where the one before it ends", "make the plan anew: ombre plan");
-    plan.shards.push_back(read);
-  }
-  if (plan.shards.empty()) reader.fail(data, "a plan has one share at least");
+  plan.shards = read_shard_ranges(data, reader);
 }
 
 void read_seconds(SharedPlan& plan, const Data& data, const MemberReader& reader) {

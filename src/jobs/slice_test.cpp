@@ -4,9 +4,9 @@
 #include "jobs/test_slices.h"
 
 #include "export/output_file.h"
-#include "jobs/slice/job_sheet.h"
 #include "jobs/slice/layer_files.h"
 #include "jobs/slice/slice_work.h"
+#include "jobs/stacks/job_sheet.h"
 
 namespace ombre::compile {
 

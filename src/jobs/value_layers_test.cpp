@@ -5,8 +5,8 @@
 
 #include "export/output_file.h"
 #include "formats/images/png.h"
-#include "jobs/slice/job_sheet.h"
 #include "jobs/slice/slice_work.h"
+#include "jobs/stacks/job_sheet.h"
 #include "jobs/test_designs.h"
 #include "jobs/test_slices.h"
 

@@ -5,8 +5,8 @@
 #include "jobs/common/job_kind.h"
 #include "jobs/common/overwrite.h"
 #include "jobs/common/session.h"
-#include "jobs/slice/job_sheet.h"
-#include "jobs/slice/sheet_choices.h"
+#include "jobs/stacks/job_sheet.h"
+#include "jobs/stacks/sheet_choices.h"
 
 namespace ombre::jobs {
 namespace {

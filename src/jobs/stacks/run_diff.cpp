@@ -1,0 +1,97 @@
+// `ombre diff` says what changes between two designs or stacks.
+#include "export/output_file.h"
+#include "jobs/common/job_design.h"
+#include "jobs/common/job_kind.h"
+#include "jobs/common/job_steps.h"
+#include "jobs/common/overwrite.h"
+#include "jobs/stacks/diff_report.h"
+
+namespace ombre::jobs {
+namespace {
+
+using compile::ComparedSource;
+using compile::DiffChoices;
+
+constexpr const char* diff_footer =
+    "Both are compared on one grid of voxels, material by material. A design beside a stack takes the stack's grid,\n"
+    "dither and seed. The exit code is 0 if there is no difference, and 3 if there is one.\n\n"
+    "Examples:\n"
+    "  ombre diff part.vcad part_v2.vcad --voxel 0.1\n"
+    "  ombre diff part_slices part.vcad\n"
+    "  ombre diff monday_slices tuesday_slices --report changes.html\n";
+
+struct DiffPlan {
+  compile::CommonLattice common;
+  compile::ComparedSolid first, second;
+};
+
+std::optional<ComparedSource> source(const std::string& path, const DiffChoices& a, Session& session,
+                                     Diagnostics& diagnostics) {
+  if (compile::is_stack(path)) return compile::compared_stack(path);
+  DesignArguments design;
+  design.design = path;
+  design.materials = a.materials;
+  design.definitions = a.definitions;
+  const auto loaded = load_design(design, session, diagnostics, a.work.threads);
+  return loaded ? compile::compared_design(loaded, diagnostics) : std::nullopt;
+}
+
+// Warns of what the comparison cannot tell.
+void warn_of_limits(const ComparedSource& source, const Events& events) {
+  if (!source.stack) return;
+  const compile::Appearance appearance(source.stack->request());
+  if (!appearance.hidden().empty())
+    events.warn("the images of " + source.path + " do not tell all materials apart, or from void; these take part as " +
+                "what they look like");
+  if (!source.stack->job.is_complete) events.warn(source.path + " is unfinished, so its layers may be missing");
+}
+
+std::optional<DiffPlan> plan(const DiffChoices& a, Session& session, Diagnostics& diagnostics) {
+  const auto first = source(a.first, a, session, diagnostics), second = source(a.second, a, session, diagnostics);
+  if (!first || !second) return std::nullopt;
+  warn_of_limits(*first, session.events);
+  warn_of_limits(*second, session.events);
+  const compile::CheckWork work{a.work.threads, a.work.memory_bytes, nullptr, &session.stop};
+  DiffPlan planned{compile::common_lattice(*first, *second, a.voxel.value_or(options::Pitches{})), {}, {}};
+  auto solid_a = compile::compared_solid(*first, planned.common, work, diagnostics);
+  auto solid_b = compile::compared_solid(*second, planned.common, work, diagnostics);
+  if (!solid_a || !solid_b) return std::nullopt;
+  if (!planned.common.keeps_draws)
+    session.events.warn("the grid is not that of the stack, so that voxels of mixtures are drawn anew and differ");
+  planned.first = std::move(*solid_a);
+  planned.second = std::move(*solid_b);
+  return planned;
+}
+
+int run(const DiffChoices& a, const DiffPlan& planned, Session& session) {
+  JobProgress progress(session.events, Counted::steps);
+  const compile::CheckWork work{a.work.threads, a.work.memory_bytes, &progress, &session.stop};
+  const voxel::Lattice& lattice = planned.common.sampling.lattice;
+  const auto changes =
+      compile::material_changes(planned.first, planned.second, lattice, compile::fitting(work, lattice));
+  progress.finish();
+  tell_changes(session.events, changes, lattice);
+  if (!a.report.empty()) {
+    exporting::write_file(a.report, changes_page(a, changes, planned.first, planned.second, lattice));
+    session.events.say("wrote " + a.report);
+  }
+  return changes.layers.empty() ? done : check_failed;
+}
+
+int diff(const DiffChoices& a, Session& session) {
+  JobSteps<DiffPlan> steps;
+  steps.refuse = [&] {
+    if (!a.report.empty()) refuse_to_overwrite(a.report, a.force);
+  };
+  steps.plan = [&](Diagnostics& diagnostics) { return plan(a, session, diagnostics); };
+  steps.run = [&](const DiffPlan& planned) { return run(a, planned, session); };
+  return take_steps(steps, session);
+}
+
+}  // namespace
+
+JobKind diff_kind() {
+  return job_kind<DiffChoices>("diff", "Say what changes between two designs or slice stacks", diff_footer, diff);
+}
+
+}  // namespace ombre::jobs

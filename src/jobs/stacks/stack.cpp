@@ -1,0 +1,67 @@
+#include "jobs/stacks/stack.h"
+
+#include <filesystem>
+
+#include "base/text/error.h"
+#include "base/text/text.h"
+#include "formats/containers/file.h"
+#include "jobs/slice/stored_slices.h"
+#include "stores/journal_folder.h"
+#include "stores/open_store.h"
+#include "stores/shard.h"
+
+namespace ombre::compile {
+namespace {
+
+DescribedJob read_description(const std::string& path) {
+  Diagnostics problems;
+  auto job = read_job(make_source(path, formats::read_file(path)), problems);
+  if (!job) throw Error(Code::file_content, std::string(trim(to_text(problems))), {{"file", path}});
+  return std::move(*job);
+}
+
+// Adds the lines of a journal to the stack, and what is wrong with them.
+void add_journal(const std::string& name, Stack& stack, Findings& findings) {
+  const std::string text = formats::read_file(stack.path(name));
+  const StoredSlices slices(stack.request());
+  const auto all = [](const stores::Entry&) { return true; };
+  size_t number = 0;
+  for (size_t begin = 0, end = 0; begin < text.size(); begin = end) {
+    const size_t newline = text.find('\n', begin);
+    end = newline == std::string::npos ? text.size() : newline + 1;
+    const std::string place = name + ":" + std::to_string(++number) + ": ";
+    const auto line = std::string_view(text).substr(begin, end - begin);
+    const stores::Entries read = stores::parse_journal(layer_member, line, all);
+    if (read.empty()) {
+      findings.push_back({"journal", place + "this line cannot be read"});
+      continue;
+    }
+    const auto& [layer, entry] = *read.begin();
+    if (!slices.accepts(entry))
+      findings.push_back({"journal", place + "the line is of no layer of this job", layer});
+    else if (const auto [there, is_new] = stack.entries.emplace(layer, entry); !is_new && there->second != entry)
+      findings.push_back({"journal", place + "an earlier line says something else of the layer", layer});
+  }
+}
+
+}  // namespace
+
+std::string Stack::path(const std::string& name) const { return (std::filesystem::path(folder) / name).string(); }
+
+Stack open_stack(const std::string& folder, Findings& findings) {
+  if (stores::is_archive(folder))
+    throw Error(Code::file_kind, folder + " is an archive; unpack it, and give the folder with the layers",
+                {{"file", folder}});
+  const std::vector<std::string> names = stores::names_in(folder);
+  DescribedJob job = read_description((std::filesystem::path(folder) / job_file).string());
+  LayerFiles files(job.request);
+  Stack stack{folder, std::move(job), std::move(files), {names.begin(), names.end()}, false, {}};
+  for (const std::string& name : names) {
+    if (name != stores::journal_file && !stores::is_journal_of_shard(name)) continue;
+    stack.has_journal = true;
+    add_journal(name, stack, findings);
+  }
+  return stack;
+}
+
+}  // namespace ombre::compile

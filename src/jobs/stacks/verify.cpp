@@ -1,0 +1,41 @@
+#include "jobs/stacks/verify.h"
+
+#include <iterator>
+
+namespace ombre::compile {
+
+Findings Verification::findings() const {
+  Findings all = journals;
+  all.insert(all.end(), stack.findings.begin(), stack.findings.end());
+  if (design) all.insert(all.end(), design->findings.begin(), design->findings.end());
+  return all;
+}
+
+std::vector<std::string> Verification::unchecked() const {
+  std::vector<std::string> all = stack.unchecked;
+  if (design)
+    all.insert(all.end(), design->unchecked.begin(), design->unchecked.end());
+  else
+    all.emplace_back("without a design, voxels are compared with nothing but their counts");
+  return all;
+}
+
+std::optional<Verification> verify(const std::string& folder, const LoadedPtr& design, const SampleChoice& choice,
+                                   const std::string& program, const CheckWork& work, Diagnostics& diagnostics) {
+  Verification result;
+  const Stack stack = open_stack(folder, result.journals);
+  const LayerReader reader(stack.request());
+  result.program = stack.request().program;
+  result.layer_count = stack.layer_count();
+  const CheckWork fits = fitting(work, stack.request().lattice);
+  result.stack = check_stack(stack, reader, fits);
+  if (!design) return result;
+  result.design = check_design(stack, reader, design, choice, fits, diagnostics);
+  if (!result.design) return std::nullopt;
+  if (result.program != program)
+    result.design->unchecked.push_back("the stack is by " + result.program + ", and this is " + program +
+                                       ", which may give other voxels");
+  return result;
+}
+
+}  // namespace ombre::compile
