@@ -92,6 +92,11 @@ class RandomDesign {
                      {materials, none, nullptr, {}, "", ""});
   }
 
+  NodePtr map_of_cells() {
+    const char* maps[] = {"box_cells", "cylinder_cells", "frustum_cells", "ball_cells"};
+    return node(*registry().find(maps[index(4)]), 0);
+  }
+
   // Returns a number from 0.01 to 1 that depends on a node's output, since sizes must not be 0.
   Data share() {
     const NodePtr node = value_node(OutputForm::numbers, 0);
@@ -187,6 +192,7 @@ class RandomDesign {
     if (type.name == "output_of") return Data("along");
     // A standard name would have a fixed type.
     if (kind == "text") return Data(type.name == "attribute" ? "own_density" : "density");
+    if (kind == "map of cells") return object(map_of_cells());
     if (kind == "true or false") return Data(index(2) == 0);
     if (kind == "matrix") {
       DataList rows;
