@@ -8,7 +8,7 @@
   row(lattices) row(tiles) row(tpms) row(cell_walls) row(transforms) row(arrays) row(warps)                       \
   row(booleans) row(sums) row(offsets) row(maps) row(material_gradients) row(attributes)          \
   row(parts) row(solid_of) row(supports) row(noise) row(value_nodes) row(value_places)            \
-  row(value_cells) row(cell_maps) row(value_curves) row(value_colours) row(attribute_of) row(output_of)          \
+  row(value_cells) row(cell_maps) row(formula_cells) row(curve_cells) row(value_curves) row(value_colours) row(attribute_of) row(output_of)          \
   row(convolutions) row(whole_solids)
 // clang-format on
 

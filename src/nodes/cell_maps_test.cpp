@@ -131,6 +131,62 @@ TEST_F(CellMaps, StretchesOfAConeAreThoseOfItsEdges) {
   EXPECT_LE(stretches.y, stretches.z);
 }
 
+TEST_F(CellMaps, PlacesAlongALineAreCoordinates) {
+  const NodePtr map = make("curve_cells", {{"points", rows({{1, 2, 3}, {1, 22, 3}})},
+                                           {"width", Data(4.0)},
+                                           {"depth", Data(6.0)},
+                                           {"count", list({10, 2, 3})}});
+  // Along y; w is up, so v is along x.
+  expect_near(vector_at(map, "place", {1.5, 7, 2}), {2.5, 1.25, 1}, 1e-9);
+  expect_near(vector_at(map, "place", {1.5, 0, 2}), {-1, 1.25, 1}, 1e-9);
+  expect_near(vector_at(map, "size", {1.5, 7, 2}), {2, 2, 2}, 1e-9);
+}
+
+// Frames that do not turn around a curve make cells whose edges are perpendicular; across, they keep their size.
+TEST_F(CellMaps, CellsAlongACurveArePerpendicular) {
+  const NodePtr map = make("curve_cells", {{"points", rows({{0, 0, 0}, {12, 2, 0}, {18, 12, 6}, {12, 22, 12}, {0, 20, 20}})},
+                                           {"width", Data(4.0)},
+                                           {"depth", Data(6.0)},
+                                           {"count", list({20, 2, 2})}});
+  int tried = 0;
+  while (tried < 30) {
+    const Vec3 p = random_point(22);
+    if (of_output(map, "region", p)[0] > 0) continue;
+    ++tried;
+    const Vec3 u = vector_at(map, "slope_u", p), v = vector_at(map, "slope_v", p), w = vector_at(map, "slope_w", p);
+    const Vec3 size = vector_at(map, "size", p);
+    EXPECT_NEAR(length(u) * size.x, 1, 1e-4);
+    EXPECT_NEAR(length(v) * 2, 1, 1e-4);
+    EXPECT_NEAR(length(w) * 3, 1, 1e-4);
+    for (const double product : {dot(u, v) * size.x * 2, dot(v, w) * 6, dot(w, u) * size.x * 3}) EXPECT_NEAR(product, 0, 1e-4);
+    EXPECT_GT(dot(u, cross(v, w)), 0);
+  }
+}
+
+TEST_F(CellMaps, ACurveThatIsTighterThanItsCellsIsRefused) {
+  const Named bent{{"points", rows({{0, 0, 0}, {5, 0, 0}, {5, 5, 0}})}, {"width", Data(8.0)}, {"size", list({2, 2, 2})}};
+  EXPECT_NE(error_of("curve_cells", bent).find("radius"), std::string::npos);
+  const Named loop{{"points", rows({{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}, {0, 1, 1}, {0, -9, 1}})},
+                   {"width", Data(2.0)},
+                   {"depth", Data(2.0)},
+                   {"size", list({2, 2, 2})}};
+  EXPECT_NE(error_of("curve_cells", loop).find("overlap"), std::string::npos);
+}
+
+TEST_F(CellMaps, FormulasChangeTheSpacing) {
+  const NodePtr map = make("formula_cells", {{"v", Data("v + v^2/8")}, {"of", object(pipe())}});
+  const Vec3 p = around_z(9.25, 50, -3);  // v = 1.4 in the pipe
+  expect_near(vector_at(map, "place", p), {50.0 / 30, 1.4 + 1.96 / 8, 1.25}, 1e-12);
+  expect_near(vector_at(map, "slope_v", p), {0, 0, 0.2 * (1 + 1.4 / 4)}, 1e-12);
+  EXPECT_NEAR(vector_at(map, "size", p).y, 5 / (1 + 1.4 / 4), 1e-12);
+  const NodePtr plain = make("formula_cells", {{"u", Data("x*y")}, {"v", Data("y/2")}, {"w", Data("z + x")}});
+  expect_near(vector_at(plain, "slope_u", {3, 5, 7}), {5, 3, 0}, 1e-12);
+  EXPECT_NEAR(number_at(plain, "volume", {3, 5, 7}), 1 / (5 * 0.5), 1e-12);
+  EXPECT_NE(error_of("formula_cells", {{"v", Data("v - v^2/4")}, {"of", object(pipe())}}).find("folded"),
+            std::string::npos);
+  EXPECT_NE(error_of("formula_cells", {{"v", Data("v - v^2/4")}}).find("no map"), std::string::npos);
+}
+
 TEST_F(CellMaps, AGyroidAroundAPipeHasNoSeam) {
   const NodePtr wall = make("tpms", {{"map", object(pipe())}, {"thickness", Data(0.3)}});
   for (int n = 0; n < 100; ++n) {

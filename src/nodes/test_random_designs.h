@@ -93,8 +93,8 @@ class RandomDesign {
   }
 
   NodePtr map_of_cells() {
-    const char* maps[] = {"box_cells", "cylinder_cells", "frustum_cells", "ball_cells"};
-    return node(*registry().find(maps[index(4)]), 0);
+    const char* maps[] = {"box_cells", "cylinder_cells", "frustum_cells", "ball_cells", "curve_cells"};
+    return node(*registry().find(maps[index(5)]), 0);
   }
 
   // Returns a number from 0.01 to 1 that depends on a node's output, since sizes must not be 0.
@@ -236,9 +236,11 @@ class RandomDesign {
 
   Data points(const NodeType& type, size_t count) {
     if (type.name == "polygon_extrude") return star(index(2) == 0, 0, 0, 1);
+    const bool is_smooth = type.name == "curve_cells";
     DataList list;
     for (size_t n = 0; n < count; ++n)
-      list.emplace_back(DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
+      list.emplace_back(is_smooth ? DataList{Data(7.0 * static_cast<double>(n)), Data(number(-1, 1)), Data(number(-1, 1))}
+                                  : DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
     return Data(std::move(list));
   }
 

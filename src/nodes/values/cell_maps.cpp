@@ -6,6 +6,7 @@
 #include "nodes/common/frame.h"
 #include "nodes/common/parameter_checks.h"
 #include "nodes/common/shapes.h"
+#include "nodes/values/cell_counts.h"
 #include "nodes/values/cell_outputs.h"
 
 namespace ombre::nodes {
@@ -15,27 +16,6 @@ using namespace design;
 using program::Op;
 
 constexpr double radian = std::numbers::pi / 180;
-constexpr double most_cells = 1e6;  // along an axis
-constexpr std::string_view size_doc = "Length of cells along u, v and w, of which as many are laid as fit best";
-constexpr std::string_view count_doc = "Numbers of cells along u, v and w, in place of their size";
-
-Domain whole_from_one() { return from_to(1, most_cells); }
-
-// Finds the numbers of cells along the lengths of a region, from their size or number. Returns false and adds an error
-// if both or none are given.
-bool find_counts(const Reader& reader, Vec3 lengths, const std::optional<Vec3>& size,
-                 const std::optional<Counts3>& count, Vec3& counts) {
-  if (size.has_value() == count.has_value())
-    return reader.refuse(std::string(reader.node) + (size ? " has both the size and the numbers of its cells"
-                                                          : " has neither the size nor the numbers of its cells"),
-                         "write " + spelled::parameter("size", "(5, 5, 5)") + ", or " +
-                             spelled::parameter("count", "(12, 8, 1)"));
-  for (int n = 0; n < 3; ++n)
-    counts[n] = count ? (*count)[static_cast<size_t>(n)]
-                      : std::min(std::max(1.0, std::round(lengths[n] / (*size)[n])), most_cells);
-  return true;
-}
-
 struct BoxCells : CellOutputs<BoxCells> {
   std::optional<Vec3> min, max, size;
   std::optional<Counts3> count;
@@ -44,8 +24,8 @@ struct BoxCells : CellOutputs<BoxCells> {
   static Spec<BoxCells> spec() {
     return {"box_cells",
             "A map of cells that are boxes, with borders along x, y and z.",
-            {{"size", &BoxCells::size, size_doc, unit::positive_mm},
-             {"count", &BoxCells::count, count_doc, whole_from_one()},
+            {{"size", &BoxCells::size, cell_size_doc, unit::positive_mm},
+             {"count", &BoxCells::count, cell_count_doc, whole_from_one()},
              {"min", &BoxCells::min, "Least corner of the region; none: cells fill all space from the origin",
               unit::mm},
              {"max", &BoxCells::max, "Greatest corner of the region", unit::mm}},
@@ -98,8 +78,8 @@ struct AroundAxis : CellOutputs<T> {
     Domain turn = from_to(0, 360, "deg");
     turn.above_least = true;
     for (Parameter<T> one : std::vector<Parameter<T>>{
-             {"size", of_base(&T::size), size_doc, unit::positive_mm},
-             {"count", of_base(&T::count), count_doc, whole_from_one()},
+             {"size", of_base(&T::size), cell_size_doc, unit::positive_mm},
+             {"count", of_base(&T::count), cell_count_doc, whole_from_one()},
              {"start", of_base(&T::start), "Angle around the axis at which the first cell begins", unit::degrees},
              {"sweep", of_base(&T::sweep), "Angle that all cells together take up", turn},
              {"origin", of_base(&T::origin), "Centre of the region", unit::mm},

@@ -10,6 +10,9 @@
 
 namespace ombre::nodes {
 
+using program::Field;
+using program::Point;
+
 inline constexpr double no_border = std::numeric_limits<double>::infinity();
 
 // Base of maps of cells. T has these methods:
@@ -17,7 +20,7 @@ inline constexpr double no_border = std::numeric_limits<double>::infinity();
 // - Field outside(ask) returns g of the region, and Box region_within(where) a box around the region.
 //
 // It sets these members when it is completed. It may have Slope size_at(p), the size of cells in mm, if the edges of
-// cells are perpendicular everywhere.
+// cells are perpendicular everywhere, and Slope slope(p, n), the derivatives of u, v or w.
 template <class T>
 struct CellOutputs {
   Vec3 counts{no_border, no_border, no_border};  // cells along each axis
@@ -120,9 +123,9 @@ struct CellOutputs {
     const double count = counts[static_cast<int>(n)];
     return count == no_border ? whole : limited(whole, 0, count - 1);
   }
-  std::array<Slope, 3> slopes(const Point& p) const { return {slope(p, 0), slope(p, 1), slope(p, 2)}; }
+  std::array<Slope, 3> slopes(const Point& p) const { return {self().slope(p, 0), self().slope(p, 1), self().slope(p, 2)}; }
   design::VectorField slope_vector(const Point& p, size_t n) const {
-    const Slope by = slope(p, n);
+    const Slope by = self().slope(p, n);
     return {by[0], by[1], by[2]};
   }
   static Field determinant(const std::array<Slope, 3>& rows) {
@@ -144,7 +147,7 @@ struct CellOutputs {
     if constexpr (has_size)
       return self().size_at(p)[n];
     else
-      return inverse_of(length_of(slope(p, n)));
+      return inverse_of(length_of(self().slope(p, n)));
   }
 };
 
