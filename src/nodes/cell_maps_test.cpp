@@ -1,7 +1,6 @@
 // Compares maps of cells, and the solids on them, with formulas of their geometry and with rays.
 #include "nodes/test_values.h"
 
-
 namespace ombre::nodes {
 namespace {
 
@@ -85,7 +84,8 @@ TEST_F(CellMaps, TheRegionOfASectorIsTheSector) {
 }
 
 TEST_F(CellMaps, SizesFitTheRegion) {
-  const NodePtr map = make("box_cells", {{"size", list({6, 9, 30})}, {"min", list({0, 0, 0})}, {"max", list({20, 20, 10})}});
+  const NodePtr map =
+      make("box_cells", {{"size", list({6, 9, 30})}, {"min", list({0, 0, 0})}, {"max", list({20, 20, 10})}});
   expect_near(vector_at(map, "size", {1, 1, 1}), {20.0 / 3, 10, 10}, 1e-12);
   expect_near(vector_at(map, "place", {10, 5, 5}), {1.5, 0.5, 0.5}, 1e-12);
   expect_near(vector_at(map, "index", {20, 20, 10}), {2, 1, 0}, 0);
@@ -136,7 +136,7 @@ TEST_F(CellMaps, PlacesAlongALineAreCoordinates) {
                                            {"width", Data(4.0)},
                                            {"depth", Data(6.0)},
                                            {"count", list({10, 2, 3})}});
-  // Along y; w is up, so v is along x.
+  // The curve runs along y and w is up, so v is along x.
   expect_near(vector_at(map, "place", {1.5, 7, 2}), {2.5, 1.25, 1}, 1e-9);
   expect_near(vector_at(map, "place", {1.5, 0, 2}), {-1, 1.25, 1}, 1e-9);
   expect_near(vector_at(map, "size", {1.5, 7, 2}), {2, 2, 2}, 1e-9);
@@ -144,10 +144,11 @@ TEST_F(CellMaps, PlacesAlongALineAreCoordinates) {
 
 // Frames that do not turn around a curve make cells whose edges are perpendicular; across, they keep their size.
 TEST_F(CellMaps, CellsAlongACurveArePerpendicular) {
-  const NodePtr map = make("curve_cells", {{"points", rows({{0, 0, 0}, {12, 2, 0}, {18, 12, 6}, {12, 22, 12}, {0, 20, 20}})},
-                                           {"width", Data(4.0)},
-                                           {"depth", Data(6.0)},
-                                           {"count", list({20, 2, 2})}});
+  const NodePtr map =
+      make("curve_cells", {{"points", rows({{0, 0, 0}, {12, 2, 0}, {18, 12, 6}, {12, 22, 12}, {0, 20, 20}})},
+                           {"width", Data(4.0)},
+                           {"depth", Data(6.0)},
+                           {"count", list({20, 2, 2})}});
   int tried = 0;
   while (tried < 30) {
     const Vec3 p = random_point(22);
@@ -158,13 +159,15 @@ TEST_F(CellMaps, CellsAlongACurveArePerpendicular) {
     EXPECT_NEAR(length(u) * size.x, 1, 1e-4);
     EXPECT_NEAR(length(v) * 2, 1, 1e-4);
     EXPECT_NEAR(length(w) * 3, 1, 1e-4);
-    for (const double product : {dot(u, v) * size.x * 2, dot(v, w) * 6, dot(w, u) * size.x * 3}) EXPECT_NEAR(product, 0, 1e-4);
+    for (const double product : {dot(u, v) * size.x * 2, dot(v, w) * 6, dot(w, u) * size.x * 3})
+      EXPECT_NEAR(product, 0, 1e-4);
     EXPECT_GT(dot(u, cross(v, w)), 0);
   }
 }
 
 TEST_F(CellMaps, ACurveThatIsTighterThanItsCellsIsRefused) {
-  const Named bent{{"points", rows({{0, 0, 0}, {5, 0, 0}, {5, 5, 0}})}, {"width", Data(8.0)}, {"size", list({2, 2, 2})}};
+  const Named bent{
+      {"points", rows({{0, 0, 0}, {5, 0, 0}, {5, 5, 0}})}, {"width", Data(8.0)}, {"size", list({2, 2, 2})}};
   EXPECT_NE(error_of("curve_cells", bent).find("radius"), std::string::npos);
   const Named loop{{"points", rows({{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}, {0, 1, 1}, {0, -9, 1}})},
                    {"width", Data(2.0)},
@@ -200,11 +203,11 @@ TEST_F(CellMaps, AGyroidAroundAPipeHasNoSeam) {
 // docs/user/cells.md promises this accuracy.
 TEST_F(CellMaps, BentWallsHaveTheirThickness) {
   const NodePtr bent = cylinder(16, 24, 24, {12, 3, 1}), cone = make("frustum_cells", {{"inner", Data(16.0)},
-                                                                                      {"outer", Data(24.0)},
-                                                                                      {"inner_top", Data(20.0)},
-                                                                                      {"outer_top", Data(25.0)},
-                                                                                      {"height", Data(24.0)},
-                                                                                      {"count", list({12, 3, 1})}});
+                                                                                       {"outer", Data(24.0)},
+                                                                                       {"inner_top", Data(20.0)},
+                                                                                       {"outer_top", Data(25.0)},
+                                                                                       {"height", Data(24.0)},
+                                                                                       {"count", list({12, 3, 1})}});
   for (const NodePtr& map : {bent, cone})
     for (const std::string type : {"tpms", "plates"}) {
       const double thickness = 0.2;
@@ -280,7 +283,8 @@ TEST_F(CellMaps, ReentrantWallsAreSegmentsThatRepeat) {
 
 TEST_F(CellMaps, StrutsOnBoxesAreThoseOfTiles) {
   for (const std::string cell : {"bcc", "octet", "kelvin"}) {
-    const NodePtr on_map = make("lattice", {{"cell", Data(cell)}, {"radius", Data(0.3)}, {"map", object(box({4, 5, 6}))}});
+    const NodePtr on_map =
+        make("lattice", {{"cell", Data(cell)}, {"radius", Data(0.3)}, {"map", object(box({4, 5, 6}))}});
     const NodePtr unit = make("lattice", {{"cell", Data(cell)}, {"radius", Data(0.3)}, {"size", list({4, 5, 6})}});
     const NodePtr tiles = make("tile", {}, {unit});
     for (int n = 0; n < 50; ++n) {
@@ -292,8 +296,8 @@ TEST_F(CellMaps, StrutsOnBoxesAreThoseOfTiles) {
 
 // The edges of cells along the axis of a pipe are straight lines.
 TEST_F(CellMaps, StrutsInAPipeHaveTheirRadius) {
-  const NodePtr lattice =
-      make("lattice", {{"cell", Data("cubic")}, {"radius", Data(0.4)}, {"map", object(cylinder(16, 24, 24, {12, 3, 2}))}});
+  const NodePtr lattice = make(
+      "lattice", {{"cell", Data("cubic")}, {"radius", Data(0.4)}, {"map", object(cylinder(16, 24, 24, {12, 3, 2}))}});
   const Vec3 middle = around_z(20, 60, 0.1);  // on the border of two cells, and in the middle of one along the axis
   for (const double angle : {0.0, 40.0, 100.0, 170.0, 230.0, 310.0}) {
     const Vec3 direction = around_z(1, angle, 0);

@@ -239,8 +239,9 @@ class RandomDesign {
     const bool is_smooth = type.name == "curve_cells";
     DataList list;
     for (size_t n = 0; n < count; ++n)
-      list.emplace_back(is_smooth ? DataList{Data(7.0 * static_cast<double>(n)), Data(number(-1, 1)), Data(number(-1, 1))}
-                                  : DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
+      list.emplace_back(is_smooth
+                            ? DataList{Data(7.0 * static_cast<double>(n)), Data(number(-1, 1)), Data(number(-1, 1))}
+                            : DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
     return Data(std::move(list));
   }
 

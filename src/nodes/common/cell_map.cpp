@@ -9,8 +9,8 @@ using namespace design;
 Box CellMap::reach(const Box& where, double margin) const {
   if (!region.node) return where;
   const Box wider = where.expanded(margin);
-  const Box box = region.node->type().is_solid() ? region.node->bounds(wider)
-                                                 : region.node->output_bounds(region.output, wider);
+  const Box box =
+      region.node->type().is_solid() ? region.node->bounds(wider) : region.node->output_bounds(region.output, wider);
   return intersect(box.expanded(margin), where);
 }
 

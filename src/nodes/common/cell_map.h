@@ -9,7 +9,8 @@ namespace ombre::nodes {
 using program::Field;
 using program::Point;
 
-// A map that a node gives, or none. Nodes that give maps have the outputs of `CellOutputs` (nodes/values/cell_outputs.h).
+// A map that a node gives, or none. Nodes that give maps have the outputs of `CellOutputs`
+// (nodes/values/cell_outputs.h).
 struct CellMap {
   design::Numbers3 place;
   std::array<design::Numbers3, 3> slopes;  // derivatives of u, v and w by x, y and z
@@ -48,9 +49,7 @@ template <>
 struct Port<nodes::CellMap> {
   static PortText text(const Domain&) { return {"map of cells", "maps of cells", "Value"}; }
   static bool read(const Data& data, const Domain&, nodes::CellMap& value, const Reader& reader);
-  static Data write(const nodes::CellMap& value, bool) {
-    return value.is_given() ? write_output(value.from) : Data();
-  }
+  static Data write(const nodes::CellMap& value, bool) { return value.is_given() ? write_output(value.from) : Data(); }
   static bool is_constant(const nodes::CellMap& value) { return !value.is_given(); }
 };
 

@@ -4,7 +4,8 @@ namespace ombre::nodes {
 namespace {
 
 Slope scaled(const Slope& a, Field factor) {
-  return {product_without_zeros(a[0], factor), product_without_zeros(a[1], factor), product_without_zeros(a[2], factor)};
+  return {product_without_zeros(a[0], factor), product_without_zeros(a[1], factor),
+          product_without_zeros(a[2], factor)};
 }
 
 Slope difference(const Slope& a, const Slope& b) {

@@ -33,8 +33,8 @@ CurveFrames::CurveFrames(std::vector<Vec3> points, Vec3 toward) {
   make_sections(points);
   make_nodes(toward);
   points.push_back(toward);
-  content_ = hash_bytes("curve frames " + std::string(reinterpret_cast<const char*>(points.data()),
-                                                      points.size() * sizeof(Vec3)));
+  content_ = hash_bytes("curve frames " +
+                        std::string(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Vec3)));
 }
 
 void CurveFrames::make_sections(const std::vector<Vec3>& points) {
@@ -45,8 +45,7 @@ void CurveFrames::make_sections(const std::vector<Vec3>& points) {
   for (size_t n = 0; n < widths.size(); ++n) {
     const double h = widths[n];
     const Vec3 slope = (1 / h) * (points[n + 1] - points[n]) - (h / 6) * (2 * second[n] + second[n + 1]);
-    sections_.push_back(
-        {begin, h, {points[n], slope, 0.5 * second[n], (1 / (6 * h)) * (second[n + 1] - second[n])}});
+    sections_.push_back({begin, h, {points[n], slope, 0.5 * second[n], (1 / (6 * h)) * (second[n + 1] - second[n])}});
     begin += h;
   }
 }
@@ -89,10 +88,10 @@ Vec3 CurveFrames::Moving::curvature() const {
 // Gauss-Legendre quadrature with five points.
 double CurveFrames::arc(double from, double to, size_t section) const {
   constexpr std::array<std::array<double, 2>, 5> rule{{{0, 128.0 / 225},
-                                                      {0.5384693101056831, 0.4786286704993665},
-                                                      {-0.5384693101056831, 0.4786286704993665},
-                                                      {0.9061798459386640, 0.2369268850561891},
-                                                      {-0.9061798459386640, 0.2369268850561891}}};
+                                                       {0.5384693101056831, 0.4786286704993665},
+                                                       {-0.5384693101056831, 0.4786286704993665},
+                                                       {0.9061798459386640, 0.2369268850561891},
+                                                       {-0.9061798459386640, 0.2369268850561891}}};
   const double half = (to - from) / 2, middle = (to + from) / 2;
   double sum = 0;
   for (const auto& [place, weight] : rule) sum += weight * ombre::length(at(middle + half * place, section).speed);
@@ -154,8 +153,8 @@ double CurveFrames::nearest_parameter(Vec3 p, size_t node) const {
   double lo = nodes_[node == 0 ? 0 : node - 1].parameter, hi = nodes_[std::min(node + 1, nodes_.size() - 1)].parameter;
   double t = nodes_[node].parameter;
   for (int step = 0; step < most_steps; ++step) {
-    const size_t section = nodes_[node].parameter < t && node + 1 < nodes_.size() ? nodes_[node + 1].section
-                                                                                : nodes_[node].section;
+    const size_t section =
+        nodes_[node].parameter < t && node + 1 < nodes_.size() ? nodes_[node + 1].section : nodes_[node].section;
     const Moving moving = at(t, section);
     const Vec3 way = p - moving.at;
     const double ahead = dot(way, moving.speed), slope = dot(way, moving.bend) - dot(moving.speed, moving.speed);

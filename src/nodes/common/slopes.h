@@ -27,7 +27,8 @@ Slope slope_at(const Of& of, const program::Point& p) {
   return result;
 }
 
-// Arithmetic that leaves out what is always 0. Products with 0 are not left out elsewhere, since infinity times 0 is NaN.
+// Arithmetic that leaves out what is always 0. Products with 0 are not left out elsewhere, since infinity times 0 is
+// NaN.
 inline program::Field sum_without_zeros(program::Field a, program::Field b) {
   return is_zero(a) ? b : is_zero(b) ? a : a + b;
 }

@@ -24,16 +24,17 @@ struct Plates {
   MaterialName material;
 
   static Spec<Plates> spec() {
-    return {"plates",
-            "Flat walls in the cells of a map, which it fills. Walls have the thickness in mm also where cells are bent.",
-            {{"map", &Plates::map, "A map of cells, such as box_cells", required()},
-             {"kind", &Plates::kind,
-              "cubic: the borders of cells; octet: the faces of octahedra and tetrahedra; cubic_octet: both",
-              one_of({"cubic", "octet", "cubic_octet"})},
-             {"thickness", &Plates::thickness, "Thickness of the walls", unit::positive_mm},
-             {"material", &Plates::material, "Its material"}},
-            no_inputs,
-            "plates(box_cells((6, 6, 6), min=(0, 0, 0), max=(12, 12, 12)), \"octet\", 0.5, \"red\");"};
+    return {
+        "plates",
+        "Flat walls in the cells of a map, which it fills. Walls have the thickness in mm also where cells are bent.",
+        {{"map", &Plates::map, "A map of cells, such as box_cells", required()},
+         {"kind", &Plates::kind,
+          "cubic: the borders of cells; octet: the faces of octahedra and tetrahedra; cubic_octet: both",
+          one_of({"cubic", "octet", "cubic_octet"})},
+         {"thickness", &Plates::thickness, "Thickness of the walls", unit::positive_mm},
+         {"material", &Plates::material, "Its material"}},
+        no_inputs,
+        "plates(box_cells((6, 6, 6), min=(0, 0, 0), max=(12, 12, 12)), \"octet\", 0.5, \"red\");"};
   }
 
   Metric metric() const { return Metric::implicit(); }
@@ -82,21 +83,22 @@ struct Honeycomb {
   MaterialName material;
 
   static Spec<Honeycomb> spec() {
-    return {"honeycomb",
-            "Walls along w of a map of cells, which they fill. They form hexagons, two for each cell of the map. With a "
-            "negative angle the hexagons are re-entrant: stretched along one direction, they widen along the other.",
-            {{"map", &Honeycomb::map,
-              "A map of cells, such as box_cells. Hexagons are regular if cells are sqrt(3) times as long along v as "
-              "along u",
-              required()},
-             {"thickness", &Honeycomb::thickness, "Thickness of the walls", unit::positive_mm},
-             {"angle", &Honeycomb::angle, "Angle of the slanted walls from u, before cells are stretched",
-              from_to(-80, 80, "deg")},
-             {"ratio", &Honeycomb::ratio, "Length of the walls along v, as a multiple of that of the slanted walls",
-              positive("")},
-             {"material", &Honeycomb::material, "Its material"}},
-            no_inputs,
-            "honeycomb(box_cells((4, 4, 5), min=(0, 0, 0), max=(16, 16, 5)), 0.4, -20, 1.5, \"red\");"};
+    return {
+        "honeycomb",
+        "Walls along w of a map of cells, which they fill. They form hexagons, two for each cell of the map. With a "
+        "negative angle the hexagons are re-entrant: stretched along one direction, they widen along the other.",
+        {{"map", &Honeycomb::map,
+          "A map of cells, such as box_cells. Hexagons are regular if cells are sqrt(3) times as long along v as "
+          "along u",
+          required()},
+         {"thickness", &Honeycomb::thickness, "Thickness of the walls", unit::positive_mm},
+         {"angle", &Honeycomb::angle, "Angle of the slanted walls from u, before cells are stretched",
+          from_to(-80, 80, "deg")},
+         {"ratio", &Honeycomb::ratio, "Length of the walls along v, as a multiple of that of the slanted walls",
+          positive("")},
+         {"material", &Honeycomb::material, "Its material"}},
+        no_inputs,
+        "honeycomb(box_cells((4, 4, 5), min=(0, 0, 0), max=(16, 16, 5)), 0.4, -20, 1.5, \"red\");"};
   }
 
   bool complete(const Reader& reader) const {
@@ -125,7 +127,8 @@ struct Honeycomb {
     const CellMetric metric = CellMetric::at(map, p, true).along_w();
     const Slope at = folded_into_cell(map.place_at(p));
     const auto wall = [&](Vec3 a, Vec3 b) { return nearest_of_strut(metric, at, a, b).squared_distance; };
-    return min(wall({0.5, end, 0}, {0, begin, 0}), min(wall({0.5, 0, 0}, {0.5, end, 0}), wall({0, begin, 0}, {0, 0.5, 0})));
+    return min(wall({0.5, end, 0}, {0, begin, 0}),
+               min(wall({0.5, 0, 0}, {0.5, end, 0}), wall({0, begin, 0}, {0, 0.5, 0})));
   }
 };
 

@@ -26,24 +26,25 @@ struct Lattice {
   CellMap map;
 
   static Spec<Lattice> spec() {
-    return {"lattice",
-            "Struts with round ends: a unit cell centred on the origin, which tile repeats, the cells of a map, or a graph "
-            "of edges.",
-            {{"cell", &Lattice::cell, "Name of the unit cell; none: the edges are used", cell_choices()},
-             {"size", &Lattice::size, "Size of the unit cell along x, y and z; none: 10 mm, or as the map says",
-              unit::positive_mm},
-             {"radius", &Lattice::radius, "Radius of the struts; t runs from 0 to 1 along each",
-              with_variables({"t"}, unit::positive_mm)},
-             {"edges", &Lattice::edges,
-              "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
-             {"material", &Lattice::material, "Its material"},
-             {"map", &Lattice::map,
-              "A map of cells, such as cylinder_cells, whose region the struts fill; their radius in mm holds to first "
-              "order where cells are bent"}},
-            no_inputs,
-            "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");",
-            {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
-              Interval(0, 1)}}};
+    return {
+        "lattice",
+        "Struts with round ends: a unit cell centred on the origin, which tile repeats, the cells of a map, or a graph "
+        "of edges.",
+        {{"cell", &Lattice::cell, "Name of the unit cell; none: the edges are used", cell_choices()},
+         {"size", &Lattice::size, "Size of the unit cell along x, y and z; none: 10 mm, or as the map says",
+          unit::positive_mm},
+         {"radius", &Lattice::radius, "Radius of the struts; t runs from 0 to 1 along each",
+          with_variables({"t"}, unit::positive_mm)},
+         {"edges", &Lattice::edges,
+          "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
+         {"material", &Lattice::material, "Its material"},
+         {"map", &Lattice::map,
+          "A map of cells, such as cylinder_cells, whose region the struts fill; their radius in mm holds to first "
+          "order where cells are bent"}},
+        no_inputs,
+        "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");",
+        {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
+          Interval(0, 1)}}};
   }
 
   bool makes_nothing() const { return cell == "none" && edges && edges->empty(); }
@@ -51,9 +52,9 @@ struct Lattice {
   bool complete(const Reader& reader) {
     const bool is_cell = !(cell == "none"), has_edges = edges && !edges->empty();
     if (map.is_given() && (!is_cell || size || !find_unit_cell(cell.text())->is_mirrored))
-      return reader.refuse("lattice with a map needs a unit cell with mirror planes, and no size",
-                           "write for example " + spelled::parameter("cell", "\"bcc\"") +
-                               "; the map says how large cells are");
+      return reader.refuse(
+          "lattice with a map needs a unit cell with mirror planes, and no size",
+          "write for example " + spelled::parameter("cell", "\"bcc\"") + "; the map says how large cells are");
     if (is_cell != has_edges) {
       segments_ = is_cell ? of_cell() : of_edges();
       return true;

@@ -1,7 +1,10 @@
 // Triply periodic minimal surfaces, given by their usual trigonometric approximations.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "base/math/math.h"
 #include "design/spec.h"
 #include "nodes/common/cell_map.h"
 
@@ -46,9 +49,66 @@ struct Term {
 };
 
 struct Surface {
+  // The function at a point, and its derivatives by the phases.
+  struct Sample {
+    double value;
+    std::array<double, 3> by;
+  };
+
   const char* name;
   std::vector<Term> terms;
+
+  // Returns samples at side^3 points of a cell.
+  std::vector<Sample> samples(size_t side) const;
 };
+
+// Returns the value of a wave at a phase, and its derivative.
+std::array<double, 2> value_and_slope(Wave wave, double phase) {
+  const double s = math::sin(phase), c = math::cos(phase);
+  switch (wave) {
+    case Wave::one:
+      return {1, 0};
+    case Wave::sin:
+      return {s, c};
+    case Wave::cos:
+      return {c, -s};
+    case Wave::sin2:
+      return {2 * s * c, 2 - 4 * s * s};
+    case Wave::cos2:
+      return {1 - 2 * s * s, -4 * s * c};
+  }
+  return {1, 0};
+}
+
+std::vector<Surface::Sample> Surface::samples(size_t side) const {
+  constexpr std::array<double, 3> off{0.31, 0.43, 0.57};  // parts of a step, different along each axis
+  constexpr size_t waves = 5;
+  std::vector<std::array<std::array<std::array<double, 2>, waves>, 3>> table(side);
+  for (size_t n = 0; n < side; ++n)
+    for (size_t axis = 0; axis < 3; ++axis)
+      for (size_t wave = 0; wave < waves; ++wave)
+        table[n][axis][wave] =
+            value_and_slope(static_cast<Wave>(wave),
+                            2 * std::numbers::pi * (static_cast<double>(n) + off[axis]) / static_cast<double>(side));
+  std::vector<Sample> all;
+  all.reserve(side * side * side);
+  for (size_t k = 0; k < side; ++k)
+    for (size_t j = 0; j < side; ++j)
+      for (size_t i = 0; i < side; ++i) {
+        Sample sample{};
+        for (const Term& term : terms) {
+          const auto& x = table[i][0][static_cast<size_t>(term.x)];
+          const auto& y = table[j][1][static_cast<size_t>(term.y)];
+          const auto& z = table[k][2][static_cast<size_t>(term.z)];
+          sample.value += term.factor * x[0] * y[0] * z[0];
+          sample.by[0] += term.factor * x[1] * y[0] * z[0];
+          sample.by[1] += term.factor * x[0] * y[1] * z[0];
+          sample.by[2] += term.factor * x[0] * y[0] * z[1];
+        }
+        all.push_back(sample);
+      }
+  return all;
+}
 
 // Returns the terms and those that result from cyclic permutation of the axes.
 std::vector<Term> cyclic(std::initializer_list<Term> some) {
@@ -128,27 +188,43 @@ struct Tpms {
   Number level = 0;
   MaterialName material;
   CellMap map;
+  std::optional<double> density;
 
   static Spec<Tpms> spec() {
-    return {"tpms",
-            "A triply periodic minimal surface. Without a map it has no end: cut it with an intersection.",
-            {{"surface", &Tpms::surface, "Name of the surface", one_of(surface_names())},
-             {"kind", &Tpms::kind, "sheet: a wall along the surface; solid: the side where the function is below level",
-              one_of({"sheet", "solid"})},
-             {"cell", &Tpms::cell, "Length of its period along x, y and z; none: 10 mm, or with a map one cell",
-              unit::positive_mm},
-             {"thickness", &Tpms::thickness, "Thickness of the sheet", unit::positive_mm},
-             {"level", &Tpms::level, "Value of the function at the surface; 0 for the minimal surface"},
-             {"material", &Tpms::material, "Its material"},
-             {"map", &Tpms::map, "A map of cells, such as cylinder_cells, whose region it fills; none: x, y and z"}},
-            no_inputs,
-            "intersection() { cube(20); tpms(\"gyroid\", cell=(10, 10, 10), thickness=1, material=\"red\"); }"};
+    return {
+        "tpms",
+        "A triply periodic minimal surface. Without a map it has no end: cut it with an intersection.",
+        {{"surface", &Tpms::surface, "Name of the surface", one_of(surface_names())},
+         {"kind", &Tpms::kind, "sheet: a wall along the surface; solid: the side where the function is below level",
+          one_of({"sheet", "solid"})},
+         {"cell", &Tpms::cell, "Length of its period along x, y and z; none: 10 mm, or with a map one cell",
+          unit::positive_mm},
+         {"thickness", &Tpms::thickness, "Thickness of the sheet", unit::positive_mm},
+         {"level", &Tpms::level, "Value of the function at the surface; 0 for the minimal surface"},
+         {"material", &Tpms::material, "Its material"},
+         {"density", &Tpms::density,
+          "Share of a cell that is filled; it takes the place of the level of a solid, or of the thickness of a sheet "
+          "in cells of constant size",
+          from_to(0.01, 0.99)},
+         {"map", &Tpms::map, "A map of cells, such as cylinder_cells, whose region it fills; none: x, y and z"}},
+        no_inputs,
+        "intersection() { cube(20); tpms(\"gyroid\", cell=(10, 10, 10), thickness=1, material=\"red\"); }"};
   }
 
-  bool complete(const Reader& reader) const {
-    if (!map.is_given() || !cell.along) return true;
-    return reader.refuse("tpms has both a map and the size of its cells",
-                         "leave out cell: the map says how large cells are");
+  bool complete(const Reader& reader) {
+    if (map.is_given() && cell.along)
+      return reader.refuse("tpms has both a map and the size of its cells",
+                           "leave out cell: the map says how large cells are");
+    if (!density) return true;
+    const bool is_flat = !map.is_given() && (!cell.along || design::is_constant(*cell.along)) && level.constant();
+    if (kind == "sheet" && !is_flat)
+      return reader.refuse("the density of a sheet needs cells of constant size, and a constant level",
+                           "write the thickness, or " + spelled::parameter("kind", "\"solid\""));
+    if (kind == "sheet")
+      thickness = value_below_which(*density);
+    else
+      level = value_below_which(*density);
+    return true;
   }
 
   Metric metric() const { return Metric::implicit(); }
@@ -191,6 +267,26 @@ struct Tpms {
   Number period(int axis) const {
     if (!cell.along) return 10;
     return axis == 0 ? cell.along->x : axis == 1 ? cell.along->y : cell.along->z;
+  }
+
+  // Returns the level, or the thickness of a sheet, for which this share of a cell is filled. Points of a lattice,
+  // which is moved off the planes of symmetry, sample the function; the error of the share is less than 1e-3.
+  double value_below_which(double share) const {
+    constexpr size_t side = 96;
+    const std::vector<Surface::Sample> samples = chosen().samples(side);
+    std::vector<double> values;
+    values.reserve(samples.size());
+    for (const auto& [value, by] : samples) {
+      double squared = 0;
+      for (size_t n = 0; n < 3 && kind == "sheet"; ++n) {
+        const double slope = by[n] * turn / *period(static_cast<int>(n)).constant();
+        squared += slope * slope;
+      }
+      values.push_back(kind == "sheet" ? 2 * std::abs(value - *level.constant()) / std::sqrt(squared) : value);
+    }
+    const auto at = values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::ranges::nth_element(values, at);
+    return *at;
   }
 
   const Surface& chosen() const {

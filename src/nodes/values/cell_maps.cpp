@@ -22,17 +22,17 @@ struct BoxCells : CellOutputs<BoxCells> {
   Vec3 step;  // set when the node is made
 
   static Spec<BoxCells> spec() {
-    return {"box_cells",
-            "A map of cells that are boxes, with borders along x, y and z.",
-            {{"size", &BoxCells::size, cell_size_doc, unit::positive_mm},
-             {"count", &BoxCells::count, cell_count_doc, whole_from_one()},
-             {"min", &BoxCells::min, "Least corner of the region; none: cells fill all space from the origin",
-              unit::mm},
-             {"max", &BoxCells::max, "Greatest corner of the region", unit::mm}},
-            no_inputs,
-            "tpms(\"gyroid\", map=box_cells((5, 5, 5), min=(0, 0, 0), max=(20, 20, 10)), thickness=0.4, "
-            "material=\"red\");",
-            outputs()};
+    return {
+        "box_cells",
+        "A map of cells that are boxes, with borders along x, y and z.",
+        {{"size", &BoxCells::size, cell_size_doc, unit::positive_mm},
+         {"count", &BoxCells::count, cell_count_doc, whole_from_one()},
+         {"min", &BoxCells::min, "Least corner of the region; none: cells fill all space from the origin", unit::mm},
+         {"max", &BoxCells::max, "Greatest corner of the region", unit::mm}},
+        no_inputs,
+        "tpms(\"gyroid\", map=box_cells((5, 5, 5), min=(0, 0, 0), max=(20, 20, 10)), thickness=0.4, "
+        "material=\"red\");",
+        outputs()};
   }
 
   bool complete(const Reader& reader) {
@@ -129,9 +129,9 @@ struct WallCells : AroundAxis<T> {
   bool complete(const Reader& reader) {
     const double inner_top = self().radii_at_top().lo, outer_top = self().radii_at_top().hi;
     if (!(inner < outer) || !(inner_top < outer_top))
-      return reader.refuse("outer radii of " + std::string(reader.node) + " must be greater than the inner ones",
-                           "write for example " + spelled::parameter("inner", "8") + ", " +
-                               spelled::parameter("outer", "10"));
+      return reader.refuse(
+          "outer radii of " + std::string(reader.node) + " must be greater than the inner ones",
+          "write for example " + spelled::parameter("inner", "8") + ", " + spelled::parameter("outer", "10"));
     const double around = (inner + inner_top + outer + outer_top) / 4 * this->sweep * radian;
     const Vec3 lengths{around, height, (outer + outer_top - inner - inner_top) / 2};
     return find_counts(reader, lengths, this->size, this->count, this->counts) && this->find_frame(reader);
@@ -213,26 +213,26 @@ struct BallCells : AroundAxis<BallCells> {
 
   static Spec<BallCells> spec() {
     constexpr double pole = 89.9;  // nearer to a pole, cells around would be slivers
-    return {"ball_cells",
-            "A map of cells in the wall of a hollow ball, between two latitudes: u runs around, v to the north, w "
-            "outward.",
-            with_frame({{"inner", &BallCells::inner, "Inner radius; all cells would meet in the centre",
-                         unit::positive_mm},
-                        {"outer", &BallCells::outer, "Outer radius", unit::positive_mm},
-                        {"from", &BallCells::from, "Latitude where cells begin, above the south pole",
-                         from_to(-pole, pole, "deg")},
-                        {"to", &BallCells::to, "Latitude where cells end, below the north pole, where cells would meet",
-                         from_to(-pole, pole, "deg")}}),
-            no_inputs,
-            "tpms(\"gyroid\", map=ball_cells(7, 10, -60, 60, count=(12, 5, 1)), thickness=0.4, material=\"red\");",
-            outputs()};
+    return {
+        "ball_cells",
+        "A map of cells in the wall of a hollow ball, between two latitudes: u runs around, v to the north, w "
+        "outward.",
+        with_frame({{"inner", &BallCells::inner, "Inner radius; all cells would meet in the centre", unit::positive_mm},
+                    {"outer", &BallCells::outer, "Outer radius", unit::positive_mm},
+                    {"from", &BallCells::from, "Latitude where cells begin, above the south pole",
+                     from_to(-pole, pole, "deg")},
+                    {"to", &BallCells::to, "Latitude where cells end, below the north pole, where cells would meet",
+                     from_to(-pole, pole, "deg")}}),
+        no_inputs,
+        "tpms(\"gyroid\", map=ball_cells(7, 10, -60, 60, count=(12, 5, 1)), thickness=0.4, material=\"red\");",
+        outputs()};
   }
 
   bool complete(const Reader& reader) {
     if (!(inner < outer) || !(from < to))
-      return reader.refuse("ball_cells needs inner below outer and from below to",
-                           "write for example " + spelled::parameter("inner", "8") + ", " +
-                               spelled::parameter("outer", "10"));
+      return reader.refuse(
+          "ball_cells needs inner below outer and from below to",
+          "write for example " + spelled::parameter("inner", "8") + ", " + spelled::parameter("outer", "10"));
     const double middle = (inner + outer) / 2, widest = from * to <= 0 ? 0 : std::min(std::abs(from), std::abs(to));
     const Vec3 lengths{middle * std::cos(widest * radian) * sweep * radian, middle * (to - from) * radian,
                        outer - inner};
@@ -247,8 +247,8 @@ struct BallCells : AroundAxis<BallCells> {
   }
   Slope size_at(const Point& p) const {
     const Point q = turned(p);
-    return {length(q.x, q.y) * (2 * half_angle() / counts.x),
-            length(q.x, q.y, q.z) * ((to - from) * radian / counts.y), q.constant((outer - inner) / counts.z)};
+    return {length(q.x, q.y) * (2 * half_angle() / counts.x), length(q.x, q.y, q.z) * ((to - from) * radian / counts.y),
+            q.constant((outer - inner) / counts.z)};
   }
 
   Field outside(const Ask& ask) const {
@@ -268,8 +268,6 @@ struct BallCells : AroundAxis<BallCells> {
 
 }  // namespace
 
-void add_cell_maps(Registry& registry) {
-  registry.add<BoxCells, CylinderCells, FrustumCells, BallCells>("cells");
-}
+void add_cell_maps(Registry& registry) { registry.add<BoxCells, CylinderCells, FrustumCells, BallCells>("cells"); }
 
 }  // namespace ombre::nodes

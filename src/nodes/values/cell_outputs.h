@@ -28,22 +28,25 @@ struct CellOutputs {
 
   static std::vector<design::OutputSpec<T>> outputs() {
     using design::Ask, design::VectorField;
-    return {{"place", method<Point>(&CellOutputs::place), "u, v and w: the position among cells, whose borders are whole numbers"},
-            {"region", method<design::OutputSolid>(&CellOutputs::region), static_cast<Box (T::*)(const Box&) const>(&CellOutputs::region_box),
-             "The solid that the cells fill"},
-            {"index", method<VectorField>(&CellOutputs::index), "Index of the cell along u, v and w, from 0 on"},
-            {"local", method<VectorField>(&CellOutputs::local), "Position in the cell, from 0 to 1 along u, v and w"},
-            {"distance", method<Field>(&CellOutputs::distance),
-             "Distance to the nearest border of the cell, mm; to first order where borders are curved"},
-            {"size", method<VectorField>(&CellOutputs::cell_size), "Lengths of the cell along u, v and w, mm, as those at this point"},
-            {"volume", method<Field>(&CellOutputs::volume), "Volume of the cell, mm^3, if all of it were as at this point"},
-            {"stretches", method<VectorField>(&CellOutputs::stretches),
-             "Least, middle and greatest length to which the map stretches a length of 1 cell, mm"},
-            {"slope_u", method<VectorField>(&CellOutputs::slope_u), "Derivatives of u by x, y and z, per mm"},
-            {"slope_v", method<VectorField>(&CellOutputs::slope_v), "Derivatives of v by x, y and z, per mm"},
-            {"slope_w", method<VectorField>(&CellOutputs::slope_w), "Derivatives of w by x, y and z, per mm"},
-            {"perpendicular", static_cast<bool (T::*)() const>(&CellOutputs::is_perpendicular),
-             "True if the edges of cells are perpendicular everywhere"}};
+    return {
+        {"place", method<Point>(&CellOutputs::place),
+         "u, v and w: the position among cells, whose borders are whole numbers"},
+        {"region", method<design::OutputSolid>(&CellOutputs::region),
+         static_cast<Box (T::*)(const Box&) const>(&CellOutputs::region_box), "The solid that the cells fill"},
+        {"index", method<VectorField>(&CellOutputs::index), "Index of the cell along u, v and w, from 0 on"},
+        {"local", method<VectorField>(&CellOutputs::local), "Position in the cell, from 0 to 1 along u, v and w"},
+        {"distance", method<Field>(&CellOutputs::distance),
+         "Distance to the nearest border of the cell, mm; to first order where borders are curved"},
+        {"size", method<VectorField>(&CellOutputs::cell_size),
+         "Lengths of the cell along u, v and w, mm, as those at this point"},
+        {"volume", method<Field>(&CellOutputs::volume), "Volume of the cell, mm^3, if all of it were as at this point"},
+        {"stretches", method<VectorField>(&CellOutputs::stretches),
+         "Least, middle and greatest length to which the map stretches a length of 1 cell, mm"},
+        {"slope_u", method<VectorField>(&CellOutputs::slope_u), "Derivatives of u by x, y and z, per mm"},
+        {"slope_v", method<VectorField>(&CellOutputs::slope_v), "Derivatives of v by x, y and z, per mm"},
+        {"slope_w", method<VectorField>(&CellOutputs::slope_w), "Derivatives of w by x, y and z, per mm"},
+        {"perpendicular", static_cast<bool (T::*)() const>(&CellOutputs::is_perpendicular),
+         "True if the edges of cells are perpendicular everywhere"}};
   }
 
   bool gives(size_t output) const { return output != 1 || has_region; }
@@ -55,7 +58,9 @@ struct CellOutputs {
   design::OutputSolid region(const design::Ask& ask) const { return {self().outside(ask)}; }
   Box region_box(const Box& where) const { return self().region_within(where); }
 
-  design::VectorField index(const design::Ask& ask) const { return vector([&](size_t n) { return index_along(ask.p, n); }); }
+  design::VectorField index(const design::Ask& ask) const {
+    return vector([&](size_t n) { return index_along(ask.p, n); });
+  }
   design::VectorField local(const design::Ask& ask) const {
     return vector([&](size_t n) { return limited(self().cells_at(ask.p)[n] - index_along(ask.p, n), 0, 1); });
   }
@@ -123,7 +128,9 @@ struct CellOutputs {
     const double count = counts[static_cast<int>(n)];
     return count == no_border ? whole : limited(whole, 0, count - 1);
   }
-  std::array<Slope, 3> slopes(const Point& p) const { return {self().slope(p, 0), self().slope(p, 1), self().slope(p, 2)}; }
+  std::array<Slope, 3> slopes(const Point& p) const {
+    return {self().slope(p, 0), self().slope(p, 1), self().slope(p, 2)};
+  }
   design::VectorField slope_vector(const Point& p, size_t n) const {
     const Slope by = self().slope(p, n);
     return {by[0], by[1], by[2]};

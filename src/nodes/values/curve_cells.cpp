@@ -21,20 +21,20 @@ struct CurveCells : CellOutputs<CurveCells> {
   std::shared_ptr<CurveFrames> curve;  // made with the node
 
   static Spec<CurveCells> spec() {
-    return {"curve_cells",
-            "A map of cells in a rod of rectangular section along a smooth curve through points: u runs along the curve, v "
-            "and w across, without turning around it.",
-            {{"points", &CurveCells::points, "Two or more points", required(unit::points)},
-             {"width", &CurveCells::width, "Width of the rod along v", unit::positive_mm},
-             {"depth", &CurveCells::depth, "Depth of the rod along w", unit::positive_mm},
-             {"size", &CurveCells::size, cell_size_doc, unit::positive_mm},
-             {"count", &CurveCells::count, cell_count_doc, whole_from_one()},
-             {"toward", &CurveCells::toward,
-              "Direction of w at the start, as far as it is perpendicular to the curve"}},
-            no_inputs,
-            "tpms(\"gyroid\", map=curve_cells([(0, 0, 0), (15, 0, 0), (20, 12, 8)], 5, 5, count=(6, 1, 1)), "
-            "thickness=0.4, material=\"red\");",
-            outputs()};
+    return {
+        "curve_cells",
+        "A map of cells in a rod of rectangular section along a smooth curve through points: u runs along the curve, v "
+        "and w across, without turning around it.",
+        {{"points", &CurveCells::points, "Two or more points", required(unit::points)},
+         {"width", &CurveCells::width, "Width of the rod along v", unit::positive_mm},
+         {"depth", &CurveCells::depth, "Depth of the rod along w", unit::positive_mm},
+         {"size", &CurveCells::size, cell_size_doc, unit::positive_mm},
+         {"count", &CurveCells::count, cell_count_doc, whole_from_one()},
+         {"toward", &CurveCells::toward, "Direction of w at the start, as far as it is perpendicular to the curve"}},
+        no_inputs,
+        "tpms(\"gyroid\", map=curve_cells([(0, 0, 0), (15, 0, 0), (20, 12, 8)], 5, 5, count=(6, 1, 1)), "
+        "thickness=0.4, material=\"red\");",
+        outputs()};
   }
 
   bool complete(const Reader& reader) {
@@ -65,7 +65,8 @@ struct CurveCells : CellOutputs<CurveCells> {
     const Point& p = ask.p;
     const Field along = read(p, CurveFrames::along);
     const Field ends = abs(along - curve->length() / 2) - curve->length() / 2;
-    const Field sides = max(abs(read(p, CurveFrames::first)) - width / 2, abs(read(p, CurveFrames::second)) - depth / 2);
+    const Field sides =
+        max(abs(read(p, CurveFrames::first)) - width / 2, abs(read(p, CurveFrames::second)) - depth / 2);
     return max(max(sides, ends), read(p, CurveFrames::distance) - reach());
   }
   Box region_within(const Box&) const { return curve->box().expanded(reach()); }
@@ -82,16 +83,16 @@ struct CurveCells : CellOutputs<CurveCells> {
     const double radius = curve->least_radius(where);
     if (!(reach() < radius))
       return refuse_at(reader, "cells of curve_cells are folded", where,
-                       "the curve's radius is " + format_rounded(radius) + " mm there; sqrt(width^2 + depth^2)/2, which is " +
-                           format_rounded(reach()) + " mm, must be less");
+                       "the curve's radius is " + format_rounded(radius) +
+                           " mm there; sqrt(width^2 + depth^2)/2, which is " + format_rounded(reach()) +
+                           " mm, must be less");
     const auto meeting = curve->near_itself(reach());
     return !meeting || refuse_at(reader, "cells of curve_cells overlap", *meeting,
                                  "the curve comes back there; make width and depth smaller, or move points apart");
   }
   static bool refuse_at(const Reader& reader, const std::string& what, Vec3 at, const std::string& hint) {
-    return reader.refuse(what + " at (" + format_rounded(at.x) + ", " + format_rounded(at.y) + ", " +
-                             format_rounded(at.z) + ")",
-                         hint);
+    return reader.refuse(
+        what + " at (" + format_rounded(at.x) + ", " + format_rounded(at.y) + ", " + format_rounded(at.z) + ")", hint);
   }
 };
 

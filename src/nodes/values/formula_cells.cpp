@@ -81,14 +81,16 @@ struct FormulaCells : CellOutputs<FormulaCells> {
 
   Slope cells_from(const Point& p, const Slope& at) const {
     const expr::Variables variables = [&](std::string_view name) -> std::optional<Field> {
-      return name == "u" ? std::optional(at[0]) : name == "v" ? std::optional(at[1])
-             : name == "w" ? std::optional(at[2]) : std::nullopt;
+      return name == "u"   ? std::optional(at[0])
+             : name == "v" ? std::optional(at[1])
+             : name == "w" ? std::optional(at[2])
+                           : std::nullopt;
     };
     return {u.at(p, variables), v.at(p, variables), w.at(p, variables)};
   }
 
-  // Evaluates the determinant of the slopes at the points of a lattice that lie in the region. Returns false and adds an
-  // error if its sign changes.
+  // Evaluates the determinant of the slopes at the points of a lattice that lie in the region. Returns false and adds
+  // an error if its sign changes.
   bool does_not_fold(const Reader& reader) const {
     constexpr int side = 24;
     const Box box = region_within(design_space());
@@ -113,7 +115,8 @@ struct FormulaCells : CellOutputs<FormulaCells> {
     std::vector<double> values;
     std::optional<double> first;
     for (int n = 0; n < side * side * side; ++n) {
-      const Vec3 f{(n % side + 0.5) / side, (n / side % side + 0.5) / side, (n / side / side + 0.5) / side}, s = box.size();
+      const Vec3 f{(n % side + 0.5) / side, (n / side % side + 0.5) / side, (n / side / side + 0.5) / side},
+          s = box.size();
       const Vec3 at = box.lo + Vec3{f.x * s.x, f.y * s.y, f.z * s.z};
       program::evaluate_point(program, at, values);
       if (values[program.outputs[0]] > 0) continue;
