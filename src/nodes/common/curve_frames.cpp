@@ -32,6 +32,7 @@ std::vector<Vec3> second_derivatives(const std::vector<Vec3>& points, const std:
 CurveFrames::CurveFrames(std::vector<Vec3> points, Vec3 toward) {
   make_sections(points);
   make_nodes(toward);
+  find_tightest();
   points.push_back(toward);
   content_ = hash_bytes("curve frames " +
                         std::string(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Vec3)));
@@ -110,15 +111,13 @@ Vec3 CurveFrames::moved_normal(const Node& from, Vec3 to, Vec3 tangent) const {
   return reflected(half_way, tangent - reflected(from.tangent, way));
 }
 
-double CurveFrames::least_radius(Vec3& where) const {
-  double most = 0;
+void CurveFrames::find_tightest() {
   for (const Node& node : nodes_) {
-    const double curvature = ombre::length(at(node.parameter, node.section).curvature());
-    if (curvature <= most) continue;
-    most = curvature;
-    where = node.at;
+    const double radius = 1 / ombre::length(at(node.parameter, node.section).curvature());
+    if (!(radius < least_radius_)) continue;
+    least_radius_ = radius;
+    tightest_ = node.at;
   }
-  return most > 0 ? 1 / most : std::numeric_limits<double>::infinity();
 }
 
 std::optional<Vec3> CurveFrames::near_itself(double reach) const {
@@ -212,17 +211,16 @@ void CurveFrames::sample_channels(std::span<const int> channels, std::span<const
 
 Interval CurveFrames::range(int channel, const Box& box) const {
   if (!box.is_bounded()) return Interval::everything();
-  const double radius = ombre::length(box.size()) / 2 * (1 + rounding_mm) + rounding_mm;
+  constexpr double more = 1.05;  // allows for curvature between nodes, and for the rounding of frames
+  const double radius = ombre::length(box.size()) / 2 * more + rounding_mm;
   const Place middle = place(box.center());
   const double farthest = middle[distance] + radius;
-  const auto around = [&](double value, double by) { return Interval(value - by, value + by); };
   if (channel == distance) return {std::max(0.0, middle[distance] - radius), farthest};
-  if (farthest >= reach_) return Interval::everything();
-  Vec3 ignored;
-  const double bend = farthest / least_radius(ignored);
-  if (bend >= 1) return Interval::everything();
+  const double bend = farthest / least_radius_ * more;
+  if (farthest >= reach_ || bend >= 1) return Interval::everything();
   if (channel == stretch) return {1 - bend, 1 + bend};
-  return around(middle[static_cast<size_t>(channel)], channel == along ? radius / (1 - bend) : radius);
+  const double value = middle[static_cast<size_t>(channel)], by = channel == along ? radius / (1 - bend) : radius;
+  return {value - by, value + by};
 }
 
 }  // namespace ombre::nodes

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,8 +25,9 @@ class CurveFrames final : public program::FieldSource {
   // Limits ranges of channels to points at most this far from the curve, where the nearest point changes continuously.
   void set_reach(double mm) { reach_ = mm; }
   double length() const { return nodes_.back().along; }
-  // Returns the least radius of curvature at sixteen points of each section, and that point.
-  double least_radius(Vec3& where) const;
+  // Returns the least radius of curvature among sixteen points of each section, and that point.
+  double least_radius() const { return least_radius_; }
+  Vec3 tightest() const { return tightest_; }
   // Returns a point within `reach` of which the curve passes again, or nothing.
   std::optional<Vec3> near_itself(double reach) const;
   // Returns a box around the curve.
@@ -63,6 +65,7 @@ class CurveFrames final : public program::FieldSource {
 
   void make_sections(const std::vector<Vec3>& points);
   void make_nodes(Vec3 toward);
+  void find_tightest();
   Moving at(double parameter, size_t section) const;
   double arc(double from, double to, size_t section) const;
   Vec3 moved_normal(const Node& from, Vec3 to, Vec3 tangent) const;
@@ -72,6 +75,8 @@ class CurveFrames final : public program::FieldSource {
 
   std::vector<Section> sections_;
   std::vector<Node> nodes_;
+  double least_radius_ = std::numeric_limits<double>::infinity();
+  Vec3 tightest_;
   double reach_ = 0;
   Hash content_;
 };

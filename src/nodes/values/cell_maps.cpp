@@ -16,6 +16,7 @@ using namespace design;
 using program::Op;
 
 constexpr double radian = std::numbers::pi / 180;
+constexpr double near_axis = 1e-9;  // mm; nearer to an axis, which is outside of all regions, cells keep their size
 struct BoxCells : CellOutputs<BoxCells> {
   std::optional<Vec3> min, max, size;
   std::optional<Counts3> count;
@@ -184,7 +185,7 @@ struct CylinderCells : WallCells<CylinderCells> {
   Interval radii_at_top() const { return {inner, outer}; }
   Slope size_at(const Point& p) const {
     const Point q = turned(p);
-    return {length(q.x, q.y) * (2 * half_angle() / counts.x), q.constant(height / counts.y),
+    return {max(length(q.x, q.y), near_axis) * (2 * half_angle() / counts.x), q.constant(height / counts.y),
             q.constant((outer - inner) / counts.z)};
   }
 };
@@ -247,7 +248,8 @@ struct BallCells : AroundAxis<BallCells> {
   }
   Slope size_at(const Point& p) const {
     const Point q = turned(p);
-    return {length(q.x, q.y) * (2 * half_angle() / counts.x), length(q.x, q.y, q.z) * ((to - from) * radian / counts.y),
+    return {max(length(q.x, q.y), near_axis) * (2 * half_angle() / counts.x),
+            max(length(q.x, q.y, q.z), near_axis) * ((to - from) * radian / counts.y),
             q.constant((outer - inner) / counts.z)};
   }
 

@@ -79,10 +79,9 @@ struct CurveCells : CellOutputs<CurveCells> {
   // The corners of the section must stay nearer to the curve than its centres of curvature, and than the curve's other
   // parts.
   bool fits(const Reader& reader) const {
-    Vec3 where;
-    const double radius = curve->least_radius(where);
+    const double radius = curve->least_radius();
     if (!(reach() < radius))
-      return refuse_at(reader, "cells of curve_cells are folded", where,
+      return refuse_at(reader, "cells of curve_cells are folded", curve->tightest(),
                        "the curve's radius is " + format_rounded(radius) +
                            " mm there; sqrt(width^2 + depth^2)/2, which is " + format_rounded(reach()) +
                            " mm, must be less");

@@ -44,6 +44,11 @@ struct FormulaCells : CellOutputs<FormulaCells> {
                            "write for example " + spelled::parameter("u", "\"x/5\"") + ", " +
                                spelled::parameter("v", "\"y/5\"") + ", " + spelled::parameter("w", "\"z/5\"") +
                                ", or a map as of");
+    for (const auto& [name, number] : {std::pair{"u", &u}, {"v", &v}, {"w", &w}})
+      if (number->constant())
+        return reader.refuse(
+            std::string(name) + " of formula_cells is the same everywhere, so cells have no volume",
+            "write a formula that grows along a direction, for example " + spelled::parameter(name, "\"x/5\""));
     if (!region.node) region = of.region;
     has_region = region.node != nullptr;
     return !has_region || does_not_fold(reader);
