@@ -160,7 +160,7 @@ double CurveFrames::nearest_parameter(Vec3 p, size_t node) const {
     (ahead > 0 ? lo : hi) = t;
     double next = slope < 0 ? t - ahead / slope : 0.5 * (lo + hi);
     if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    if (std::abs(next - t) <= 1e-14 * nodes_.back().parameter) return next;
+    if (std::abs(next - t) <= 1e-12 * nodes_.back().parameter) return next;
     t = next;
   }
   return t;
