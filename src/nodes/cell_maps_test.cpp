@@ -98,8 +98,8 @@ TEST_F(CellMaps, SizesFitTheRegion) {
 TEST_F(CellMaps, PlacesInABallAreAnglesAndRadii) {
   const NodePtr map = make("ball_cells", {{"inner", Data(8.0)},
                                           {"outer", Data(12.0)},
-                                          {"from", Data(-30.0)},
-                                          {"to", Data(60.0)},
+                                          {"south", Data(-30.0)},
+                                          {"north", Data(60.0)},
                                           {"count", list({8, 3, 2})}});
   const double r = 11, latitude = 20 * pi / 180;
   const Vec3 p = around_z(r * std::cos(latitude), 100, r * std::sin(latitude));

@@ -210,32 +210,33 @@ struct FrustumCells : WallCells<FrustumCells> {
 };
 
 struct BallCells : AroundAxis<BallCells> {
-  double inner = 8, outer = 10, from = -60, to = 60;
+  double inner = 8, outer = 10, south = -60, north = 60;
 
   static Spec<BallCells> spec() {
     constexpr double pole = 89.9;  // nearer to a pole, cells around would be slivers
-    return {
-        "ball_cells",
-        "A map of cells in the wall of a hollow ball, between two latitudes: u runs around, v to the north, w "
-        "outward.",
-        with_frame({{"inner", &BallCells::inner, "Inner radius; all cells would meet in the centre", unit::positive_mm},
-                    {"outer", &BallCells::outer, "Outer radius", unit::positive_mm},
-                    {"from", &BallCells::from, "Latitude where cells begin, above the south pole",
-                     from_to(-pole, pole, "deg")},
-                    {"to", &BallCells::to, "Latitude where cells end, below the north pole, where cells would meet",
-                     from_to(-pole, pole, "deg")}}),
-        no_inputs,
-        "tpms(\"gyroid\", map=ball_cells(7, 10, -60, 60, count=(12, 5, 1)), thickness=0.4, material=\"red\");",
-        outputs()};
+    return {"ball_cells",
+            "A map of cells in the wall of a hollow ball, between two latitudes: u runs around, v to the north, w "
+            "outward.",
+            with_frame(
+                {{"inner", &BallCells::inner, "Inner radius; all cells would meet in the centre", unit::positive_mm},
+                 {"outer", &BallCells::outer, "Outer radius", unit::positive_mm},
+                 {"south", &BallCells::south, "Latitude where cells begin, above the south pole",
+                  from_to(-pole, pole, "deg")},
+                 {"north", &BallCells::north, "Latitude where cells end, below the north pole, where cells would meet",
+                  from_to(-pole, pole, "deg")}}),
+            no_inputs,
+            "tpms(\"gyroid\", map=ball_cells(7, 10, -60, 60, count=(12, 5, 1)), thickness=0.4, material=\"red\");",
+            outputs()};
   }
 
   bool complete(const Reader& reader) {
-    if (!(inner < outer) || !(from < to))
+    if (!(inner < outer) || !(south < north))
       return reader.refuse(
-          "ball_cells needs inner below outer and from below to",
+          "ball_cells needs inner below outer and south below north",
           "write for example " + spelled::parameter("inner", "8") + ", " + spelled::parameter("outer", "10"));
-    const double middle = (inner + outer) / 2, widest = from * to <= 0 ? 0 : std::min(std::abs(from), std::abs(to));
-    const Vec3 lengths{middle * std::cos(widest * radian) * sweep * radian, middle * (to - from) * radian,
+    const double middle = (inner + outer) / 2,
+                 widest = south * north <= 0 ? 0 : std::min(std::abs(south), std::abs(north));
+    const Vec3 lengths{middle * std::cos(widest * radian) * sweep * radian, middle * (north - south) * radian,
                        outer - inner};
     return find_counts(reader, lengths, size, count, counts) && find_frame(reader);
   }
@@ -243,13 +244,13 @@ struct BallCells : AroundAxis<BallCells> {
   Slope cells_at(const Point& p) const {
     const Point q = turned(p);
     const Field rho = length(q.x, q.y), latitude = q.builder().apply(Op::atan2, q.z, rho);
-    return {share_around(q) * counts.x, (latitude - from * radian) * (counts.y / ((to - from) * radian)),
+    return {share_around(q) * counts.x, (latitude - south * radian) * (counts.y / ((north - south) * radian)),
             (length(q.x, q.y, q.z) - inner) * (counts.z / (outer - inner))};
   }
   Slope size_at(const Point& p) const {
     const Point q = turned(p);
     return {max(length(q.x, q.y), near_axis) * (2 * half_angle() / counts.x),
-            max(length(q.x, q.y, q.z), near_axis) * ((to - from) * radian / counts.y),
+            max(length(q.x, q.y, q.z), near_axis) * ((north - south) * radian / counts.y),
             q.constant((outer - inner) / counts.z)};
   }
 
@@ -260,10 +261,10 @@ struct BallCells : AroundAxis<BallCells> {
       return q.z * std::cos(latitude * radian) - rho * std::sin(latitude * radian);
     };
     const Field wall = abs(r - (inner + outer) / 2) - (outer - inner) / 2;
-    return cut_to_sector(program::max(wall, program::max(beyond(to), -beyond(from))), q);
+    return cut_to_sector(program::max(wall, program::max(beyond(north), -beyond(south))), q);
   }
   Box region_within(const Box&) const {
-    const Interval latitudes{from * radian, to * radian}, r{inner, outer};
+    const Interval latitudes{south * radian, north * radian}, r{inner, outer};
     return sector_box(math::multiply(r, math::cos(latitudes)), math::multiply(r, math::sin(latitudes)));
   }
 };
