@@ -94,7 +94,8 @@ class RandomDesign {
 
   NodePtr map_of_cells() {
     const char* maps[] = {"box_cells", "cylinder_cells", "frustum_cells", "ball_cells", "curve_cells"};
-    return node(*registry().find(maps[index(5)]), 0);
+    for (;;)
+      if (NodePtr made = node(*registry().find(maps[index(5)]), 0)) return made;
   }
 
   // Returns a number from 0.01 to 1 that depends on a node's output, since sizes must not be 0.

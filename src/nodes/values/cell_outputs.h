@@ -96,6 +96,35 @@ struct CellOutputs {
     const Field cosine = limited(third / max(spread * spread * spread * 2.0, 1e-30), -1, 1);
     const Field angle = ask.p.builder().apply(program::Op::acos, cosine) / 3.0;
     const Field greatest = mean + spread * cos(angle) * 2.0;
+    // The product and the sum of the others come from invariants, since differences from the greatest would be inexact.
+    const Field pairs = squared_length(cross_without_zeros(u, v)) + squared_length(cross_without_zeros(v, w)) +
+                        squared_length(cross_without_zeros(w, u));
+    const Field product = square(determinant({u, v, w})) / greatest, half = (pairs - product) / greatest * 0.5;
+    const Field middle = half + sqrt(max(square(half) - product, 0.0));
+    const auto stretch = [](Field squared) { return inverse_of(sqrt(max(squared, 1e-30))); };
+    return {stretch(greatest), stretch(middle), stretch(product / middle)};
+  }
+  Field volume(const design::Ask& ask) const {
+    if constexpr (has_size) return edge(ask.p, 0) * edge(ask.p, 1) * edge(ask.p, 2);
+    return inverse_of(abs(determinant(slopes(ask.p))));
+  }
+  // The squares of the stretches are the inverse eigenvalues of the matrix of products of slopes: O. K. Smith,
+  // "Eigenvalues of a symmetric 3 x 3 matrix", Communications of the ACM 4, 1961.
+  design::VectorField stretches(const design::Ask& ask) const {
+    if constexpr (has_size) {
+      const Field a = edge(ask.p, 0), b = edge(ask.p, 1), c = edge(ask.p, 2);
+      return {min(min(a, b), c), max(min(a, b), min(max(a, b), c)), max(max(a, b), c)};
+    }
+    const auto [u, v, w] = slopes(ask.p);
+    const auto of = [](const Slope& a, const Slope& b) { return dot_of(a, b); };
+    const Field mean = (of(u, u) + of(v, v) + of(w, w)) / 3.0;
+    const Field a = of(u, u) - mean, b = of(v, v) - mean, c = of(w, w) - mean;
+    const Field uv = of(u, v), vw = of(v, w), wu = of(w, u);
+    const Field spread = sqrt((square(a) + square(b) + square(c) + (square(uv) + square(vw) + square(wu)) * 2.0) / 6.0);
+    const Field third = a * (b * c - square(vw)) - uv * (uv * c - vw * wu) + wu * (uv * vw - b * wu);
+    const Field cosine = limited(third / max(spread * spread * spread * 2.0, 1e-30), -1, 1);
+    const Field angle = ask.p.builder().apply(program::Op::acos, cosine) / 3.0;
+    const Field greatest = mean + spread * cos(angle) * 2.0;
     const Field least = mean + spread * cos(angle + 2 * std::numbers::pi / 3) * 2.0;
     const auto stretch = [](Field squared) { return inverse_of(sqrt(max(squared, 1e-30))); };
     return {stretch(greatest), stretch(mean * 3.0 - greatest - least), stretch(least)};
@@ -139,7 +168,8 @@ struct CellOutputs {
     return dot_without_zeros(rows[0], cross_without_zeros(rows[1], rows[2]));
   }
   static Field inverse_of(Field v) { return v.builder->constant(1) / v; }
-  static Field length_of(const Slope& v) { return sqrt(dot_without_zeros(v, v)); }
+  static Field squared_length(const Slope& v) { return dot_without_zeros(v, v); }
+  static Field length_of(const Slope& v) { return sqrt(squared_length(v)); }
   // Returns the length of the cell's edge along an axis, a column of the inverse of the matrix of slopes.
   Field edge(const Point& p, size_t n) const {
     if constexpr (has_size)
