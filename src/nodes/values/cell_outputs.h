@@ -104,31 +104,6 @@ struct CellOutputs {
     const auto stretch = [](Field squared) { return inverse_of(sqrt(max(squared, 1e-30))); };
     return {stretch(greatest), stretch(middle), stretch(product / middle)};
   }
-  Field volume(const design::Ask& ask) const {
-    if constexpr (has_size) return edge(ask.p, 0) * edge(ask.p, 1) * edge(ask.p, 2);
-    return inverse_of(abs(determinant(slopes(ask.p))));
-  }
-  // The squares of the stretches are the inverse eigenvalues of the matrix of products of slopes: O. K. Smith,
-  // "Eigenvalues of a symmetric 3 x 3 matrix", Communications of the ACM 4, 1961.
-  design::VectorField stretches(const design::Ask& ask) const {
-    if constexpr (has_size) {
-      const Field a = edge(ask.p, 0), b = edge(ask.p, 1), c = edge(ask.p, 2);
-      return {min(min(a, b), c), max(min(a, b), min(max(a, b), c)), max(max(a, b), c)};
-    }
-    const auto [u, v, w] = slopes(ask.p);
-    const auto of = [](const Slope& a, const Slope& b) { return dot_of(a, b); };
-    const Field mean = (of(u, u) + of(v, v) + of(w, w)) / 3.0;
-    const Field a = of(u, u) - mean, b = of(v, v) - mean, c = of(w, w) - mean;
-    const Field uv = of(u, v), vw = of(v, w), wu = of(w, u);
-    const Field spread = sqrt((square(a) + square(b) + square(c) + (square(uv) + square(vw) + square(wu)) * 2.0) / 6.0);
-    const Field third = a * (b * c - square(vw)) - uv * (uv * c - vw * wu) + wu * (uv * vw - b * wu);
-    const Field cosine = limited(third / max(spread * spread * spread * 2.0, 1e-30), -1, 1);
-    const Field angle = ask.p.builder().apply(program::Op::acos, cosine) / 3.0;
-    const Field greatest = mean + spread * cos(angle) * 2.0;
-    const Field least = mean + spread * cos(angle + 2 * std::numbers::pi / 3) * 2.0;
-    const auto stretch = [](Field squared) { return inverse_of(sqrt(max(squared, 1e-30))); };
-    return {stretch(greatest), stretch(mean * 3.0 - greatest - least), stretch(least)};
-  }
   design::VectorField slope_u(const design::Ask& ask) const { return slope_vector(ask.p, 0); }
   design::VectorField slope_v(const design::Ask& ask) const { return slope_vector(ask.p, 1); }
   design::VectorField slope_w(const design::Ask& ask) const { return slope_vector(ask.p, 2); }
