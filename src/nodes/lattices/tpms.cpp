@@ -14,7 +14,6 @@ namespace {
 // Lengths of the period along x, y and z, if they are given.
 struct Period {
   std::optional<design::Numbers3> along;
-  bool operator==(const Period&) const = default;
 };
 
 }  // namespace
