@@ -57,7 +57,13 @@ Data round_trip(const NodePtr& node, const MaterialTable& materials) {
   return to_data({materials, {{"part", node}}, std::nullopt});
 }
 
-// Returns the numbers of a value node's outputs, with vectors as three numbers, and the fractions of its mixture.
+// True if the node gives this output, and it varies in space.
+bool varies(const Node& node, size_t output) {
+  return node.gives(output) && node.type().outputs[output].type.form != OutputForm::constant;
+}
+
+// Returns the numbers of a value node's outputs, with vectors as three numbers, and the fractions of its mixture. A
+// solid counts as one number.
 program::Program lower_outputs(const NodePtr& node, const MaterialTable& materials) {
   LoweringContext context(materials, {node});
   program::Builder builder;
@@ -66,7 +72,7 @@ program::Program lower_outputs(const NodePtr& node, const MaterialTable& materia
   std::vector<std::pair<std::string, Field>> outputs;
   for (size_t n = 0; n < node->type().outputs.size(); ++n) {
     const OutputInfo& info = node->type().outputs[n];
-    if (!node->gives(n)) continue;
+    if (!varies(*node, n)) continue;
     for (const Field field : fields_of(lowering.answer(*node, n, p))) outputs.emplace_back(info.name, field);
   }
   context.finish_bodies();
@@ -87,7 +93,7 @@ program::Program lower_derivatives(const NodePtr& node, const MaterialTable& mat
     for (const Field& derivative : *by_rule) outputs.emplace_back("derivative", derivative);
   };
   for (size_t n = 0; n < node->type().outputs.size(); ++n) {
-    if (!node->gives(n)) continue;
+    if (!varies(*node, n)) continue;
     for (const Field number : lowering.answer(*node, n, p).numbers)
       if (number) add(number);
   }
@@ -281,8 +287,9 @@ TEST_P(EveryValue, PrintsAndReadsBack) {
     Diagnostics diagnostics;
     for (size_t n = 0; n < type().outputs.size(); ++n) {
       const OutputInfo& output = type().outputs[n];
-      if (!node->gives(n)) continue;
-      const NodeType& user = *registry().find(output.type.form == OutputForm::mixture ? "sphere" : "attribute");
+      const OutputForm form = output.type.form;
+      if (!node->gives(n) || form == OutputForm::solid || form == OutputForm::constant) continue;
+      const NodeType& user = *registry().find(form == OutputForm::mixture ? "sphere" : "attribute");
       const Data value(DataMembers{{"from", Data(HostObjectPtr(std::make_shared<NodeObject>(node)))},
                                    {"output", Data(output.name + (output.type.has_parts() ? ".y" : ""))}});
       std::vector<NamedValue> values{{&user.parameters[1], value}};
@@ -351,7 +358,7 @@ TEST_P(EveryValue, DeclaredRangesHoldPoints) {
       size_t place = 0;
       for (size_t n = 0; n < type().outputs.size(); ++n) {
         const OutputInfo& output = type().outputs[n];
-        if (!node->gives(n) || output.type.form == OutputForm::mixture) continue;
+        if (!varies(*node, n) || output.type.form == OutputForm::mixture) continue;
         const bool is_number = output.type.is_number();
         EXPECT_TRUE(!is_number || output.range.contains(values[place])) << output.name;
         place += std::max<size_t>(1, output.type.parts.size());
@@ -366,7 +373,7 @@ TEST_P(EveryValue, FractionsOfMixturesSumToOne) {
     const program::Program program = lower_outputs(node, random.materials);
     size_t others = 0;  // numbers of the outputs after the mixture
     for (size_t n = node->first_output() + 1; n < type().outputs.size(); ++n)
-      if (node->gives(n)) others += std::max<size_t>(1, type().outputs[n].type.parts.size());
+      if (varies(*node, n)) others += std::max<size_t>(1, type().outputs[n].type.parts.size());
     for (int i = 0; i < 100; ++i) {
       double sum = 0;
       const auto values = at(program, {random.number(-9, 9), random.number(-9, 9), random.number(-9, 9)});

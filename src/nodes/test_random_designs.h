@@ -92,6 +92,12 @@ class RandomDesign {
                      {materials, none, nullptr, {}, "", ""});
   }
 
+  NodePtr map_of_cells() {
+    const char* maps[] = {"box_cells", "cylinder_cells", "frustum_cells", "ball_cells", "curve_cells"};
+    for (;;)
+      if (NodePtr made = node(*registry().find(maps[index(5)]), 0)) return made;
+  }
+
   // Returns a number from 0.01 to 1 that depends on a node's output, since sizes must not be 0.
   Data share() {
     const NodePtr node = value_node(OutputForm::numbers, 0);
@@ -187,6 +193,7 @@ class RandomDesign {
     if (type.name == "output_of") return Data("along");
     // A standard name would have a fixed type.
     if (kind == "text") return Data(type.name == "attribute" ? "own_density" : "density");
+    if (kind == "map of cells") return object(map_of_cells());
     if (kind == "true or false") return Data(index(2) == 0);
     if (kind == "matrix") {
       DataList rows;
@@ -230,9 +237,12 @@ class RandomDesign {
 
   Data points(const NodeType& type, size_t count) {
     if (type.name == "polygon_extrude") return star(index(2) == 0, 0, 0, 1);
+    const bool is_smooth = type.name == "curve_cells";
     DataList list;
     for (size_t n = 0; n < count; ++n)
-      list.emplace_back(DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
+      list.emplace_back(is_smooth
+                            ? DataList{Data(7.0 * static_cast<double>(n)), Data(number(-1, 1)), Data(number(-1, 1))}
+                            : DataList{Data(number(-8, 8)), Data(number(-8, 8)), Data(number(-8, 8))});
     return Data(std::move(list));
   }
 

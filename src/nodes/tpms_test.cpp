@@ -69,6 +69,18 @@ TEST(Tpms, ThicknessIsInMillimetres) {
   for (const std::string name : {"neovius", "iwp", "lidinoid", "split_p"}) expect_thickness(name, 0.03, 0.12);
 }
 
+// Counts points of a lattice that has no symmetry with the surface.
+TEST(Tpms, FillsTheWantedShare) {
+  const auto share = [](const std::string& parameters) {
+    const Solid solid(Solid::node("tpms", "{\"cell\": [1, 1, 1], " + parameters + "}"));
+    return solid.share({{0.0137, 0.0071, 0.0193}, {1.0137, 1.0071, 1.0193}}, 58);
+  };
+  EXPECT_NEAR(share(R"("surface": "gyroid", "kind": "solid", "density": 0.3)"), 0.3, 1e-3);
+  EXPECT_NEAR(share(R"("surface": "schwarz_p", "kind": "solid", "density": 0.75)"), 0.75, 1e-3);
+  EXPECT_NEAR(share(R"("surface": "split_p", "kind": "solid", "density": 0.4)"), 0.4, 1e-3);
+  EXPECT_NEAR(share(R"("surface": "gyroid", "density": 0.25)"), 0.25, 1e-3);
+}
+
 // Constant fields must give the same result as numbers.
 TEST(Tpms, FieldsThatAreConstantChangeNothing) {
   for (const std::string name : {"gyroid", "lidinoid", "split_p"}) {

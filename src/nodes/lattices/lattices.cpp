@@ -1,5 +1,6 @@
 // Lattices of struts: named unit cells, or graphs of edges.
 #include "design/spec.h"
+#include "nodes/common/cell_metric.h"
 #include "nodes/common/segments.h"
 #include "nodes/common/strut_families.h"
 #include "nodes/lattices/unit_cells.h"
@@ -18,31 +19,42 @@ Domain cell_choices() {
 // Struts with hemispherical ends, so that joints are closed.
 struct Lattice {
   Choice cell = "none";
-  Vec3 size{10, 10, 10};
+  std::optional<Vec3> size;
   Number radius = 1;
   std::optional<std::vector<Edge>> edges;
   MaterialName material;
+  CellMap map;
 
   static Spec<Lattice> spec() {
-    return {"lattice",
-            "Struts with round ends: a unit cell centred on the origin, or a graph of edges. tile repeats unit cells.",
-            {{"cell", &Lattice::cell, "Name of the unit cell; none: the edges are used", cell_choices()},
-             {"size", &Lattice::size, "Size of the unit cell along x, y and z", unit::positive_mm},
-             {"radius", &Lattice::radius, "Radius of the struts; t runs from 0 to 1 along each",
-              with_variables({"t"}, unit::positive_mm)},
-             {"edges", &Lattice::edges,
-              "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
-             {"material", &Lattice::material, "Its material"}},
-            no_inputs,
-            "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");",
-            {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
-              Interval(0, 1)}}};
+    return {
+        "lattice",
+        "Struts with round ends: a unit cell centred on the origin, which tile repeats, the cells of a map, or a graph "
+        "of edges.",
+        {{"cell", &Lattice::cell, "Name of the unit cell; none: the edges are used", cell_choices()},
+         {"size", &Lattice::size, "Size of the unit cell along x, y and z; none: 10 mm, or as the map says",
+          unit::positive_mm},
+         {"radius", &Lattice::radius, "Radius of the struts; t runs from 0 to 1 along each",
+          with_variables({"t"}, unit::positive_mm)},
+         {"edges", &Lattice::edges,
+          "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
+         {"material", &Lattice::material, "Its material"},
+         {"map", &Lattice::map,
+          "A map of cells, such as cylinder_cells, whose region the struts fill; their radius in mm holds to first "
+          "order where cells are bent"}},
+        no_inputs,
+        "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");",
+        {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
+          Interval(0, 1)}}};
   }
 
   bool makes_nothing() const { return cell == "none" && edges && edges->empty(); }
 
   bool complete(const Reader& reader) {
     const bool is_cell = !(cell == "none"), has_edges = edges && !edges->empty();
+    if (map.is_given() && (!is_cell || size || !find_unit_cell(cell.text())->is_mirrored))
+      return reader.refuse(
+          "lattice with a map needs a unit cell with mirror planes, and no size",
+          "write for example " + spelled::parameter("cell", "\"bcc\"") + "; the map says how large cells are");
     if (is_cell != has_edges) {
       segments_ = is_cell ? of_cell() : of_edges();
       return true;
@@ -53,19 +65,23 @@ struct Lattice {
             spelled::call("lattice", {{"edges", "[[(0, 0, 0), (10, 0, 0)]]"}, {"radius", "1"}}));
   }
 
-  Metric metric() const { return segments_.size() == 1 ? Metric::exact() : Metric::bounded(); }
+  Metric metric() const {
+    if (map.is_given()) return Metric::implicit();
+    return segments_.size() == 1 ? Metric::exact() : Metric::bounded();
+  }
 
   Traits traits() const {
     Traits traits{.instances = segments_.size()};
-    if (cell == "none") return traits;
-    traits.cell_size = size;
+    if (cell == "none" || map.is_given()) return traits;
+    traits.cell_size = cell_size();
     // The neighbours of a mirrored cell are mirror images, whose struts lie beyond the mirror planes.
-    if (is_mirrored()) traits.nearest_copy_is_enough_from = size;
+    if (is_mirrored()) traits.nearest_copy_is_enough_from = cell_size();
     return traits;
   }
 
   // Returns the struts as conical frusta, or nothing if they are not.
   std::optional<std::vector<StrutShape>> shapes() const {
+    if (map.is_given()) return std::nullopt;
     const auto common = end_radii(radius);
     std::vector<StrutShape> shapes;
     for (const Strut& strut : segments_) {
@@ -76,19 +92,25 @@ struct Lattice {
     return shapes;
   }
 
-  Box bounds(const Box& where) const {
-    Box box;
-    const double greatest = radius.range(where, {{"t", {0, 1}}}).hi;
-    for (const Strut& strut : segments_) box = hull(box, strut.reach(where, greatest, 0));
-    return box;
+  Box reach(const Inputs&, const Box& where, double margin) const {
+    if (map.is_given()) return map.reach(where, margin);
+    return tightened(where, [&](const Box& box) {
+      const Box wider = box.expanded(margin);
+      Box all;
+      const double greatest = radius.range(wider, {{"t", {0, 1}}}).hi;
+      for (const Strut& strut : segments_) all = hull(all, strut.reach(wider, greatest, 0));
+      return intersect(all.expanded(margin), box);
+    });
   }
 
-  Field distance(const Inputs&, const Point& p) const {
+  Field distance(const Inputs& in, const Point& p) const {
+    if (map.is_given()) return map.cut(nearest_on_map(p).distance, in, p);
     const Point q = folded(p);
     return nearest(q, struts_here());
   }
 
   Field membership(const Inputs& in, const Point& p, Border border) const {
+    if (map.is_given()) return map.cut_membership(at_most(nearest_on_map(p).distance, 0, border), in, p, border);
     const PartQuery query = border == Border::included ? PartQuery::mix : PartQuery::interior;
     if (const auto parts = table(in, query, p)) return parts->inside;
     const std::vector<const Strut*> near = struts_near(p);
@@ -99,6 +121,7 @@ struct Lattice {
   // holds the point.
   Field along(const Ask& ask) const {
     const Point& p = ask.p;
+    if (map.is_given()) return nearest_on_map(p).along;
     if (const auto parts = table(ask.in, PartQuery::along, p)) return parts->along;
     const Point q = folded(p);
     Field t, least;
@@ -114,11 +137,13 @@ struct Lattice {
   struct Strut : Segment {
     double own_radius = 0;  // 0 for the lattice's radius
 
-    Field radius_at(const Point& p, const Number& common) const {
+    Field radius_at(const Point& p, const Number& common) const { return radius_at(p, common, {}); }
+    // `t` is the position along the strut if it is known.
+    Field radius_at(const Point& p, const Number& common, Field t) const {
       if (own_radius > 0) return p.constant(own_radius);
       return common.at(p, [&](std::string_view name) -> std::optional<Field> {
         if (name != "t") return std::nullopt;
-        return along(p);
+        return t ? t : along(p);
       });
     }
     Field distance(const Point& p, const Number& common) const {
@@ -159,7 +184,7 @@ struct Lattice {
 
   bool is_mirrored() const { return !(cell == "none") && find_unit_cell(cell.text())->is_mirrored; }
   // True if all octants are equal, so that only one is evaluated.
-  bool is_folded() const { return is_mirrored() && radius.constant(); }
+  bool is_folded() const { return is_mirrored() && (radius.constant() || map.is_given()); }
 
   std::vector<Strut> of_cell() const {
     std::vector<Strut> struts;
@@ -174,7 +199,12 @@ struct Lattice {
     return struts;
   }
 
-  Vec3 scaled(Vec3 p) const { return {p.x * size.x, p.y * size.y, p.z * size.z}; }
+  // Cells of a map have the size 1.
+  Vec3 cell_size() const { return map.is_given() ? Vec3{1, 1, 1} : size.value_or(Vec3{10, 10, 10}); }
+  Vec3 scaled(Vec3 p) const {
+    const Vec3 by = cell_size();
+    return {p.x * by.x, p.y * by.y, p.z * by.z};
+  }
 
   Point folded(const Point& p) const { return is_folded() ? p.moved_to(abs(p.x), abs(p.y), abs(p.z)) : p; }
 
@@ -182,7 +212,7 @@ struct Lattice {
   std::vector<const Strut*> struts_here() const {
     std::vector<const Strut*> found;
     for (const Strut& strut : segments_)
-      if (!is_folded() || Box{{0, 0, 0}, size}.contains(strut.start + 0.5 * (strut.end - strut.start)))
+      if (!is_folded() || Box{{0, 0, 0}, cell_size()}.contains(strut.start + 0.5 * (strut.end - strut.start)))
         found.push_back(&strut);
     return found;
   }
@@ -195,6 +225,25 @@ struct Lattice {
     std::erase_if(found, [&](const Strut* strut) {
       return intersect(strut->reach(p.within(), greatest, 0), p.within()).is_empty();
     });
+    return found;
+  }
+
+  struct OnMap {
+    Field distance, along;  // from the nearest strut's surface, and the position along that strut
+  };
+  OnMap nearest_on_map(const Point& p) const {
+    const CellMetric metric = CellMetric::at(map, p, true);
+    const Slope place = folded_into_cell(map.place_at(p));
+    const double* constant = radius.constant();
+    OnMap found;
+    Field least;
+    for (const Strut* strut : struts_here()) {
+      const auto [along, squared] = nearest_of_strut(metric, place, strut->start, strut->end);
+      const Field measure = constant ? squared : sqrt(squared) - strut->radius_at(p, radius, along);
+      found.along = least ? select(less(measure, least), along, found.along) : along;
+      least = least ? min(measure, least) : measure;
+    }
+    found.distance = constant ? sqrt(least) - *constant : least;
     return found;
   }
 
@@ -219,7 +268,7 @@ struct Lattice {
 
 size_t lattice_strut_count(const design::Node& node) {
   const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
-  return lattice ? lattice->data.traits().instances : 0;
+  return lattice && !lattice->data.map.is_given() ? lattice->data.traits().instances : 0;
 }
 
 std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node) {

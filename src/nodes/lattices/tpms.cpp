@@ -1,9 +1,38 @@
 // Triply periodic minimal surfaces, given by their usual trigonometric approximations.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "base/math/math.h"
 #include "design/spec.h"
-#include "program/gradient.h"
+#include "nodes/common/cell_map.h"
+
+namespace ombre::nodes {
+namespace {
+
+// Lengths of the period along x, y and z, if they are given.
+struct Period {
+  std::optional<design::Numbers3> along;
+};
+
+}  // namespace
+}  // namespace ombre::nodes
+
+namespace ombre::design {
+
+template <>
+struct Port<nodes::Period> {
+  static PortText text(const Domain& domain) { return Port<Numbers3>::text(domain); }
+  static bool read(const Data& data, const Domain& domain, nodes::Period& value, const Reader& reader) {
+    return design::read(data, domain, value.along, reader);
+  }
+  static Data write(const nodes::Period& value, bool for_hash) { return design::write(value.along, for_hash); }
+  static bool is_constant(const nodes::Period& value) { return !value.along || design::is_constant(*value.along); }
+  static bool uses_cell(const nodes::Period& value) { return value.along && design::uses_cell(*value.along); }
+};
+
+}  // namespace ombre::design
 
 namespace ombre::nodes {
 namespace {
@@ -19,9 +48,66 @@ struct Term {
 };
 
 struct Surface {
+  // The function at a point, and its derivatives by the phases.
+  struct Sample {
+    double value;
+    std::array<double, 3> by;
+  };
+
   const char* name;
   std::vector<Term> terms;
+
+  // Returns samples at side^3 points of a cell.
+  std::vector<Sample> samples(size_t side) const;
 };
+
+// Returns the value of a wave at a phase, and its derivative.
+std::array<double, 2> value_and_slope(Wave wave, double phase) {
+  const double s = math::sin(phase), c = math::cos(phase);
+  switch (wave) {
+    case Wave::one:
+      return {1, 0};
+    case Wave::sin:
+      return {s, c};
+    case Wave::cos:
+      return {c, -s};
+    case Wave::sin2:
+      return {2 * s * c, 2 - 4 * s * s};
+    case Wave::cos2:
+      return {1 - 2 * s * s, -4 * s * c};
+  }
+  return {1, 0};
+}
+
+std::vector<Surface::Sample> Surface::samples(size_t side) const {
+  constexpr std::array<double, 3> off{0.31, 0.43, 0.57};  // parts of a step, different along each axis
+  constexpr size_t waves = 5;
+  std::vector<std::array<std::array<std::array<double, 2>, waves>, 3>> table(side);
+  for (size_t n = 0; n < side; ++n)
+    for (size_t axis = 0; axis < 3; ++axis)
+      for (size_t wave = 0; wave < waves; ++wave)
+        table[n][axis][wave] =
+            value_and_slope(static_cast<Wave>(wave),
+                            2 * std::numbers::pi * (static_cast<double>(n) + off[axis]) / static_cast<double>(side));
+  std::vector<Sample> all;
+  all.reserve(side * side * side);
+  for (size_t k = 0; k < side; ++k)
+    for (size_t j = 0; j < side; ++j)
+      for (size_t i = 0; i < side; ++i) {
+        Sample sample{};
+        for (const Term& term : terms) {
+          const auto& x = table[i][0][static_cast<size_t>(term.x)];
+          const auto& y = table[j][1][static_cast<size_t>(term.y)];
+          const auto& z = table[k][2][static_cast<size_t>(term.z)];
+          sample.value += term.factor * x[0] * y[0] * z[0];
+          sample.by[0] += term.factor * x[1] * y[0] * z[0];
+          sample.by[1] += term.factor * x[0] * y[1] * z[0];
+          sample.by[2] += term.factor * x[0] * y[0] * z[1];
+        }
+        all.push_back(sample);
+      }
+  return all;
+}
 
 // Returns the terms and those that result from cyclic permutation of the axes.
 std::vector<Term> cyclic(std::initializer_list<Term> some) {
@@ -96,52 +182,111 @@ struct Waves {
 struct Tpms {
   Choice surface = "gyroid";
   Choice kind = "sheet";
-  Numbers3 cell{10, 10, 10};
+  Period cell;
   Number thickness = 1;
   Number level = 0;
   MaterialName material;
+  CellMap map;
+  std::optional<double> density;
 
   static Spec<Tpms> spec() {
-    return {"tpms",
-            "A triply periodic minimal surface, without end: cut it with an intersection.",
-            {{"surface", &Tpms::surface, "Name of the surface", one_of(surface_names())},
-             {"kind", &Tpms::kind, "sheet: a wall along the surface; solid: the side where the function is below level",
-              one_of({"sheet", "solid"})},
-             {"cell", &Tpms::cell, "Length of its period along x, y and z", unit::positive_mm},
-             {"thickness", &Tpms::thickness, "Thickness of the sheet", unit::positive_mm},
-             {"level", &Tpms::level, "Value of the function at the surface; 0 for the minimal surface"},
-             {"material", &Tpms::material, "Its material"}},
-            no_inputs,
-            "intersection() { cube(20); tpms(\"gyroid\", cell=(10, 10, 10), thickness=1, material=\"red\"); }"};
+    return {
+        "tpms",
+        "A triply periodic minimal surface. Without a map it has no end: cut it with an intersection.",
+        {{"surface", &Tpms::surface, "Name of the surface", one_of(surface_names())},
+         {"kind", &Tpms::kind, "sheet: a wall along the surface; solid: the side where the function is below level",
+          one_of({"sheet", "solid"})},
+         {"cell", &Tpms::cell, "Length of its period along x, y and z; none: 10 mm, or with a map one cell",
+          unit::positive_mm},
+         {"thickness", &Tpms::thickness, "Thickness of the sheet", unit::positive_mm},
+         {"level", &Tpms::level, "Value of the function at the surface; 0 for the minimal surface"},
+         {"material", &Tpms::material, "Its material"},
+         {"density", &Tpms::density,
+          "Share of a cell that is filled; it takes the place of the level of a solid, or of the thickness of a sheet "
+          "in cells of constant size",
+          from_to(0.01, 0.99)},
+         {"map", &Tpms::map, "A map of cells, such as cylinder_cells, whose region it fills; none: x, y and z"}},
+        no_inputs,
+        "intersection() { cube(20); tpms(\"gyroid\", cell=(10, 10, 10), thickness=1, material=\"red\"); }"};
+  }
+
+  bool complete(const Reader& reader) {
+    if (map.is_given() && cell.along)
+      return reader.refuse("tpms has both a map and the size of its cells",
+                           "leave out cell: the map says how large cells are");
+    if (!density) return true;
+    const bool is_flat = !map.is_given() && (!cell.along || design::is_constant(*cell.along)) && level.constant();
+    if (kind == "sheet" && !is_flat)
+      return reader.refuse("the density of a sheet needs cells of constant size, and a constant level",
+                           "write the thickness, or " + spelled::parameter("kind", "\"solid\""));
+    if (kind == "sheet")
+      thickness = value_below_which(*density);
+    else
+      level = value_below_which(*density);
+    return true;
   }
 
   Metric metric() const { return Metric::implicit(); }
-  Box bounds(const Box& where) const { return where; }
+  Box reach(const Inputs&, const Box& where, double margin) const { return map.reach(where, margin); }
 
   // Approximates the distance by the function divided by the length of its gradient. Near minimal surfaces this is
   // accurate to third order.
-  Field distance(const Point& p) const {
+  Field distance(const Inputs& in, const Point& p) const {
     const auto [value, slope] = at(p);
     const Field from_surface = value / sqrt(slope);
-    return kind == "sheet" ? abs(from_surface) - thickness(p) * 0.5 : from_surface;
+    return map.cut(kind == "sheet" ? abs(from_surface) - thickness(p) * 0.5 : from_surface, in, p);
   }
 
-  Field membership(const Inputs&, const Point& p, Border border) const {
+  Field membership(const Inputs& in, const Point& p, Border border) const {
     const auto [value, slope] = at(p);
-    if (kind == "solid") return at_most(value, p.constant(0), border);
-    return at_most(square(value), square(thickness(p) * 0.5) * slope, border);
+    const Field flag = kind == "solid" ? at_most(value, p.constant(0), border)
+                                       : at_most(square(value), square(thickness(p) * 0.5) * slope, border);
+    return map.cut_membership(flag, in, p, border);
   }
 
  private:
+  static constexpr double turn = 2 * std::numbers::pi;
+
   struct Sample {
     Field value, squared_slope;  // function minus the level, and its squared gradient in 1/mm^2
   };
 
-  static Field phase(Field x, Field length) { return x / length * (2 * std::numbers::pi); }
-  Field phase_x(const Point& p) const { return phase(p.x, cell.x(p)); }
-  Field phase_y(const Point& p) const { return phase(p.y, cell.y(p)); }
-  Field phase_z(const Point& p) const { return phase(p.z, cell.z(p)); }
-  Field minus_level(const Point& p) const { return -level(p); }
+  // The phases along the axes of the cell.
+  std::array<Field, 3> phases(const Point& p) const {
+    if (map.is_given()) {
+      const Slope at = map.place_at(p);
+      return {at[0] * turn, at[1] * turn, at[2] * turn};
+    }
+    return {phase(p, 0), phase(p, 1), phase(p, 2)};
+  }
+  Field phase(const Point& p, int axis) const {
+    const Field x = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+    return x / period(axis)(p) * turn;
+  }
+  Number period(int axis) const {
+    if (!cell.along) return 10;
+    return axis == 0 ? cell.along->x : axis == 1 ? cell.along->y : cell.along->z;
+  }
+
+  // Returns the level, or the thickness of a sheet, for which this share of a cell is filled. Points of a lattice,
+  // which is moved off the planes of symmetry, sample the function; the error of the share is less than 1e-3.
+  double value_below_which(double share) const {
+    constexpr size_t side = 96;
+    const std::vector<Surface::Sample> samples = chosen().samples(side);
+    std::vector<double> values;
+    values.reserve(samples.size());
+    for (const auto& [value, by] : samples) {
+      double squared = 0;
+      for (size_t n = 0; n < 3 && kind == "sheet"; ++n) {
+        const double slope = by[n] * turn / *period(static_cast<int>(n)).constant();
+        squared += slope * slope;
+      }
+      values.push_back(kind == "sheet" ? 2 * std::abs(value - *level.constant()) / std::sqrt(squared) : value);
+    }
+    const auto at = values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::ranges::nth_element(values, at);
+    return *at;
+  }
 
   const Surface& chosen() const {
     for (const Surface& one : surfaces())
@@ -150,8 +295,9 @@ struct Tpms {
   }
 
   Sample at(const Point& p) const {
-    const Waves x(phase_x(p)), y(phase_y(p)), z(phase_z(p));
-    Field value = minus_level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;  // derivatives by the phases
+    const auto phase_at = phases(p);
+    const Waves x(phase_at[0]), y(phase_at[1]), z(phase_at[2]);
+    Field value = -level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;  // derivatives by the phases
     for (const Term& term : chosen().terms) {
       const Field fx = x.value(term.x), fy = y.value(term.y), fz = z.value(term.z);
       value = value + fx * fy * fz * term.factor;
@@ -159,38 +305,35 @@ struct Tpms {
       by_y = by_y + fx * y.slope(term.y) * fz * term.factor;
       by_z = by_z + fx * fy * z.slope(term.z) * term.factor;
     }
-    const Gradient gx = gradient(&Tpms::phase_x, p, cell.x, 0), gy = gradient(&Tpms::phase_y, p, cell.y, 1),
-                   gz = gradient(&Tpms::phase_z, p, cell.z, 2), gl = gradient(&Tpms::minus_level, p, level, -1);
-    Field squared = p.constant(0);
-    for (size_t n = 0; n < 3; ++n) {
-      Field slope = gl[n];
-      for (const auto& [by, of] : {std::pair{by_z, gz[n]}, {by_y, gy[n]}, {by_x, gx[n]}})
-        if (!is_zero(of)) slope = is_zero(slope) ? by * of : by * of + slope;
-      squared = squared + square(slope);
-    }
-    return {value, floored(squared)};
+    return {value, floored(squared_slope({by_x, by_y, by_z}, p))};
   }
 
-  using Gradient = std::array<Field, 3>;  // per mm
-
-  static bool is_zero(Field field) { return field.builder->constant_value(field) == 0.0; }
-
-  // Returns the gradient of a phase along an axis, or of the level, by differences if there is no symbolic derivative.
-  Gradient gradient(Field (Tpms::*of)(const Point&) const, const Point& p, const Number& number, int axis) const {
-    Gradient result{p.constant(0), p.constant(0), p.constant(0)};
-    if (number.constant()) {
-      if (axis >= 0) result[static_cast<size_t>(axis)] = p.constant(2 * std::numbers::pi / *number.constant());
-      return result;
+  // Returns the square of the function's gradient, given its derivatives by the phases.
+  Field squared_slope(const Slope& by, const Point& p) const {
+    if (map.is_given() && level.constant())
+      return nodes::squared_slope(map, {by[0] * turn, by[1] * turn, by[2] * turn}, p);
+    const std::array<Slope, 3> of{phase_slope(p, 0), phase_slope(p, 1), phase_slope(p, 2)};
+    const Slope of_level = level.constant() ? Slope{p.constant(0), p.constant(0), p.constant(0)}
+                                            : slope_at([&](const Point& q) { return -level(q); }, p);
+    Field squared = p.constant(0);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      Field slope = of_level[axis];
+      for (const size_t n : {size_t{2}, size_t{1}, size_t{0}})
+        slope = sum_without_zeros(product_without_zeros(by[n], of[n][axis]), slope);
+      squared = squared + square(slope);
     }
-    if (const auto by_rule = program::gradient((this->*of)(p), p)) return *by_rule;
-    constexpr double step = 1e-2;  // step of differences in mm
-    for (int n = 0; n < 3; ++n) {
-      Vec3 by;
-      by[n] = step;
-      const Field up = (this->*of)(p.mapped(Affine::translation(by)));
-      const Field down = (this->*of)(p.mapped(Affine::translation(-by)));
-      result[static_cast<size_t>(n)] = (up - down) / (2 * step);
+    return squared;
+  }
+
+  Slope phase_slope(const Point& p, size_t axis) const {
+    if (map.is_given()) {
+      const Slope slope = map.slope_at(axis, p);
+      return {slope[0] * turn, slope[1] * turn, slope[2] * turn};
     }
+    const Number length = period(static_cast<int>(axis));
+    if (!length.constant()) return slope_at([&](const Point& q) { return phase(q, static_cast<int>(axis)); }, p);
+    Slope result{p.constant(0), p.constant(0), p.constant(0)};
+    result[axis] = p.constant(turn / *length.constant());
     return result;
   }
 

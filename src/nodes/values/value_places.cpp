@@ -6,6 +6,7 @@
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
 #include "nodes/common/field_math.h"
+#include "nodes/common/frame.h"
 #include "nodes/common/solid_values.h"
 
 namespace ombre::nodes {
@@ -36,19 +37,9 @@ struct Coordinates {
   }
 
   bool complete(const Reader& reader) {
-    const double along = length(axis);
-    if (!(along > 0))
-      return reader.refuse("the axis of coordinates has no direction",
-                           "write for example " + spelled::parameter("axis", "(0, 0, 1)"));
-    const Vec3 z = (1 / along) * axis;
-    Vec3 x = toward - dot(toward, z) * z;
-    if (!(length(x) > 1e-9 * length(toward)))  // any perpendicular direction is acceptable
-      x = std::abs(z.x) < 0.9 ? Vec3{1, 0, 0} - z.x * z : Vec3{0, 1, 0} - z.y * z;
-    x = (1 / length(x)) * x;
-    const Vec3 y = cross(z, x);
-    frame_from_here.rows = {x, y, z};
-    frame_from_here.offset = {-dot(x, origin), -dot(y, origin), -dot(z, origin)};
-    return true;
+    const auto frame = frame_from_space({origin, axis, toward}, reader);
+    if (frame) frame_from_here = *frame;
+    return frame.has_value();
   }
 
   VectorField place(const Ask& ask) const {

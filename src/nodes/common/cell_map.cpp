@@ -1,0 +1,86 @@
+#include "nodes/common/cell_map.h"
+
+#include "design/registry.h"
+
+namespace ombre::nodes {
+
+using namespace design;
+
+Box CellMap::reach(const Box& where, double margin) const {
+  if (!region.node) return where;
+  const Box wider = where.expanded(margin);
+  const Box box =
+      region.node->type().is_solid() ? region.node->bounds(wider) : region.node->output_bounds(region.output, wider);
+  return intersect(box.expanded(margin), where);
+}
+
+Field CellMap::cut(Field distance, const Inputs& in, const Point& p) const {
+  return region.node ? max(distance, in.distance_to(region, p)) : distance;
+}
+
+Field CellMap::cut_membership(Field flag, const Inputs& in, const Point& p, Border border) const {
+  return region.node ? logical_and(at_most(in.distance_to(region, p), 0, border), flag) : flag;
+}
+
+Field squared_slope(const CellMap& map, const Slope& by, const Point& p) {
+  Field sum = p.constant(0);
+  if (map.is_perpendicular) {
+    const Slope size = map.size_at(p);
+    for (size_t n = 0; n < 3; ++n) sum = sum_without_zeros(sum, square(by[n] / size[n]));
+    return sum;
+  }
+  const std::array<Slope, 3> slopes{map.slope_at(0, p), map.slope_at(1, p), map.slope_at(2, p)};
+  for (size_t axis = 0; axis < 3; ++axis)
+    sum = sum_without_zeros(sum, square(dot_without_zeros(by, {slopes[0][axis], slopes[1][axis], slopes[2][axis]})));
+  return sum;
+}
+
+}  // namespace ombre::nodes
+
+namespace ombre::design {
+namespace {
+
+// Returns the number of the node's output with this name and form, or nothing.
+std::optional<size_t> output_called(const Node& node, std::string_view name, OutputForm form) {
+  const auto number = node.type().output(name);
+  const bool fits = number && node.gives(*number) && node.type().outputs[*number].type.form == form;
+  return fits ? number : std::nullopt;
+}
+
+Numbers3 vector_of(const NodePtr& node, size_t output) {
+  const auto part = [&](int n) { return Number(expression_of({node, output, n})); };
+  return {part(0), part(1), part(2)};
+}
+
+// Returns the node that the data gives, or its output "place".
+NodePtr giver_of(const Data& data) {
+  const Data* from = data.find("from");
+  const Data* name = data.find("output");
+  if (from && !(name && name->string() && *name->string() == "place")) return nullptr;
+  const auto* object = dynamic_cast<const NodeObject*>((from ? *from : data).host_object().get());
+  return object ? object->node() : nullptr;
+}
+
+}  // namespace
+
+bool Port<nodes::CellMap>::read(const Data& data, const Domain&, nodes::CellMap& value, const Reader& reader) {
+  value = {};
+  if (data.is_null()) return true;
+  const NodePtr node = giver_of(data);
+  const auto place = node ? output_called(*node, "place", OutputForm::numbers) : std::nullopt;
+  if (!place || node->type().outputs[*place].type.name != "frame")
+    return reader.fail(data, "a map of cells",
+                       "write for example " + spelled::call("box_cells", {{"size", "(5, 5, 5)"}}));
+  reader.keep(node);
+  value.from = {node.get(), *place};
+  value.place = vector_of(node, *place);
+  constexpr std::string_view slopes[] = {"slope_u", "slope_v", "slope_w"};
+  for (size_t axis = 0; axis < 3; ++axis) value.slopes[axis] = vector_of(node, *node->type().output(slopes[axis]));
+  value.size = vector_of(node, *node->type().output("size"));
+  const Data perpendicular = node->constant(*node->type().output("perpendicular"));
+  value.is_perpendicular = perpendicular.boolean() && *perpendicular.boolean();
+  if (const auto region = output_called(*node, "region", OutputForm::solid)) value.region = {node.get(), *region};
+  return true;
+}
+
+}  // namespace ombre::design

@@ -1,0 +1,226 @@
+#include "nodes/common/curve_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace ombre::nodes {
+namespace {
+
+constexpr size_t nodes_per_section = 16;
+constexpr double rounding_mm = 1e-9;
+
+// Returns the second derivatives at the knots of the natural cubic spline (Thomas' algorithm).
+std::vector<Vec3> second_derivatives(const std::vector<Vec3>& points, const std::vector<double>& widths) {
+  const size_t last = points.size() - 1;
+  std::vector<Vec3> second(points.size()), right(points.size());
+  std::vector<double> above(points.size());
+  for (size_t n = 1; n < last; ++n) {
+    const double before = widths[n - 1], after = widths[n];
+    const Vec3 change = (6 / after) * (points[n + 1] - points[n]) - (6 / before) * (points[n] - points[n - 1]);
+    const double diagonal = 2 * (before + after) - before * above[n - 1];
+    above[n] = after / diagonal;
+    right[n] = (1 / diagonal) * (change - before * right[n - 1]);
+  }
+  for (size_t n = last; n-- > 1;) second[n] = right[n] - above[n] * second[n + 1];
+  return second;
+}
+
+}  // namespace
+
+CurveFrames::CurveFrames(std::vector<Vec3> points, Vec3 toward) {
+  make_sections(points);
+  make_nodes(toward);
+  find_tightest();
+  points.push_back(toward);
+  content_ = hash_bytes("curve frames " +
+                        std::string(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Vec3)));
+}
+
+void CurveFrames::make_sections(const std::vector<Vec3>& points) {
+  std::vector<double> widths;
+  for (size_t n = 1; n < points.size(); ++n) widths.push_back(ombre::length(points[n] - points[n - 1]));
+  const std::vector<Vec3> second = second_derivatives(points, widths);
+  double begin = 0;
+  for (size_t n = 0; n < widths.size(); ++n) {
+    const double h = widths[n];
+    const Vec3 slope = (1 / h) * (points[n + 1] - points[n]) - (h / 6) * (2 * second[n] + second[n + 1]);
+    sections_.push_back({begin, h, {points[n], slope, 0.5 * second[n], (1 / (6 * h)) * (second[n + 1] - second[n])}});
+    begin += h;
+  }
+}
+
+void CurveFrames::make_nodes(Vec3 toward) {
+  for (size_t n = 0; n < sections_.size(); ++n)
+    for (size_t part = n == 0 ? 0 : 1; part <= nodes_per_section; ++part) {
+      const Section& section = sections_[n];
+      Node node;
+      node.section = n;
+      node.parameter = section.begin + section.width * static_cast<double>(part) / nodes_per_section;
+      const Moving moving = at(node.parameter, n);
+      node.at = moving.at;
+      node.tangent = moving.tangent();
+      if (nodes_.empty()) {
+        Vec3 up = toward - dot(toward, node.tangent) * node.tangent;
+        if (!(ombre::length(up) > 1e-9 * ombre::length(toward)))
+          up = std::abs(node.tangent.x) < 0.9 ? Vec3{1, 0, 0} - node.tangent.x * node.tangent
+                                              : Vec3{0, 1, 0} - node.tangent.y * node.tangent;
+        node.normal = cross((1 / ombre::length(up)) * up, node.tangent);
+      } else {
+        node.normal = moved_normal(nodes_.back(), node.at, node.tangent);
+        node.along = nodes_.back().along + arc(nodes_.back().parameter, node.parameter, n);
+      }
+      nodes_.push_back(node);
+    }
+}
+
+CurveFrames::Moving CurveFrames::at(double parameter, size_t section) const {
+  const auto& [begin, width, c] = sections_[section];
+  const double t = parameter - begin;
+  return {c[0] + t * (c[1] + t * (c[2] + t * c[3])), c[1] + t * (2 * c[2] + (3 * t) * c[3]), 2 * c[2] + (6 * t) * c[3]};
+}
+
+Vec3 CurveFrames::Moving::curvature() const {
+  const double squared = dot(speed, speed);
+  return (1 / squared) * (bend - (dot(bend, speed) / squared) * speed);
+}
+
+// Gauss-Legendre quadrature with five points.
+double CurveFrames::arc(double from, double to, size_t section) const {
+  constexpr std::array<std::array<double, 2>, 5> rule{{{0, 128.0 / 225},
+                                                       {0.5384693101056831, 0.4786286704993665},
+                                                       {-0.5384693101056831, 0.4786286704993665},
+                                                       {0.9061798459386640, 0.2369268850561891},
+                                                       {-0.9061798459386640, 0.2369268850561891}}};
+  const double half = (to - from) / 2, middle = (to + from) / 2;
+  double sum = 0;
+  for (const auto& [place, weight] : rule) sum += weight * ombre::length(at(middle + half * place, section).speed);
+  return sum * half;
+}
+
+// Reflects the frame twice, so that it fits the other point and tangent.
+Vec3 CurveFrames::moved_normal(const Node& from, Vec3 to, Vec3 tangent) const {
+  const auto reflected = [](Vec3 v, Vec3 across) {
+    const double squared = dot(across, across);
+    return squared > 0 ? v - (2 * dot(across, v) / squared) * across : v;
+  };
+  const Vec3 way = to - from.at;
+  if (!(dot(way, way) > 0)) return from.normal;
+  const Vec3 half_way = reflected(from.normal, way);
+  return reflected(half_way, tangent - reflected(from.tangent, way));
+}
+
+void CurveFrames::find_tightest() {
+  for (const Node& node : nodes_) {
+    const double radius = 1 / ombre::length(at(node.parameter, node.section).curvature());
+    if (!(radius < least_radius_)) continue;
+    least_radius_ = radius;
+    tightest_ = node.at;
+  }
+}
+
+std::optional<Vec3> CurveFrames::near_itself(double reach) const {
+  for (size_t i = 0; i < nodes_.size(); ++i)
+    for (size_t j = i + 1; j < nodes_.size(); ++j) {
+      const bool are_apart = nodes_[j].along - nodes_[i].along > std::numbers::pi * reach;
+      if (are_apart && ombre::length(nodes_[j].at - nodes_[i].at) < 2 * reach) return nodes_[i].at;
+    }
+  return std::nullopt;
+}
+
+Box CurveFrames::box() const {
+  Box all;
+  double gap = 0;
+  for (size_t n = 0; n < nodes_.size(); ++n) {
+    all = hull(all, Box{nodes_[n].at, nodes_[n].at});
+    if (n > 0) gap = std::max(gap, nodes_[n].along - nodes_[n - 1].along);
+  }
+  // An arc between two nodes is at most half a chord away from the chord while it turns by less than a quarter.
+  return all.expanded(gap / 2);
+}
+
+int CurveFrames::channel(std::string_view channel_name) const {
+  constexpr std::array<std::string_view, 5> names{"along", "first", "second", "stretch", "distance"};
+  const auto found = std::ranges::find(names, channel_name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+// Finds where the way to p is perpendicular to the curve, between the neighbours of a node.
+double CurveFrames::nearest_parameter(Vec3 p, size_t node) const {
+  constexpr int most_steps = 60;
+  double lo = nodes_[node == 0 ? 0 : node - 1].parameter, hi = nodes_[std::min(node + 1, nodes_.size() - 1)].parameter;
+  double t = nodes_[node].parameter;
+  for (int step = 0; step < most_steps; ++step) {
+    const size_t section =
+        nodes_[node].parameter < t && node + 1 < nodes_.size() ? nodes_[node + 1].section : nodes_[node].section;
+    const Moving moving = at(t, section);
+    const Vec3 way = p - moving.at;
+    const double ahead = dot(way, moving.speed), slope = dot(way, moving.bend) - dot(moving.speed, moving.speed);
+    (ahead > 0 ? lo : hi) = t;
+    double next = slope < 0 ? t - ahead / slope : 0.5 * (lo + hi);
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    if (std::abs(next - t) <= 1e-12 * nodes_.back().parameter) return next;
+    t = next;
+  }
+  return t;
+}
+
+CurveFrames::Place CurveFrames::place_beyond(Vec3 p, const Node& end) const {
+  const Vec3 way = p - end.at;
+  const double ahead = dot(way, end.tangent), a = dot(way, end.normal), b = dot(way, cross(end.tangent, end.normal));
+  return {end.along + ahead, a, b, 1, std::sqrt(a * a + b * b)};
+}
+
+CurveFrames::Place CurveFrames::place(Vec3 p) const {
+  size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t n = 0; n < nodes_.size(); ++n) {
+    const Vec3 way = p - nodes_[n].at;
+    const double squared = dot(way, way);
+    if (squared >= least) continue;
+    least = squared;
+    nearest = n;
+  }
+  const double t = nearest_parameter(p, nearest);
+  const size_t from = t < nodes_[nearest].parameter && nearest > 0 ? nearest - 1 : nearest;
+  const size_t section = from + 1 < nodes_.size() ? nodes_[from + 1].section : nodes_[from].section;
+  const Moving moving = at(t, section);
+  const Vec3 way = p - moving.at, tangent = moving.tangent(), normal = moved_normal(nodes_[from], moving.at, tangent);
+  Place found{nodes_[from].along + arc(nodes_[from].parameter, t, section), dot(way, normal),
+              dot(way, cross(tangent, normal)), 1 - dot(way, moving.curvature()), ombre::length(way)};
+  const bool is_before = dot(p - nodes_.front().at, nodes_.front().tangent) < 0;
+  const bool is_after = dot(p - nodes_.back().at, nodes_.back().tangent) > 0;
+  for (const auto& [is_beyond, end] : {std::pair{is_before, &nodes_.front()}, {is_after, &nodes_.back()}}) {
+    if (!is_beyond) continue;
+    const Place beyond = place_beyond(p, *end);
+    if (beyond[distance] < found[distance]) found = beyond;
+  }
+  return found;
+}
+
+double CurveFrames::sample(int channel, Vec3 p) const { return place(p)[static_cast<size_t>(channel)]; }
+
+void CurveFrames::sample_channels(std::span<const int> channels, std::span<const Vec3> points,
+                                  std::span<double* const> values) const {
+  for (size_t n = 0; n < points.size(); ++n) {
+    const Place found = place(points[n]);
+    for (size_t c = 0; c < channels.size(); ++c) values[c][n] = found[static_cast<size_t>(channels[c])];
+  }
+}
+
+Interval CurveFrames::range(int channel, const Box& box) const {
+  if (!box.is_bounded()) return Interval::everything();
+  constexpr double more = 1.05;  // allows for curvature between nodes, and for the rounding of frames
+  const double radius = ombre::length(box.size()) / 2 * more + rounding_mm;
+  const Place middle = place(box.center());
+  const double farthest = middle[distance] + radius;
+  if (channel == distance) return {std::max(0.0, middle[distance] - radius), farthest};
+  const double bend = farthest / least_radius_ * more;
+  if (farthest >= reach_ || bend >= 1) return Interval::everything();
+  if (channel == stretch) return {1 - bend, 1 + bend};
+  const double value = middle[static_cast<size_t>(channel)], by = channel == along ? radius / (1 - bend) : radius;
+  return {value - by, value + by};
+}
+
+}  // namespace ombre::nodes

@@ -1,0 +1,139 @@
+// Walls in the cells of a map: plates along planes of a crystal, and honeycombs.
+#include <cmath>
+#include <numbers>
+
+#include "base/text/text.h"
+#include "design/spec.h"
+#include "nodes/common/cell_metric.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+// Returns the distance in cells to the nearest whole number.
+Field from_whole(Field v) { return limited(abs(v - floor_of(v + 0.5)), 0, 0.5); }
+
+// The planes on which a linear function of u, v and w is a whole number.
+using Planes = std::vector<Vec3>;
+
+struct Plates {
+  CellMap map;
+  Choice kind = "cubic";
+  Number thickness = 0.5;
+  MaterialName material;
+
+  static Spec<Plates> spec() {
+    return {
+        "plates",
+        "Flat walls in the cells of a map, which it fills. Walls have the thickness in mm also where cells are bent.",
+        {{"map", &Plates::map, "A map of cells, such as box_cells", required()},
+         {"kind", &Plates::kind,
+          "cubic: the borders of cells; octet: the faces of octahedra and tetrahedra; cubic_octet: both",
+          one_of({"cubic", "octet", "cubic_octet"})},
+         {"thickness", &Plates::thickness, "Thickness of the walls", unit::positive_mm},
+         {"material", &Plates::material, "Its material"}},
+        no_inputs,
+        "plates(box_cells((6, 6, 6), min=(0, 0, 0), max=(12, 12, 12)), \"octet\", 0.5, \"red\");"};
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  Box reach(const Inputs&, const Box& where, double margin) const { return map.reach(where, margin); }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    std::vector<Field> walls;
+    for (const auto& [off, squared] : levels(p)) walls.push_back(off / sqrt(squared));
+    return map.cut(program::fold(walls, program::min) - thickness(p) * 0.5, in, p);
+  }
+
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const Field half = square(thickness(p) * 0.5);
+    std::vector<Field> walls;
+    for (const auto& [off, squared] : levels(p)) walls.push_back(at_most(square(off), half * squared, border));
+    return map.cut_membership(program::fold(walls, program::logical_or), in, p, border);
+  }
+
+ private:
+  struct Level {
+    Field off, squared_slope;  // distance from the plane in units of the function, and the function's squared slope
+  };
+
+  Planes planes() const {
+    Planes all;
+    if (!(kind == "octet")) all = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (!(kind == "cubic")) all.insert(all.end(), {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}});
+    return all;
+  }
+
+  std::vector<Level> levels(const Point& p) const {
+    const Slope at = map.place_at(p);
+    std::vector<Level> found;
+    for (const Vec3& plane : planes()) {
+      const Slope by{p.constant(plane.x), p.constant(plane.y), p.constant(plane.z)};
+      found.push_back({from_whole(dot_without_zeros(by, at)), squared_slope(map, by, p)});
+    }
+    return found;
+  }
+};
+
+struct Honeycomb {
+  CellMap map;
+  Number thickness = 0.5;
+  double angle = 30, ratio = 1;
+  MaterialName material;
+
+  static Spec<Honeycomb> spec() {
+    return {
+        "honeycomb",
+        "Walls along w of a map of cells, which they fill. They form hexagons, two for each cell of the map. With a "
+        "negative angle the hexagons are re-entrant: stretched along one direction, they widen along the other.",
+        {{"map", &Honeycomb::map,
+          "A map of cells, such as box_cells. Hexagons are regular if cells are sqrt(3) times as long along v as "
+          "along u",
+          required()},
+         {"thickness", &Honeycomb::thickness, "Thickness of the walls", unit::positive_mm},
+         {"angle", &Honeycomb::angle, "Angle of the slanted walls from u, before cells are stretched",
+          from_to(-80, 80, "deg")},
+         {"ratio", &Honeycomb::ratio, "Length of the walls along v, as a multiple of that of the slanted walls",
+          positive("")},
+         {"material", &Honeycomb::material, "Its material"}},
+        no_inputs,
+        "honeycomb(box_cells((4, 4, 5), min=(0, 0, 0), max=(16, 16, 5)), 0.4, -20, 1.5, \"red\");"};
+  }
+
+  bool complete(const Reader& reader) const {
+    if (ratio > -2 * rise()) return true;
+    return reader.refuse("slanted walls of this honeycomb would cross",
+                         "write a ratio greater than 2 sin(-angle), which is " + format_rounded(-2 * rise()));
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  Box reach(const Inputs&, const Box& where, double margin) const { return map.reach(where, margin); }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    return map.cut(sqrt(nearest(p)) - thickness(p) * 0.5, in, p);
+  }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return map.cut_membership(at_most(nearest(p), square(thickness(p) * 0.5), border), in, p, border);
+  }
+
+ private:
+  double rise() const { return std::sin(angle * std::numbers::pi / 180); }
+
+  // Returns the least squared distance to the three walls in a quarter of the cell, in mm^2.
+  Field nearest(const Point& p) const {
+    // Slanted walls have the length 1, and a cell is as high as two upright and two slanted walls.
+    const double height = 2 * (ratio + rise()), end = ratio / 2 / height, begin = (ratio / 2 + rise()) / height;
+    const CellMetric metric = CellMetric::at(map, p, true).along_w();
+    const Slope at = folded_into_cell(map.place_at(p));
+    const auto wall = [&](Vec3 a, Vec3 b) { return nearest_of_strut(metric, at, a, b).squared_distance; };
+    return min(wall({0.5, end, 0}, {0, begin, 0}),
+               min(wall({0.5, 0, 0}, {0.5, end, 0}), wall({0, begin, 0}, {0, 0.5, 0})));
+  }
+};
+
+}  // namespace
+
+void add_cell_walls(Registry& registry) { registry.add<Plates, Honeycomb>("lattices"); }
+
+}  // namespace ombre::nodes
