@@ -52,12 +52,12 @@ class Side:
 
     def __init__(self, runs):
         wall, cpu = zip(*runs)
-        self.wall, self.cpu = statistics.median(wall), statistics.median(cpu)
+        self.wall, self.cpu = statistics.median(wall), min(cpu)
         self.spread = (max(wall) - min(wall)) / self.wall
 
 
 def compare(commit, head, jobs, size, threads, runs, scratch):
-    """One row for each job. Where other work shares the machine, the ratio of processor time is the safer one."""
+    """One row for each job. Where other work shares the machine, the ratio of the least processor time is the safer one."""
     with built(commit) as (name, build):
         print(f"base is {name}, head is this build; {runs} runs in turns on {threads} thread(s); "
               "spread is (slowest - fastest)/median\n")
