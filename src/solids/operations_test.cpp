@@ -76,6 +76,11 @@ TEST_F(Operations, FacesThatAreNotFlat) {
   EXPECT_NEAR(size_of(node(box)), 1183 + 1.0 / 3, 1e-9);
   box.faces[2] = {6, 5, 4, 7};
   EXPECT_NEAR(size_of(node(box)), 1183 + 1.0 / 3, 1e-9);
+  // A wall that crosses itself when it is seen along the axis to which it is closest.
+  const Polyhedron twisted{
+      {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, {-14, -4, 7}, {6, -18, 6}, {8, 8, 7}, {-13, 11, 8}},
+      {{0, 1, 2, 3}, {7, 6, 5, 4}, {4, 5, 1, 0}, {5, 6, 2, 1}, {6, 7, 3, 2}, {7, 4, 0, 3}}};
+  EXPECT_NEAR(size_of(node(twisted)), 2710 + 1.0 / 3, 1e-9);
   Polyhedron star{{}, {{0, 1, 2, 3, 4, 5}, {11, 10, 9, 8, 7, 6}}};
   for (const double z : {0.0, 10.0})
     for (int n = 0; n < 6; ++n) {
