@@ -101,8 +101,9 @@ class Face {
 
   // Returns the outline, or null if the glyph cannot be loaded.
   FT_Outline* outline(uint32_t glyph) const {
-    const FT_Int32 scaling = letters_ == Letters::hinted ? FT_LOAD_DEFAULT : FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING;
-    if (FT_Load_Glyph(face_, glyph, scaling | FT_LOAD_NO_BITMAP) != 0) return nullptr;
+    constexpr FT_Int32 as_drawn = FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP;
+    constexpr FT_Int32 hinted = FT_LOAD_DEFAULT | FT_LOAD_NO_BITMAP;
+    if (FT_Load_Glyph(face_, glyph, letters_ == Letters::hinted ? hinted : as_drawn) != 0) return nullptr;
     return face_->glyph->format == FT_GLYPH_FORMAT_OUTLINE ? &face_->glyph->outline : nullptr;
   }
 

@@ -48,7 +48,6 @@ class Loader {
     open_.push_back(normal(source->name()));
     program_.files.push_back(parse_deferred(source, program_.names, dialect_, diagnostics_));
     const ast::File& file = program_.files.back();
-    into.sources.push_back(file.source.get());
     for (const ast::StatementPtr& statement : file.statements) {
       if (statement->kind == ast::Statement::Kind::include)
         bring(static_cast<const ast::Include&>(*statement), into);

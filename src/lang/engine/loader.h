@@ -18,9 +18,8 @@ namespace ombre::lang {
 struct Unit {
   std::string path;
   ast::Plan plan;
-  std::vector<const SourcePtr*> sources;  // its file, and those that it includes
-  std::vector<const Unit*> uses;          // files whose functions and modules it may call
-  bool has_words = false;                 // true if it contains `use <ombre>` (OpenSCAD scripts)
+  std::vector<const Unit*> uses;  // files whose functions and modules it may call
+  bool has_words = false;         // true if it contains `use <ombre>` (OpenSCAD scripts)
 };
 
 struct Program {

@@ -95,10 +95,15 @@ std::string shown_path(const std::string& path, const std::string& folder) {
 std::string folder_of(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
 
 const std::string& Evaluator::path_of(ShownFrom from, const SourcePtr* source) const {
-  if (from == ShownFrom::unit)
-    for (const Unit& unit : program_.units)
-      if (std::ranges::find(unit.sources, source) != unit.sources.end()) return unit.path;
-  return program_.units.front().path;
+  const auto holds_source = [&](const Unit& unit) {
+    const auto is_there = [&](const auto* statement) { return statement->span.source == source; };
+    const ast::Plan& plan = unit.plan;
+    return std::ranges::any_of(plan.functions, is_there) || std::ranges::any_of(plan.modules, is_there) ||
+           std::ranges::any_of(plan.assignments, is_there) || std::ranges::any_of(plan.actions, is_there);
+  };
+  const auto unit = std::ranges::find_if(program_.units, holds_source);
+  const bool is_known = from == ShownFrom::unit && unit != program_.units.end();
+  return is_known ? unit->path : program_.units.front().path;
 }
 
 std::pair<std::string, int> Evaluator::file_and_line(const ast::Span& where, ShownFrom from) {
