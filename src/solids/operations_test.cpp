@@ -448,6 +448,23 @@ TEST_F(Operations, DiagonalsOfExtrusions) {
   EXPECT_SIZE(size_of(node(wedge, {node(Polygon{{{20, 3}, {20, -2}, {1, -10}, {0, 10}}, {}})})), 1446.66667);
 }
 
+// A corner that goes straight on would give the sides of a twisted extrusion other slices. The volume is that of
+// OpenSCAD 2021.01.
+TEST_F(Operations, UnitedDrawingsHaveNoStraightCorners) {
+  const TreePtr wide = unite({moved(-0.5, 0, 0, {square(1, 1)}), moved(0.5, 0, 0, {square(1, 1)})});
+  Diagnostics messages;
+  const Pieces pieces = evaluate(wide, {}, messages);
+  ASSERT_EQ(pieces.size(), 1U);
+  ASSERT_EQ(pieces[0].region()->rings.size(), 1U);
+  EXPECT_EQ(pieces[0].region()->rings[0].size(), 4U);
+  LinearExtrude twisted;
+  twisted.height = 3;
+  twisted.twist = 180;
+  twisted.slices = 4;
+  twisted.scale = {0.5, 1};
+  EXPECT_NEAR(size_of(node(twisted, {wide})), 5.07713, 1e-4);
+}
+
 // The walls inside and outside meet in one point: a pyramid of 4 less one of 1.
 TEST_F(Operations, FramesThatNarrowToAPointAreCombined) {
   LinearExtrude narrowing;

@@ -133,14 +133,14 @@ Ring flattened(const std::vector<Vec3>& corners) {
 }
 
 // Returns 0 if OpenSCAD 2021.01 cuts a face with four corners from the first to the third, 1 if from the second to the
-// last. A face that crosses itself is cut from the first corner, and one with a concave corner from that. Else it first
-// cuts from the second corner that a sweep meets, and takes the other diagonal where the angles opposite to the first
-// are too large for Delaunay's triangles.
+// last. A face that crosses itself is cut from the last corner, which is the first one in the script, and one with a
+// concave corner from that. Else it first cuts from the second corner that a sweep meets, and takes the other diagonal
+// where the angles opposite to the first are too large for Delaunay's triangles.
 size_t diagonal_of(const Ring& flat) {
   std::vector<size_t> concave;
   for (size_t n = 0; n < 4; ++n)
     if (cross(flat[n] - flat[(n + 3) % 4], flat[(n + 1) % 4] - flat[n]) <= 0) concave.push_back(n);
-  if (concave.size() > 1) return 0;
+  if (concave.size() > 1) return 1;
   if (concave.size() == 1) return concave[0] % 2;
   std::array<size_t, 4> order{0, 1, 2, 3};
   std::ranges::sort(
