@@ -52,10 +52,18 @@ struct Destroy {
   }
 };
 
-// A font opened by both libraries; lengths are in its own units.
+// The size for which OpenSCAD 2021.01 hints letters before it scales them to any other: 100000/64 points at 100 dpi.
+constexpr FT_F26Dot6 hinted_size = 100'000;
+constexpr FT_UInt hinted_dpi = 100;
+constexpr double points_per_inch = 72;
+
+enum class Letters { as_drawn, hinted };
+
+// A font opened by both libraries. Lengths are in its own units for letters as drawn, or in 1/64 pixel of the size for
+// which letters are hinted.
 class Face {
  public:
-  Face(const std::string& bytes, int index) {
+  Face(const std::string& bytes, int index, Letters letters = Letters::as_drawn) : letters_(letters) {
     if (FT_Init_FreeType(&library_) != 0) return;
     const auto* data = reinterpret_cast<const FT_Byte*>(bytes.data());
     if (FT_New_Memory_Face(library_, data, static_cast<FT_Long>(bytes.size()), index, &face_) != 0) return;
@@ -64,7 +72,12 @@ class Face {
     const std::unique_ptr<hb_face_t, Destroy<hb_face_destroy>> face(
         hb_face_create(blob.get(), static_cast<unsigned>(index) & 0xFFFF));
     shaper_.reset(hb_font_create(face.get()));
-    hb_font_set_scale(shaper_.get(), face_->units_per_EM, face_->units_per_EM);
+    int x_scale = face_->units_per_EM, y_scale = face_->units_per_EM;
+    if (letters == Letters::hinted && FT_Set_Char_Size(face_, 0, hinted_size, hinted_dpi, hinted_dpi) == 0) {
+      x_scale = static_cast<int>(FT_MulFix(x_scale, face_->size->metrics.x_scale));
+      y_scale = static_cast<int>(FT_MulFix(y_scale, face_->size->metrics.y_scale));
+    }
+    hb_font_set_scale(shaper_.get(), x_scale, y_scale);
   }
   ~Face() {
     if (face_) FT_Done_Face(face_);
@@ -74,7 +87,9 @@ class Face {
   Face& operator=(const Face&) = delete;
 
   bool has_outlines() const { return face_ && shaper_ && FT_IS_SCALABLE(face_) && face_->units_per_EM > 0; }
-  double em() const { return face_->units_per_EM; }
+  double em() const {
+    return letters_ == Letters::hinted ? hinted_size * hinted_dpi / points_per_inch : face_->units_per_EM;
+  }
   double line_height() const { return face_->height > 0 ? face_->height : 1.2 * em(); }
   hb_font_t* shaper() const { return shaper_.get(); }
   FontMeasures measures() const {
@@ -86,7 +101,9 @@ class Face {
 
   // Returns the outline, or null if the glyph cannot be loaded.
   FT_Outline* outline(uint32_t glyph) const {
-    if (FT_Load_Glyph(face_, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) return nullptr;
+    constexpr FT_Int32 as_drawn = FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP;
+    constexpr FT_Int32 hinted = FT_LOAD_DEFAULT | FT_LOAD_NO_BITMAP;
+    if (FT_Load_Glyph(face_, glyph, letters_ == Letters::hinted ? hinted : as_drawn) != 0) return nullptr;
     return face_->glyph->format == FT_GLYPH_FORMAT_OUTLINE ? &face_->glyph->outline : nullptr;
   }
 
@@ -100,6 +117,7 @@ class Face {
   }
 
  private:
+  Letters letters_;
   FT_Library library_ = nullptr;
   FT_Face face_ = nullptr;
   std::unique_ptr<hb_font_t, Destroy<hb_font_destroy>> shaper_;
@@ -328,7 +346,7 @@ PlacedRun placed_run(const Face& face, const std::string& text, const RunLayout&
 
 std::optional<TextOutlines> outline_run(const std::string& font_bytes, int font_index, const std::string& text,
                                         const RunLayout& layout) {
-  const Face face(font_bytes, font_index);
+  const Face face(font_bytes, font_index, Letters::hinted);
   if (!face.has_outlines()) return std::nullopt;
   TextOutlines outlines;
   for (const auto& [glyph, at] : placed_run(face, text, layout).letters)
@@ -342,7 +360,7 @@ std::optional<TextOutlines> outline_run(const std::string& font_bytes, int font_
 
 std::optional<RunMeasures> measure_run(const std::string& font_bytes, int font_index, const std::string& text,
                                        const RunLayout& layout) {
-  const Face face(font_bytes, font_index);
+  const Face face(font_bytes, font_index, Letters::hinted);
   if (!face.has_outlines()) return std::nullopt;
   const PlacedRun run = placed_run(face, text, layout);
   const double mm = layout.em_mm / face.em();

@@ -57,8 +57,9 @@ struct RunLayout {
   bool is_vertical() const { return direction == "ttb" || direction == "btt"; }
 };
 
-// Returns the outlines of one line of text, in which control characters count as letters. As in OpenSCAD 2021.01,
-// advances and alignment are 1000/1024 of the font's values. Null if the bytes are not a font with outlines.
+// Returns the outlines of one line of text, in which control characters count as letters. As in OpenSCAD 2021.01, the
+// font's own instructions hint the letters, and advances and alignment are 1000/1024 of the font's values. Null if the
+// bytes are not a font with outlines.
 std::optional<TextOutlines> outline_run(const std::string& font_bytes, int font_index, const std::string& text,
                                         const RunLayout& layout);
 

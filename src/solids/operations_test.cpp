@@ -76,6 +76,11 @@ TEST_F(Operations, FacesThatAreNotFlat) {
   EXPECT_NEAR(size_of(node(box)), 1183 + 1.0 / 3, 1e-9);
   box.faces[2] = {6, 5, 4, 7};
   EXPECT_NEAR(size_of(node(box)), 1183 + 1.0 / 3, 1e-9);
+  // A wall that crosses itself when it is seen along the axis to which it is closest.
+  const Polyhedron twisted{
+      {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}, {-14, -4, 7}, {6, -18, 6}, {8, 8, 7}, {-13, 11, 8}},
+      {{0, 1, 2, 3}, {7, 6, 5, 4}, {4, 5, 1, 0}, {5, 6, 2, 1}, {6, 7, 3, 2}, {7, 4, 0, 3}}};
+  EXPECT_NEAR(size_of(node(twisted)), 2710 + 1.0 / 3, 1e-9);
   Polyhedron star{{}, {{0, 1, 2, 3, 4, 5}, {11, 10, 9, 8, 7, 6}}};
   for (const double z : {0.0, 10.0})
     for (int n = 0; n < 6; ++n) {
@@ -441,6 +446,23 @@ TEST_F(Operations, DiagonalsOfExtrusions) {
   }
   wedge.slices = 1;
   EXPECT_SIZE(size_of(node(wedge, {node(Polygon{{{20, 3}, {20, -2}, {1, -10}, {0, 10}}, {}})})), 1446.66667);
+}
+
+// A corner that goes straight on would give the sides of a twisted extrusion other slices. The volume is that of
+// OpenSCAD 2021.01.
+TEST_F(Operations, UnitedDrawingsHaveNoStraightCorners) {
+  const TreePtr wide = unite({moved(-0.5, 0, 0, {square(1, 1)}), moved(0.5, 0, 0, {square(1, 1)})});
+  Diagnostics messages;
+  const Pieces pieces = evaluate(wide, {}, messages);
+  ASSERT_EQ(pieces.size(), 1U);
+  ASSERT_EQ(pieces[0].region()->rings.size(), 1U);
+  EXPECT_EQ(pieces[0].region()->rings[0].size(), 4U);
+  LinearExtrude twisted;
+  twisted.height = 3;
+  twisted.twist = 180;
+  twisted.slices = 4;
+  twisted.scale = {0.5, 1};
+  EXPECT_NEAR(size_of(node(twisted, {wide})), 5.07713, 1e-4);
 }
 
 // The walls inside and outside meet in one point: a pyramid of 4 less one of 1.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <optional>
 
 #include "base/math/math.h"
 #include "formats/mesh/polygon.h"
@@ -134,14 +133,14 @@ Ring flattened(const std::vector<Vec3>& corners) {
 }
 
 // Returns 0 if OpenSCAD 2021.01 cuts a face with four corners from the first to the third, 1 if from the second to the
-// last, and nothing for a face that crosses itself. A concave corner is cut from. Else it first cuts from the second
-// corner that a sweep meets, and takes the other diagonal where the angles opposite to the first are too large for
-// Delaunay's triangles.
-std::optional<size_t> diagonal_of(const Ring& flat) {
+// last. A face that crosses itself is cut from the last corner, which is the first one in the script, and one with a
+// concave corner from that. Else it first cuts from the second corner that a sweep meets, and takes the other diagonal
+// where the angles opposite to the first are too large for Delaunay's triangles.
+size_t diagonal_of(const Ring& flat) {
   std::vector<size_t> concave;
   for (size_t n = 0; n < 4; ++n)
     if (cross(flat[n] - flat[(n + 3) % 4], flat[(n + 1) % 4] - flat[n]) <= 0) concave.push_back(n);
-  if (concave.size() > 1) return std::nullopt;
+  if (concave.size() > 1) return 1;
   if (concave.size() == 1) return concave[0] % 2;
   std::array<size_t, 4> order{0, 1, 2, 3};
   std::ranges::sort(
@@ -172,10 +171,7 @@ class FaceCutter {
   std::vector<formats::Corners> cut(const std::vector<Vec3>& corners) {
     if (corners.size() == 3 || is_flat(corners)) return cutter_.cut(corners);
     const Ring flat = flattened(corners);
-    if (corners.size() == 4) {
-      const auto from = diagonal_of(flat);
-      return !from ? cutter_.cut(corners) : *from == 0 ? from_first() : from_second();
-    }
+    if (corners.size() == 4) return diagonal_of(flat) == 0 ? from_first() : from_second();
     const std::array rings{flat};
     const PlaneTriangles pieces = kernel().triangulate(rings);
     const bool is_simple = pieces.crossings.empty() && pieces.triangles.size() == corners.size() - 2;

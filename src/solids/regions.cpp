@@ -72,6 +72,21 @@ double reach_of(std::span<const Ring> rings) {
   return reach;
 }
 
+// Removes corners at which a path goes straight on, which the library leaves where sides of both operands met. So does
+// OpenSCAD, and it shows in extrusions with a twist.
+void remove_straight_corners(Path& path) {
+  const auto is_straight = [](const IntPoint& a, const IntPoint& b, const IntPoint& c) {
+    __extension__ using Wide = __int128;
+    return Wide{b.X - a.X} * Wide{c.Y - b.Y} == Wide{b.Y - a.Y} * Wide{c.X - b.X};
+  };
+  Path kept;
+  for (size_t n = 0; n < path.size(); ++n) {
+    const IntPoint& before = kept.empty() ? path.back() : kept.back();
+    if (!is_straight(before, path[n], path[(n + 1) % path.size()])) kept.push_back(path[n]);
+  }
+  path = std::move(kept);
+}
+
 Region combine(clip::ClipType operation, std::span<const Ring> subject, std::span<const Ring> other,
                clip::PolyFillType rule) {
   const Grid grid(std::max(reach_of(subject), reach_of(other)));
@@ -81,6 +96,7 @@ Region combine(clip::ClipType operation, std::span<const Ring> subject, std::spa
   clipper.AddPaths(grid.paths(other), clip::ptClip, true);
   Paths result;
   clipper.Execute(operation, result, rule, rule);
+  for (Path& path : result) remove_straight_corners(path);
   return grid.region(result);
 }
 

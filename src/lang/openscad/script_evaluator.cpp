@@ -94,33 +94,44 @@ std::string shown_path(const std::string& path, const std::string& folder) {
 
 std::string folder_of(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
 
-std::pair<std::string, int> Evaluator::file_and_line(const ast::Span& where) {
-  if (!where.source) return {};
-  const auto known = shown_files_.find(where.source);
-  const int line = (*where.source)->place(where.begin).line;
-  if (known != shown_files_.end()) return {known->second, line};
-  // OpenSCAD shows a used file from its own folder, and an included one from that of the file that includes it.
-  const std::string& name = (*where.source)->name();
-  const bool is_used = std::ranges::any_of(program_.units, [&](const Unit& unit) { return unit.path == name; });
-  return {shown_files_[where.source] = shown_path(name, folder_of(is_used ? name : program_.units.front().path)), line};
+const std::string& Evaluator::path_of(ShownFrom from, const SourcePtr* source) const {
+  const auto holds_source = [&](const Unit& unit) {
+    const auto is_there = [&](const auto* statement) { return statement->span.source == source; };
+    const ast::Plan& plan = unit.plan;
+    return std::ranges::any_of(plan.functions, is_there) || std::ranges::any_of(plan.modules, is_there) ||
+           std::ranges::any_of(plan.assignments, is_there) || std::ranges::any_of(plan.actions, is_there);
+  };
+  const auto unit = std::ranges::find_if(program_.units, holds_source);
+  const bool is_known = from == ShownFrom::unit && unit != program_.units.end();
+  return is_known ? unit->path : program_.units.front().path;
 }
 
-void Evaluator::say(Message::Kind kind, std::string text, const ast::Span& where, Code code) {
-  auto [file, line] = file_and_line(where);
+std::pair<std::string, int> Evaluator::file_and_line(const ast::Span& where, ShownFrom from) {
+  if (!where.source) return {};
+  auto& shown = shown_files_[static_cast<size_t>(from)];
+  const auto known = shown.find(where.source);
+  const int line = (*where.source)->place(where.begin).line;
+  if (known != shown.end()) return {known->second, line};
+  const std::string folder = folder_of(path_of(from, where.source));
+  return {shown[where.source] = shown_path((*where.source)->name(), folder), line};
+}
+
+void Evaluator::say(Message::Kind kind, std::string text, const ast::Span& where, Code code, ShownFrom from) {
+  auto [file, line] = file_and_line(where, from);
   messages_.add({kind, std::move(text), std::move(file), line, code});
   if (kind == Message::Kind::warning && options_.stops_at_warnings) throw Stopped{};
 }
 
-void Evaluator::warn(std::string text, const ast::Span& where) {
+void Evaluator::warn(std::string text, const ast::Span& where, ShownFrom from) {
   meter_.spend(10);
-  say(Message::Kind::warning, std::move(text), where);
+  say(Message::Kind::warning, std::move(text), where, Code::script, from);
 }
 
-void Evaluator::warn_all(Problems& problems, const ast::Span& where) {
+void Evaluator::warn_all(Problems& problems, const ast::Span& where, ShownFrom from) {
   for (Problem& problem : problems) {
     const ast::Span& place = problem.has_place ? where : ast::Span{};
     if (problem.is_error) stop(std::move(problem.text), place);
-    warn(std::move(problem.text), place);
+    warn(std::move(problem.text), place, from);
   }
 }
 
@@ -180,7 +191,7 @@ void Evaluator::bind_builtin(const Module& module, const std::vector<ast::Argume
   const auto give = [&](std::string_view name, Value value) {
     for (auto& [known, old] : call.values_) {
       if (known != name) continue;
-      warn("argument " + std::string(name) + " supplied more than once", where);
+      warn("argument " + std::string(name) + " supplied more than once", where, ShownFrom::unit);
       old = std::move(value);
       return;
     }
@@ -190,7 +201,7 @@ void Evaluator::bind_builtin(const Module& module, const std::vector<ast::Argume
     const Symbol name = argument.name.symbol;
     if (!name && position >= module.positional.size()) {
       if (!module.takes_anything && !std::exchange(has_too_many, true))
-        warn("Too many unnamed arguments supplied", where);
+        warn("Too many unnamed arguments supplied", where, ShownFrom::unit);
       if (module.takes_anything) (void)eval(*argument.value, scope);
       continue;
     }
@@ -211,7 +222,7 @@ void Evaluator::bind_builtin(const Module& module, const std::vector<ast::Argume
       return std::ranges::find(names, *name) != names.end();
     };
     if (!module.takes_anything && !is_declared(module.positional) && !is_declared(module.named))
-      warn("variable " + *name + " not specified as parameter", where);
+      warn("variable " + *name + " not specified as parameter", where, ShownFrom::unit);
     give(*name, std::move(value));
   }
 }

@@ -127,10 +127,15 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
     int repeats_ = 0;
   };
 
+  // The file from whose folder a message shows a path. As in OpenSCAD, operators, ranges and the arguments of a call
+  // have that of the unit, and all others that of the main file.
+  enum class ShownFrom : uint8_t { main_file, unit };
+
   // Functions that report messages.
-  void say(Message::Kind kind, std::string text, const ast::Span& where, Code code = Code::script);
-  void warn(std::string text, const ast::Span& where);
-  void warn_all(Problems& problems, const ast::Span& where);
+  void say(Message::Kind kind, std::string text, const ast::Span& where, Code code = Code::script,
+           ShownFrom from = ShownFrom::main_file);
+  void warn(std::string text, const ast::Span& where, ShownFrom from = ShownFrom::main_file);
+  void warn_all(Problems& problems, const ast::Span& where, ShownFrom from = ShownFrom::main_file);
   [[noreturn]] void stop(std::string text, const ast::Span& where, Code code = Code::script);
   void trace(const std::string& name, const ast::Span& where);
   void trace(const EnteredCalls& entered);
@@ -139,7 +144,8 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   void stop_if_recursive(const ast::ModuleDef& module);
   void say_recursion(const ast::Call& call);
   void trace(const ast::Statement& statement);
-  std::pair<std::string, int> file_and_line(const ast::Span& where);
+  std::pair<std::string, int> file_and_line(const ast::Span& where, ShownFrom from = ShownFrom::main_file);
+  const std::string& path_of(ShownFrom from, const SourcePtr* source) const;
 
   // Defined in script_statements.cpp.
   void begin(const Unit&, Scope&) {}
@@ -241,7 +247,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   std::vector<Module> module_table_;
   std::unordered_map<Symbol, const Module*> modules_;
   std::unordered_map<const Unit*, std::vector<std::pair<Symbol, Value>>> unit_specials_;
-  std::unordered_map<const SourcePtr*, std::string> shown_files_;
+  std::array<std::unordered_map<const SourcePtr*, std::string>, 2> shown_files_;  // by ShownFrom
 
   std::vector<const solids::Tree*> roots_;  // marked with "!"
   int nested_statements_ = 0;

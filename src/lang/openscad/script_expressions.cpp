@@ -28,7 +28,7 @@ double Evaluator::passes(const Range& range, const ast::Span& where) {
   const double count = element_count(range);
   if (count < most_range_elements) return count;
   warn("Bad range parameter in for statement: too many elements (" + std::to_string(static_cast<uint64_t>(count)) + ")",
-       where);
+       where, ShownFrom::unit);
   return 0;
 }
 
@@ -51,13 +51,14 @@ Value Evaluator::eval_range(const ast::Range& range, const ScopePtr& scope) {
     if (result.end < result.begin) {
       std::swap(result.begin, result.end);
       say(Message::Kind::deprecated,
-          "Using ranges of the form [begin:end] with begin value greater than the end value is deprecated", range.span);
+          "Using ranges of the form [begin:end] with begin value greater than the end value is deprecated", range.span,
+          Code::script, ShownFrom::unit);
     }
   } else if (is_written(*range.begin) && is_written(*range.step) && is_written(*range.end)) {
     if (result.step > 0 && result.end < result.begin)
-      warn("begin is greater than the end, but step is positive", range.span);
+      warn("begin is greater than the end, but step is positive", range.span, ShownFrom::unit);
     else if (result.step < 0 && result.end > result.begin)
-      warn("begin is smaller than the end, but step is negative", range.span);
+      warn("begin is smaller than the end, but step is negative", range.span, ShownFrom::unit);
   }
   return RangePtr(std::make_shared<const Range>(result));
 }
@@ -66,7 +67,7 @@ Value Evaluator::unary(ast::Operator op, const ast::Span& where, const Value& op
   if (auto made = result_of_objects(ast::spelling(op), {&operand, 1})) return *made;
   Problems problems;
   Value result = openscad::unary(op, operand, meter_, problems);
-  warn_all(problems, where);
+  warn_all(problems, where, ShownFrom::unit);
   return result;
 }
 
@@ -76,7 +77,7 @@ Value Evaluator::operate(ast::Operator op, const ast::Span& where, const Value& 
     if (auto made = result_of_objects(ast::spelling(op), std::array{left, right})) return *made;
   Problems problems;
   Value result = openscad::binary(op, left, right, meter_, problems);
-  warn_all(problems, where);
+  warn_all(problems, where, ShownFrom::unit);
   return result;
 }
 

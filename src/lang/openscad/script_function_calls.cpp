@@ -15,6 +15,12 @@ std::string callee_name(const ast::Call& call) {
                                                    : expression_text(*call.callee);
 }
 
+// Returns the parameters of what is called although it is no function.
+const std::vector<ast::Parameter>& no_parameters() {
+  static const std::vector<ast::Parameter> none;
+  return none;
+}
+
 }  // namespace
 
 // Reports the calls, innermost first.
@@ -50,10 +56,9 @@ void Evaluator::enter(const Unit& used, size_t specials_from) {
 }
 
 void Evaluator::replace_callee(const ast::Call& call, const Value& value, const ScopePtr& scope, Callee& callee) {
-  warn(std::string("Can't call function on ") + type_name(value), call.span);
+  warn(std::string("Can't call function on ") + type_name(value), call.span, ShownFrom::unit);
   static const ast::Undef nothing(ast::Span{});
-  static const std::vector<ast::Parameter> none;
-  callee = {&none, &nothing, scope};
+  callee = {&no_parameters(), &nothing, scope};
 }
 
 Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
@@ -85,29 +90,31 @@ Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
   return result;
 }
 
-void Evaluator::report_too_many(const ast::Argument&, const ast::Span& where, const std::vector<ast::Parameter>&) {
-  warn("Too many unnamed arguments supplied", where);
+void Evaluator::report_too_many(const ast::Argument&, const ast::Span& where,
+                                const std::vector<ast::Parameter>& parameters) {
+  if (&parameters != &no_parameters()) warn("Too many unnamed arguments supplied", where, ShownFrom::unit);
 }
 
 void Evaluator::report_parameter(const ast::Name& name, const ast::Span& where, const std::vector<ast::Parameter>&) {
-  warn("variable " + name.text() + " not specified as parameter", where);
+  warn("variable " + name.text() + " not specified as parameter", where, ShownFrom::unit);
 }
 
 void Evaluator::report_twice(const ast::Argument&, Symbol parameter, const ast::Span& where) {
-  warn("argument " + *parameter + " supplied more than once", where);
+  warn("argument " + *parameter + " supplied more than once", where, ShownFrom::unit);
 }
 
 // True for a variable of let that repeats a name, or has none.
 bool Evaluator::ignores(const std::vector<ast::Argument>& arguments, size_t n, const Value& value) {
   const ast::Name& name = arguments[n].name;
   if (!name.symbol) {
-    warn("Assignment without variable name " + value_text(value, true, meter_), arguments[n].value->span);
+    warn("Assignment without variable name " + value_text(value, true, meter_), arguments[n].value->span,
+         ShownFrom::unit);
     return true;
   }
   const auto is_it = [&](const ast::Argument& before) { return before.name.symbol == name.symbol; };
   if (std::none_of(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(n), is_it)) return false;
   warn("Ignoring duplicate variable assignment " + name.text() + " = " + value_text(value, true, meter_),
-       arguments[n].value->span);
+       arguments[n].value->span, ShownFrom::unit);
   return true;
 }
 
@@ -119,7 +126,7 @@ void Evaluator::assert_true(const std::vector<ast::Argument>& arguments, const a
     const bool is_named = argument.name.symbol != nullptr;
     if (is_named ? argument.name.text() == "condition" : position == 0) condition = argument.value.get();
     if (is_named ? argument.name.text() == "message" : position == 1) message = argument.value.get();
-    if (!is_named && position == 2) warn("Too many unnamed arguments supplied", where);
+    if (!is_named && position == 2) warn("Too many unnamed arguments supplied", where, ShownFrom::unit);
     position += is_named ? 0 : 1;
   }
   if (!condition) warn("Ignoring unknown variable 'condition'", where);

@@ -194,7 +194,7 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
     return result;
   }
   Value index = statement.arguments.empty() ? Value(0.0) : eval(*statement.arguments[0].value, scope);
-  if (is_old && !index.number()) return nullptr;
+  if (is_old && !index.number()) index = 0.0;  // as in OpenSCAD
   if (!index.number() && !index.list() && !index.range()) {
     warn("Bad parameter type (" + value_text(index, true, meter_) +
              ") for children, only accept: empty, number, vector, range",
