@@ -103,6 +103,9 @@ def borders_of_shares_are_compared(folder):
 def what_is_no_stack_is_named(folder):
     path = stack(folder)
     expect("nowhere" in folder.run("verify", "nowhere", status=2).stderr, "no folder is named")
+    (folder.path / "empty").mkdir()
+    error = folder.run("verify", "empty", status=2).stderr
+    expect("empty holds no slice job: there is no job.json in it" in error, error)
     job = folder.read("stack/job.json")
     (path / "job.json").write_text(job.replace('"dither": "stochastic"', '"dither": "coin"'), encoding="utf-8")
     error = folder.run("verify", "stack", status=2).stderr

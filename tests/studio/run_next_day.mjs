@@ -15,10 +15,10 @@ async function nextDay() {
   await startServer(keyOf(++day));
 }
 
-// Returns true if the server keeps a draft with these words.
+// Returns true if the server keeps a draft with these words. One that it is writing still has another ending.
 const hasDraft = (words) => {
   const kept = readdirSync(stateFolder, { recursive: true, withFileTypes: true });
-  return kept.some((entry) => entry.isFile() && entry.parentPath.endsWith("drafts") && readFileSync(join(entry.parentPath, entry.name), "utf8").includes(words));
+  return kept.some((entry) => entry.isFile() && entry.name.endsWith(".json") && entry.parentPath.endsWith("drafts") && readFileSync(join(entry.parentPath, entry.name), "utf8").includes(words));
 };
 
 await test({ files: {}, place: folder, key: keyOf(day), viewport: { width: 1280, height: 800 } }, {

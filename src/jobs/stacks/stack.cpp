@@ -1,5 +1,6 @@
 #include "jobs/stacks/stack.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/text/error.h"
@@ -53,6 +54,9 @@ Stack open_stack(const std::string& folder, Findings& findings) {
     throw Error(Code::file_kind, folder + " is an archive; unpack it, and give the folder with the layers",
                 {{"file", folder}});
   const std::vector<std::string> names = stores::names_in(folder);
+  if (std::ranges::find(names, job_file) == names.end())
+    throw Error(Code::file_kind, folder + " holds no slice job: there is no " + job_file + " in it",
+                {{"file", folder}});
   DescribedJob job = read_description((std::filesystem::path(folder) / job_file).string());
   LayerFiles files(job.request);
   Stack stack{folder, std::move(job), std::move(files), {names.begin(), names.end()}, false, {}};

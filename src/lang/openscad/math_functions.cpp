@@ -121,12 +121,10 @@ Value rands(const Call& call) {
   if (low > high) std::swap(low, high);
   const double count = wanted_count(call, *wanted);
   if (count > static_cast<double>(call.meter.limits().elements)) call.meter.too_many_elements();
-  std::mt19937 seeded;
-  if (call.size() == 4) seeded.seed(static_cast<uint32_t>(remainder_of(*call[3].number())));
-  std::mt19937& random = call.size() == 4 ? seeded : call.random;
+  if (call.size() == 4) call.random.seed(static_cast<uint32_t>(remainder_of(*call[3].number())));
   ListBuilder result(call.meter);
   call.meter.spend(static_cast<uint64_t>(count));
-  for (double i = 0; i < count; ++i) result.push(low == high ? low : low + (high - low) * draw(random));
+  for (double i = 0; i < count; ++i) result.push(low == high ? low : low + (high - low) * draw(call.random));
   return result.finish();
 }
 

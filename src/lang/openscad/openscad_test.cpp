@@ -335,8 +335,8 @@ TEST(Openscad, JsonFilesAreDependencies) {
   EXPECT_EQ(outcome.files, (std::vector<std::string>{"parts/t.scad", "parts/d.json", "parts/e.stl"}));
 }
 
-// In DejaVu Sans, whose em has 2048 units, "Hog" is 4093 wide, from 201 to 3907, and from -426 to 1493 high, by
-// fontTools and HarfBuzz. text() of OpenSCAD 2021.01 multiplies widths and alignment by 1000/1024.
+// Letters are measured as they are drawn: text("Hog", 20) of OpenSCAD 2021.01 reaches from 2.726 to 52.1033 and from
+// -5.7728 to 20.2496 if it is written to a file, and begins 54.2139 further left with the alignment "right".
 TEST(Openscad, TextsAndFontsAreMeasured) {
   const auto font = draw::search_font("DejaVu Sans", false, false);
   if (!font || !font->has_name) GTEST_SKIP();
@@ -345,8 +345,8 @@ TEST(Openscad, TextsAndFontsAreMeasured) {
       "ECHO: { nominal = { ascent = 25.784; descent = -6.55111; }; max = { ascent = 34.2339; descent = -12.8581; }; "
       "interline = 32.3351; font = { family = \"DejaVu Sans\"; style = \"Book\"; }; }\n");
   EXPECT_EQ(value_of("textmetrics(\"Hog\", 20, \"DejaVu Sans\", halign = \"right\", valign = \"top\")"),
-            "ECHO: { position = [-51.4875, -25.5535]; size = [49.378, 26.0281]; ascent = 20.2501; descent = -5.77799; "
-            "offset = [-54.2137, -19.7755]; advance = [54.2137, 0]; }\n");
+            "ECHO: { position = [-51.4879, -25.5478]; size = [49.3773, 26.0224]; ascent = 20.2496; descent = -5.7728; "
+            "offset = [-54.2139, -19.775]; advance = [54.2139, 0]; }\n");
   EXPECT_EQ(value_of("textmetrics(\"\").size"), "ECHO: [0, 0]\n");
   EXPECT_EQ(value_of("textmetrics(\"a\", colour = 1) == textmetrics(\"a\")"),
             "WARNING: variable colour not specified as parameter in file t.scad, line 1\nECHO: true\n");

@@ -27,7 +27,7 @@ struct FunctionCall {
   Meter& meter;
   Problems& problems;
   const std::vector<const ast::CallStatement*>& modules;  // calls that are being evaluated, innermost last
-  std::mt19937& random;                                   // generator of rands() without a seed
+  std::mt19937& random;                                   // generator of rands(), which a seed begins anew
   const ast::Call& written;
   const FunctionFiles& files;
 

@@ -19,6 +19,11 @@ export class Refused extends Error {
   }
 }
 
+// An answer that does not come is no mistake of the page, which shows that the connection is lost.
+window.addEventListener("unhandledrejection", (event) => {
+  if (event.reason instanceof Refused && event.reason.isCancelled) event.preventDefault();
+});
+
 interface Waiting {
   resolve: (reply: Reply) => void;
   reject: (error: Refused) => void;
