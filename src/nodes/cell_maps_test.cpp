@@ -111,12 +111,11 @@ TEST_F(CellMaps, PlacesInABallAreAnglesAndRadii) {
 
 // The volume is the determinant; the squares of stretches add up to those of the edges.
 TEST_F(CellMaps, StretchesOfAConeAreThoseOfItsEdges) {
-  const NodePtr map = make("frustum_cells", {{"inner", Data(8.0)},
-                                             {"outer", Data(12.0)},
-                                             {"inner_top", Data(4.0)},
-                                             {"outer_top", Data(5.0)},
-                                             {"height", Data(10.0)},
-                                             {"count", list({9, 4, 3})}});
+  DataMembers cone{{"count", list({9, 4, 3})}};
+  for (const auto& [name, mm] : {std::pair("inner", 8.0), std::pair("outer", 12.0), std::pair("inner_top", 4.0),
+                                 std::pair("outer_top", 5.0), std::pair("height", 10.0)})
+    cone.emplace_back(name, mm);
+  const NodePtr map = make("frustum_cells", cone);
   const double z = 1, inner = 6 - 0.4 * z, thickness = 2.5 - 0.3 * z, share = 0.6, rho = inner + share * thickness;
   const Vec3 p = around_z(rho, 77, z);
   expect_near(vector_at(map, "place", p), {77.0 / 40, 2.4, 1.8}, 1e-12);

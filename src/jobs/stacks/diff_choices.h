@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "jobs/common/job_options.h"
+#include "jobs/stacks/report_options.h"
 
 namespace ombre::compile {
 
 struct DiffChoices {
-  std::string first, second, materials, report;
+  std::string first, second, materials;
+  jobs::ReportOptions report;
   std::vector<std::string> definitions;
   std::optional<options::Pitches> voxel;
   WorkOptions work;
-  bool force = false;
 
   static const options::Spec<DiffChoices>& options() {
     using namespace options;
@@ -28,11 +29,10 @@ struct DiffChoices {
         option("--materials", &DiffChoices::materials, kind::file, "Materials file of designs", "FILE"),
         options::list("-D,--define", &DiffChoices::definitions, kind::text,
                       "Set a variable of designs; may be repeated", "NAME=VALUE"),
-        option("--report", &DiffChoices::report, kind::file,
-               "Write a page with the changes and pictures of the layers that change most: an .html file", "FILE"),
+        group(&DiffChoices::report, jobs::ReportOptions::options(
+                                        "Write a page with the changes and pictures of the layers that change most")),
         group(&DiffChoices::work,
-              WorkOptions::options("Most memory for layers, and for stages of designs (default 2G)")),
-        flag("--force", &DiffChoices::force, "Replace an existing report")};
+              WorkOptions::options("Most memory for layers, and for stages of designs (default 2G)"))};
     return spec;
   }
 };

@@ -71,22 +71,14 @@ int run(const DiffChoices& a, const DiffPlan& planned, Session& session) {
       compile::material_changes(planned.first, planned.second, lattice, compile::fitting(work, lattice));
   progress.finish();
   tell_changes(session.events, changes, lattice);
-  if (!a.report.empty()) {
-    exporting::write_file(a.report, changes_page(a, changes, planned.first, planned.second, lattice));
-    session.events.say("wrote " + a.report);
+  if (!a.report.file.empty()) {
+    exporting::write_file(a.report.file, changes_page(a, changes, planned.first, planned.second, lattice));
+    session.events.say("wrote " + a.report.file);
   }
   return changes.layers.empty() ? done : check_failed;
 }
 
-int diff(const DiffChoices& a, Session& session) {
-  JobSteps<DiffPlan> steps;
-  steps.refuse = [&] {
-    if (!a.report.empty()) refuse_to_overwrite(a.report, a.force);
-  };
-  steps.plan = [&](Diagnostics& diagnostics) { return plan(a, session, diagnostics); };
-  steps.run = [&](const DiffPlan& planned) { return run(a, planned, session); };
-  return take_steps(steps, session);
-}
+int diff(const DiffChoices& a, Session& session) { return take_report_steps(a, session, plan, run); }
 
 }  // namespace
 

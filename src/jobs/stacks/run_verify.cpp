@@ -69,22 +69,14 @@ int run(const VerifyChoices& a, const Compared& compared, Session& session) {
   session.events.diagnose(diagnostics);
   if (!result) return wrong_input;
   tell_verification(session.events, *result);
-  if (!a.report.empty()) {
-    exporting::write_file(a.report, verification_page(a.stack, *result));
-    session.events.say("wrote " + a.report);
+  if (!a.report.file.empty()) {
+    exporting::write_file(a.report.file, verification_page(a.stack, *result));
+    session.events.say("wrote " + a.report.file);
   }
   return result->findings().empty() ? done : check_failed;
 }
 
-int verify(const VerifyChoices& a, Session& session) {
-  JobSteps<Compared> steps;
-  steps.refuse = [&] {
-    if (!a.report.empty()) refuse_to_overwrite(a.report, a.force);
-  };
-  steps.plan = [&](Diagnostics& diagnostics) { return plan(a, session, diagnostics); };
-  steps.run = [&](const Compared& compared) { return run(a, compared, session); };
-  return take_steps(steps, session);
-}
+int verify(const VerifyChoices& a, Session& session) { return take_report_steps(a, session, plan, run); }
 
 }  // namespace
 

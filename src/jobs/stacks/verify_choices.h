@@ -5,6 +5,7 @@
 #include <string>
 
 #include "jobs/common/job_options.h"
+#include "jobs/stacks/report_options.h"
 
 namespace ombre::compile {
 
@@ -22,12 +23,13 @@ inline options::Spec<DesignOptions> optional_design() {
 }
 
 struct VerifyChoices {
-  std::string stack, plan, report;
+  std::string stack, plan;
+  jobs::ReportOptions report;
   DesignOptions design;
   std::optional<double> voxels;
   uint64_t seed = 0;
   WorkOptions work;
-  bool all = false, force = false;
+  bool all = false;
 
   static const options::Spec<VerifyChoices>& options() {
     using namespace options;
@@ -46,11 +48,10 @@ struct VerifyChoices {
                "The plan by which the job was shared out: layers at the borders of shares are evaluated again in full",
                "PLAN")
             .needs("--design"),
-        option("--report", &VerifyChoices::report, kind::file,
-               "Write a page with what was found, and pictures of where: an .html file", "FILE"),
+        group(&VerifyChoices::report,
+              jobs::ReportOptions::options("Write a page with what was found, and pictures of where")),
         group(&VerifyChoices::work,
-              WorkOptions::options("Most memory for layers, and for stages of the design (default 2G)")),
-        flag("--force", &VerifyChoices::force, "Replace an existing report")};
+              WorkOptions::options("Most memory for layers, and for stages of the design (default 2G)"))};
     return spec;
   }
 };
