@@ -24,7 +24,7 @@ struct ReportOptions {
 };
 
 // Plans and runs a job with such options, which is a value of the type Choices; returns an exit code.
-template <class Choices, class Planned>
+template <class Planned, class Choices>
 int take_report_steps(const Choices& a, Session& session,
                       std::optional<Planned> (&plan)(const Choices&, Session&, Diagnostics&),
                       int (&run)(const Choices&, const Planned&, Session&)) {

@@ -78,7 +78,7 @@ int run(const DiffChoices& a, const DiffPlan& planned, Session& session) {
   return changes.layers.empty() ? done : check_failed;
 }
 
-int diff(const DiffChoices& a, Session& session) { return take_report_steps(a, session, plan, run); }
+int diff(const DiffChoices& a, Session& session) { return take_report_steps<DiffPlan>(a, session, plan, run); }
 
 }  // namespace
 

@@ -76,7 +76,7 @@ int run(const VerifyChoices& a, const Compared& compared, Session& session) {
   return result->findings().empty() ? done : check_failed;
 }
 
-int verify(const VerifyChoices& a, Session& session) { return take_report_steps(a, session, plan, run); }
+int verify(const VerifyChoices& a, Session& session) { return take_report_steps<Compared>(a, session, plan, run); }
 
 }  // namespace
 
