@@ -120,8 +120,8 @@ struct FormulaCells : CellOutputs<FormulaCells> {
     std::vector<double> values;
     std::optional<double> first;
     for (int n = 0; n < side * side * side; ++n) {
-      const Vec3 f{(n % side + 0.5) / side, (n / side % side + 0.5) / side, (n / side / side + 0.5) / side},
-          s = box.size();
+      const int i = n % side, j = n / side % side, k = n / side / side;
+      const Vec3 f{(i + 0.5) / side, (j + 0.5) / side, (k + 0.5) / side}, s = box.size();
       const Vec3 at = box.lo + Vec3{f.x * s.x, f.y * s.y, f.z * s.z};
       program::evaluate_point(program, at, values);
       if (values[program.outputs[0]] > 0) continue;
