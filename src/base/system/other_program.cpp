@@ -57,13 +57,13 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 std::vector<std::string> environment_with(const std::vector<std::pair<std::string, std::string>>& variables) {
   std::vector<std::string> all;
-  for (const auto& [name, value] : variables) all.push_back(name + "=" + value);
-  for (char** entry = environ; *entry; ++entry) {
-    const std::string_view text(*entry);
-    const bool is_replaced =
-        std::ranges::any_of(variables, [&](const auto& v) { return text.starts_with(v.first + "="); });
-    if (!is_replaced) all.emplace_back(text);
-  }
+  for (const auto& [name, value] : variables) all.emplace_back(name).append("=").append(value);
+  const auto is_replaced = [&](std::string_view entry) {
+    const std::string_view name = entry.substr(0, entry.find('='));
+    return std::ranges::any_of(variables, [&](const auto& variable) { return variable.first == name; });
+  };
+  for (char** entry = environ; *entry; ++entry)
+    if (!is_replaced(*entry)) all.emplace_back(*entry);
   return all;
 }
 
