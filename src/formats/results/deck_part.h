@@ -62,8 +62,8 @@ class DeckPart {
   // Returns how many members the set of that name has, or 1 for the number of a node or element.
   uint64_t size_of(ResultSet::Of of, std::string_view name) const;
 
-  // These report an error at the line if an element has the number already, or a node at another place. The name of
-  // the set may be empty.
+  // Both functions report an error at the line if an element has the number already, or a node at another place. The
+  // name of the set may be empty.
   void add_node(const DeckLine& line, uint64_t number, Vec3 at, const std::string& set);
   void add_element(const DeckLine& line, uint64_t number, ElementKind kind, std::span<const uint64_t> nodes,
                    const std::string& set, bool is_shell = false);

@@ -18,8 +18,8 @@ namespace ombre::nodes {
 // and others, "Computation of rotation minimizing frames", ACM Transactions on Graphics 27, 2008).
 class CurveFrames final : public program::FieldSource {
  public:
-  // At least two points, each different from the one before. The second normal is `toward` at the start, as far as it
-  // is perpendicular to the curve.
+  // The curve needs two points at least, each different from the one before. The second normal is `toward` at the
+  // start, as far as it is perpendicular to the curve.
   CurveFrames(std::vector<Vec3> points, Vec3 toward);
 
   // Limits ranges of channels to points at most this far from the curve, where the nearest point changes continuously.
