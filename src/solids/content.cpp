@@ -58,10 +58,10 @@ struct Adder {
   void operator()(const Cube& v) const { w.add(v.size, v.centred); }
   void operator()(const Sphere& v) const { w.add(v.radius, v.fragments); }
   void operator()(const Cylinder& v) const { w.add(v.height, v.bottom_radius, v.top_radius, v.centred, v.fragments); }
-  void operator()(const Polyhedron& v) const { w.add(v.points, v.faces); }
+  void operator()(const Polyhedron& v) const { w.add(v.points, v.faces, v.wrong ? v.wrong->written : ""); }
   void operator()(const Square& v) const { w.add(v.size, v.centred); }
   void operator()(const Circle& v) const { w.add(v.radius, v.fragments); }
-  void operator()(const Polygon& v) const { w.add(v.points, v.paths); }
+  void operator()(const Polygon& v) const { w.add(v.points, v.paths, v.wrong ? v.wrong->written : ""); }
   void operator()(const Text& v) const {
     w.add(v.text, v.size, v.font, v.horizontal, v.vertical, v.direction, v.language, v.script, v.spacing, v.fragments);
   }

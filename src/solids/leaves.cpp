@@ -40,6 +40,7 @@ class Leaf {
   Pieces operator()(const Sphere& sphere) const { return piece_of(mesh_of(sphere)); }
   Pieces operator()(const Cylinder& cylinder) const { return piece_of(mesh_of(cylinder)); }
   Pieces operator()(const Polyhedron& polyhedron) const {
+    if (is_wrong(polyhedron)) return {{}};
     TriangleMesh mesh = mesh_of(polyhedron, tree_.where, messages());
     if (mesh.triangles.empty() || !is_finite(mesh)) return {{}};
     const auto solid = mended_solid(mesh, "the polyhedron", tree_.where, messages());
@@ -47,7 +48,9 @@ class Leaf {
   }
   Pieces operator()(const Square& square) const { return piece_of(rings_of(square)); }
   Pieces operator()(const Circle& circle) const { return piece_of(rings_of(circle)); }
-  Pieces operator()(const Polygon& polygon) const { return piece_of(rings_of(polygon, tree_.where, messages())); }
+  Pieces operator()(const Polygon& polygon) const {
+    return is_wrong(polygon) ? Pieces{{}} : piece_of(rings_of(polygon, tree_.where, messages()));
+  }
   Pieces operator()(const Text& text) const { return piece_of(region_of_text(text, tree_.where, messages())); }
   Pieces operator()(const Import& import) const {
     Pieces pieces = import_pieces(import, tree_.where, messages());
@@ -62,6 +65,12 @@ class Leaf {
 
  private:
   Diagnostics& messages() const { return *context_.messages; }
+
+  template <class Shape>
+  bool is_wrong(const Shape& shape) const {
+    if (shape.wrong) messages().warning(tree_.where, shape.wrong->message);
+    return shape.wrong.has_value();
+  }
 
   const Tree& tree_;
   const OperationContext& context_;

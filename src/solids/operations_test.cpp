@@ -1,5 +1,6 @@
 // Tests of the sizes of results, against mathematics, and against OpenSCAD 2021.01 where it decides how circles are
 // divided.
+#include <fstream>
 #include <numbers>
 #include <random>
 
@@ -41,6 +42,15 @@ TEST_F(Operations, Primitives) {
        {cube(0), cube(-1), sphere(0), node(Cylinder{-1, 1, 1, false, {}}), node(Cylinder{1, -1, 2, false, {}}),
         circle(-1), square(0, 1), node(Polyhedron{}), node(Polygon{})})
     EXPECT_TRUE(evaluated(empty).empty());
+}
+
+// As OpenSCAD 2021.01 does: the foot lies below the least of the given heights, and missing ones are 0.
+TEST_F(Operations, MissingHeightsDoNotLowerTheFoot) {
+  const std::string path = ::testing::TempDir() + "missing_heights.dat";
+  std::ofstream(path) << "9 6 7\n6 8\n5 3 2\n";
+  const Pieces pieces = evaluated(node(Surface{path, false, false}));
+  EXPECT_NEAR(volume_of(pieces[0].solid()->mesh()), 21.25, 1e-9);
+  EXPECT_EQ(bounds_of(pieces[0].solid()->mesh()).lo.z, 0);
 }
 
 TEST_F(Operations, FragmentsOfCircles) {
@@ -130,6 +140,8 @@ TEST_F(Operations, WrongPolyhedra) {
             "the polyhedron is inside out, in part or as a whole; it was turned");
   EXPECT_EQ(message({points, {{0, 1, 2, 9}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}),
             "Point index 9 is out of bounds (from faces[0][3])");
+  EXPECT_EQ(message({points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}, 1, WrongPoints{"no point", ""}}),
+            "no point");
 }
 
 // A prism with a base that crosses itself, 2 mm high.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <span>
 
 #include "base/text/error.h"
@@ -20,7 +21,8 @@ constexpr size_t most_heights = 4'000'000;
 
 struct Heights {
   size_t columns = 0, rows = 0, missing = 0;
-  std::vector<double> values;  // row by row, the first at y = 0
+  std::vector<double> values;                              // row by row, the first at y = 0; missing ones are 0
+  double least = std::numeric_limits<double>::infinity();  // of those that are given
 
   double at(size_t column, size_t row) const { return values[row * columns + column]; }
 };
@@ -35,6 +37,7 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
     std::vector<double>& row = rows.emplace_back();
     while (!scanner.at_line_end()) {
       row.push_back(scanner.coordinate("a height"));
+      heights.least = std::min(heights.least, row.back());
       if (++count > most_heights) scanner.fail_here("there are more than 4 million heights", "use a coarser grid");
     }
     heights.columns = std::max(heights.columns, row.size());
@@ -53,12 +56,13 @@ Heights heights_of_text(const std::string& path, const std::string& bytes, Diagn
 // Reads heights from 0 for black to 100 for white. If inverted, they are those of OpenSCAD 2021.01: 100/255 - height.
 Heights heights_of_picture(const std::string& path, const std::string& bytes, bool is_inverted) {
   const formats::PngImage image = formats::decode_png(bytes, path, most_heights);
-  Heights heights{image.width, image.height, 0, {}};
+  Heights heights{.columns = image.width, .rows = image.height, .values = {}};
   for (uint32_t row = image.height; row-- > 0;)
     for (uint32_t column = 0; column < image.width; ++column) {
       const formats::Rgba c = image.colour(column, row);
       const double level = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
       heights.values.push_back(100 * (is_inverted ? 1 - level : level) / 255);
+      heights.least = std::min(heights.least, heights.values.back());
     }
   return heights;
 }
@@ -71,7 +75,7 @@ class HeightMesh {
     if (is_centred)
       shift_ = {-0.5 * static_cast<double>(heights.columns - 1), -0.5 * static_cast<double>(heights.rows - 1)};
     // Like OpenSCAD, begins 1 mm below the least height, and at z = 0 if all heights are greater than 1 mm.
-    foot_ = std::min(*std::min_element(heights.values.begin(), heights.values.end()), 1.0) - 1;
+    foot_ = std::min(heights.least, 1.0) - 1;
   }
 
   TriangleMesh make() {
@@ -103,8 +107,8 @@ class HeightMesh {
     for (size_t n = 0; n < 4; ++n) mesh_.triangles.push_back({corners[n], corners[(n + 1) % 4], middle});
   }
 
-  // Adds one polygon for each side and two triangles below. Other solids often stand on the same plane, and
-  // intersections with few triangles are faster.
+  // Adds one polygon for each side and one below. Other solids often stand on the same plane, and intersections with
+  // few triangles are faster. Heights that are missing may be at the foot; there the polygons meet.
   void add_walls() {
     const size_t columns = heights_.columns, rows = heights_.rows;
     std::array<std::vector<uint32_t>, 4> sides;  // counter-clockwise as seen from above
@@ -116,26 +120,48 @@ class HeightMesh {
       sides[1].push_back(top(columns - 1, n));
       sides[3].push_back(top(0, rows - 1 - n));
     }
-    const auto first = static_cast<uint32_t>(mesh_.points.size());
-    for (const std::vector<uint32_t>& side : sides) {
-      const Vec3 p = mesh_.points[side.front()];
-      mesh_.points.push_back({p.x, p.y, foot_});
-    }
-    for (uint32_t n = 0; n < 4; ++n) add_wall(first + n, first + (n + 1) % 4, sides[n]);
-    mesh_.triangles.push_back({first, first + 2, first + 1});
-    mesh_.triangles.push_back({first, first + 3, first + 2});
+    std::array<uint32_t, 4> feet{};
+    for (size_t n = 0; n < 4; ++n) feet[n] = foot_below(sides[n].front());
+    std::vector<uint32_t> rim;
+    for (size_t n = 0; n < 4; ++n) add_side(sides[n], feet[n], feet[(n + 1) % 4], rim);
+    std::ranges::reverse(rim);
+    add_polygon(rim, [](const Vec3& p) { return Vec2{-p.x, p.y}; });
   }
 
-  // Adds the wall from one corner of the bottom to the next, below the points of a side.
-  void add_wall(uint32_t begin, uint32_t end, const std::vector<uint32_t>& side) {
-    std::vector<uint32_t> corners{begin, end};
-    corners.insert(corners.end(), side.rbegin(), side.rend());
-    const Vec3 from = mesh_.points[begin];
-    Ring ring;
-    for (const uint32_t corner : corners) {
-      const Vec3 p = mesh_.points[corner];
-      ring.push_back({std::abs(p.x - from.x) + std::abs(p.y - from.y), p.z});
+  bool is_at_foot(uint32_t point) const { return mesh_.points[point].z <= foot_; }
+
+  uint32_t foot_below(uint32_t point) {
+    if (is_at_foot(point)) return point;
+    const Vec3 p = mesh_.points[point];
+    mesh_.points.push_back({p.x, p.y, foot_});
+    return static_cast<uint32_t>(mesh_.points.size() - 1);
+  }
+
+  // Adds the walls below the points of a side, from one point at the foot to the next, which it also adds to the rim.
+  void add_side(const std::vector<uint32_t>& side, uint32_t begin, uint32_t end, std::vector<uint32_t>& rim) {
+    size_t from = 0;
+    for (size_t n = 1; n < side.size(); ++n) {
+      const bool is_last = n + 1 == side.size();
+      if (!is_last && !is_at_foot(side[n])) continue;
+      const uint32_t next = is_last ? end : side[n];
+      std::vector<uint32_t> corners{begin, next};
+      for (size_t above = n + 1; above-- > from;)
+        if (side[above] != begin && side[above] != next) corners.push_back(side[above]);
+      const Vec3 origin = mesh_.points[begin];
+      if (corners.size() > 2)
+        add_polygon(corners, [origin](const Vec3& p) {
+          return Vec2{std::abs(p.x - origin.x) + std::abs(p.y - origin.y), p.z};
+        });
+      rim.push_back(begin);
+      begin = next, from = n;
     }
+  }
+
+  // Adds the triangles of a polygon, which is counter-clockwise where `flat` maps it.
+  template <class Flat>
+  void add_polygon(const std::vector<uint32_t>& corners, const Flat& flat) {
+    Ring ring;
+    for (const uint32_t corner : corners) ring.push_back(flat(mesh_.points[corner]));
     for (const Triangle& t : kernel().triangulate(std::span(&ring, 1)).triangles)
       mesh_.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
   }

@@ -38,10 +38,16 @@ struct Cylinder {
   bool centred = false;
   Fragments fragments = {};
 };
+// A list of which an element is no point. Its solid is left out with a warning.
+struct WrongPoints {
+  std::string message, written;  // `written`: the list as the script has it
+};
+
 struct Polyhedron {
   std::vector<Vec3> points;
   std::vector<std::vector<size_t>> faces;  // clockwise when seen from outside, as in OpenSCAD
   int convexity = 1;
+  std::optional<WrongPoints> wrong = {};
 };
 
 // Leaves that are regions in the plane z = 0:
@@ -57,6 +63,7 @@ struct Polygon {
   std::vector<Vec2> points;
   std::vector<std::vector<size_t>> paths;  // empty: one path of all points
   int convexity = 1;
+  std::optional<WrongPoints> wrong = {};
 };
 struct Text {
   std::string text;

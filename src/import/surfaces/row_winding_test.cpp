@@ -183,9 +183,9 @@ TEST(RowWinding, AgreesWithSamplesExactlyWhereTheMapIsTheIdentity) {
   std::mt19937 random(2);
   const Lattice size{9, 9, 9};
 #ifdef OMBRE_SANITIZED
-  constexpr int turns = 50;  // each takes as long as 20 elsewhere
+  constexpr int turns = 30;  // each takes as long as 20 elsewhere
 #else
-  constexpr int turns = 300;
+  constexpr int turns = 100;
 #endif
   for (int turn = 0; turn < turns; ++turn) {
     const Mesh mesh = random_on_lattice(random, 8);

@@ -122,6 +122,9 @@ std::optional<compile::Plan> plan(const SliceChoices& a, Session& session, Diagn
   auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
   const compile::LoadedPtr loaded = options ? load_sliced(a, session, diagnostics) : nullptr;
   if (!loaded) return std::nullopt;
+  if (!options->printer.forbidden_neighbours.empty())
+    session.events.warn("slicing does not check which materials may be neighbours on " + options->printer.title +
+                        "; ombre check does");
   JobProgress progress(session.events);
   options->progress = &progress;
   auto plan = compile::plan_slice(loaded, *options, diagnostics);

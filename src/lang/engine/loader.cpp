@@ -45,7 +45,7 @@ class Loader {
 
   // Adds a file's statements to the unit, with the statements of included files in their places.
   void splice(const SourcePtr& source, Unit& into) {
-    open_.push_back(normal(source->name()));
+    open_.push_back(opened_as(source->name()));
     program_.files.push_back(parse_deferred(source, program_.names, dialect_, diagnostics_));
     const ast::File& file = program_.files.back();
     for (const ast::StatementPtr& statement : file.statements) {
@@ -72,7 +72,7 @@ class Loader {
         return;
       }
     }
-    if (!may_open(include, path)) return;
+    if (!may_open(include, dialect_ == Dialect::openscad ? source->name() : path)) return;
     if (!include.is_use) return splice(source, into);
     into.uses.push_back(&unit(source));
   }
@@ -96,6 +96,13 @@ class Loader {
     }
     diagnostics_.error(code, include.path_span.range(), message, hint);
     return false;
+  }
+
+  // Returns the path by which a file is known while it is being read. OpenSCAD compares paths as they are written, so
+  // "x.scad" and "./x.scad" are two files, and it forgets the first file of a unit.
+  std::string opened_as(const std::string& path) const {
+    if (dialect_ != Dialect::openscad) return normal(path);
+    return open_.size() == unit_begin_ ? "" : path;
   }
 
   // Returns the place of the file among those of the unit that are being read.

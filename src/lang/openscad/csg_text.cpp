@@ -58,7 +58,8 @@ class Head {
            ", center = " + truth_text(cylinder.centred) + ')';
   }
   std::string operator()(const solids::Polyhedron& solid) const {
-    return "polyhedron(points = " + list_text(solid.points, [this](Vec3 p) { return point(p); }) +
+    return "polyhedron(points = " +
+           (solid.wrong ? solid.wrong->written : list_text(solid.points, [this](Vec3 p) { return point(p); })) +
            ", faces = " + indices_text(solid.faces) + ", convexity = " + std::to_string(solid.convexity) + ')';
   }
   std::string operator()(const solids::Square& square) const {
@@ -68,7 +69,8 @@ class Head {
     return "circle(" + fragments(circle.fragments) + ", r = " + stream(circle.radius) + ')';
   }
   std::string operator()(const solids::Polygon& polygon) const {
-    const auto points = list_text(polygon.points, [this](Vec2 p) { return point(p); });
+    const auto points =
+        polygon.wrong ? polygon.wrong->written : list_text(polygon.points, [this](Vec2 p) { return point(p); });
     return "polygon(points = " + (polygon.points.empty() ? "undef" : points) +
            ", paths = " + (polygon.paths.empty() ? "undef" : indices_text(polygon.paths)) +
            ", convexity = " + std::to_string(polygon.convexity) + ')';

@@ -19,6 +19,7 @@ TreePtr import_file(ModuleCall& call) {
   result.path = call.complete_path(given_path(call));
   result.layer = call.text(call.has("layer") ? "layer" : "layername");
   result.id = call.text("id");
+  check_origin(call, "linear_extrude");  // OpenSCAD names this module
   if (const auto origin = numbers<2>(call["origin"])) result.origin = {(*origin)[0], (*origin)[1]};
   result.scale = call.number("scale", 1);
   if (!(result.scale > 0)) result.scale = 1;
@@ -47,6 +48,13 @@ TreePtr surface(ModuleCall& call) {
 }
 
 }  // namespace
+
+void check_origin(const ModuleCall& call, const std::string& module) {
+  const auto origin = numbers<2>(call["origin"]);
+  const bool is_pair = origin && std::isfinite((*origin)[0]) && std::isfinite((*origin)[1]);
+  if (call.has("origin") && !is_pair)
+    call.warn(module + "(..., origin=" + call.shown("origin") + ") could not be converted");
+}
 
 std::vector<Module> file_modules() {
   const std::vector<std::string_view> positional{"file", "layer", "convexity", "origin", "scale"};

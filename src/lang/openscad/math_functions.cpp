@@ -134,11 +134,11 @@ std::vector<NamedFunction> math_functions() {
   return {{"sin", common::of_number<sine>, 1, 1},
           {"sign", common::of_number<sign_of>, 1, 1},
           {"log", common::logarithm, 1, 2},
-          {"min", extreme<false>, 1},
-          {"max", extreme<true>, 1},
+          {"min", extreme<false>, 1, any_number, true},
+          {"max", extreme<true>, 1, any_number, true},
           {"norm", norm, 1, 1},
           {"cross", cross},
-          {"rands", rands, 3, 4}};
+          {"rands", rands, 3, 4, true}};
 }
 
 }  // namespace ombre::lang::openscad

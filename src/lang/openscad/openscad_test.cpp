@@ -115,15 +115,57 @@ TEST(Openscad, SeedsOfRandomNumbersAreRemaindersOfAPrime) {
             "WARNING: resetting number of results to 1\nECHO: [1.90062]\n");
 }
 
-TEST(Openscad, WrongPointsAndOriginsAreNamed) {
+// The messages are those of OpenSCAD 2021.01, which judges a scale only beside an origin, and names one module for
+// both.
+TEST(Openscad, WrongOriginsAreNamed) {
   const auto warned = [](const std::string& text) { return "WARNING: " + text + " in file t.scad, line 1\n"; };
-  EXPECT_EQ(run_text("polygon([[0, 0], [1, 0], [\"a\", 1]]);").lines,
-            warned("Unable to convert points[2] = [\"a\", 1] to a vec2 of numbers"));
-  EXPECT_EQ(run_text("polyhedron([[0, 0, 0], 5], [[0, 1, 1]]);").lines,
-            warned("Unable to convert points[1] = 5 to a vec3 of numbers"));
   EXPECT_EQ(run_text("rotate_extrude(origin = [1]) square();").lines,
             warned("rotate_extrude(..., origin=[1]) could not be converted"));
-  EXPECT_EQ(run_text("linear_extrude(2, origin = [1, 2]) square();").lines, "");
+  EXPECT_EQ(run_text("linear_extrude(2, origin = [1, 2], scale = 3) square();").lines, "");
+  EXPECT_EQ(run_text("linear_extrude(2, origin = [1, 2], scale = [3, 1 / 0]) square();").lines,
+            warned("linear_extrude(..., scale=[3, inf]) could not be converted"));
+  EXPECT_EQ(run_text("linear_extrude(2, origin = [1, 2, 3]) square();").lines,
+            warned("linear_extrude(..., origin=[1, 2, 3]) could not be converted") +
+                warned("linear_extrude(..., scale=undef) could not be converted"));
+  EXPECT_EQ(run_text("import(\"none.off\", origin = \"x\");").lines,
+            warned("linear_extrude(..., origin=\"x\") could not be converted"));
+}
+
+// As in OpenSCAD 2021.01, which reports wrong points when it makes the geometry, and leaves the solid out.
+TEST(Openscad, SolidsKeepWrongPointsAsTheyAreWritten) {
+  const Said said = run_text("polygon([[0, 0], [1, 0], [\"a\", 1], 7]); polyhedron([[0, 0, 0], 5], [[0, 1, 1]]);");
+  EXPECT_EQ(said.lines, "");
+  EXPECT_NE(said.tree.find("polygon(points = [[0, 0], [1, 0], [\"a\", 1], 7], paths"), std::string::npos) << said.tree;
+  EXPECT_NE(said.tree.find("polyhedron(points = [[0, 0, 0], 5], faces"), std::string::npos) << said.tree;
+}
+
+TEST(Openscad, ArgumentsAfterOneThatIsNoNumberAreNotEvaluated) {
+  const auto unknown = [](const char* name) {
+    return std::string("WARNING: Ignoring unknown variable '") + name + "' in file t.scad, line 1\n";
+  };
+  EXPECT_EQ(run_text("a = rands(v[0], w, x);").lines, unknown("v"));
+  EXPECT_EQ(run_text("a = rands(1, \"a\", x);").lines, "");
+  EXPECT_EQ(run_text("a = max(1, v, w);").lines,
+            unknown("v") + "WARNING: max() parameter could not be converted in file t.scad, line 1\n");
+  EXPECT_EQ(run_text("a = atan2(v, w);").lines,
+            unknown("v") + unknown("w") + "WARNING: atan2() parameter could not be converted in file t.scad, line 1\n");
+}
+
+TEST(Openscad, VariablesOfTheViewAreJudged) {
+  EXPECT_EQ(run_text("$vpr = \"[1,2,3]\"; $vpt = [1, 2, 3, 4]; $vpd = [1];").lines,
+            "WARNING: Unable to convert $vpr=\"[1,2,3]\" to a vec3 or vec2 of numbers\n"
+            "WARNING: Unable to convert $vpt=[1, 2, 3, 4] to a vec3 or vec2 of numbers\n"
+            "WARNING: Unable to convert $vpd=[1] to a number\n");
+  EXPECT_EQ(run_text("$vpr = [1, 2]; $vpf = undef;").lines,
+            "WARNING: Viewall and autocenter disabled in favor of $vp*\n");
+}
+
+TEST(Openscad, NumbersOfChildrenAreIntegersOf32Bits) {
+  EXPECT_EQ(run_text("module m() children(1 / 0); m() cube();").lines,
+            "WARNING: Negative children index (-2147483648) not allowed\n");
+  EXPECT_EQ(run_text("child(-1); child(3);").lines,
+            "DEPRECATED: child() will be removed in future releases. Use children() instead.\n"
+            "WARNING: Negative child index (-1) not allowed in file t.scad, line 1\n");
 }
 
 TEST(Openscad, AMessageIsNotRepeatedMoreThanFiveTimes) {

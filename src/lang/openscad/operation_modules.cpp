@@ -1,6 +1,7 @@
 // Operations on children: groups, booleans, hulls, extrusions.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/vectors.h"
@@ -49,17 +50,19 @@ TreePtr projection(ModuleCall& call) {
   return call.with_children(solids::Projection{call.flag("cut", false), whole(call.number("convexity", 0))});
 }
 
-// Warns of an `origin` that is no pair of finite numbers; it counts for files alone.
-void check_origin(const ModuleCall& call) {
-  const auto origin = numbers<2>(call["origin"]);
-  const bool is_pair = origin && std::isfinite((*origin)[0]) && std::isfinite((*origin)[1]);
-  if (call.has("origin") && !is_pair)
-    call.warn(call.name() + "(..., origin=" + call.shown("origin") + ") could not be converted");
+// Warns of an `origin` and a `scale` that are no finite numbers. As in OpenSCAD, the scale is judged beside an origin
+// alone.
+void check_numbers(const ModuleCall& call) {
+  if (!call.has("origin")) return;
+  check_origin(call, call.name());
+  const auto each = numbers<2>(call["scale"]);
+  const bool is_pair = each && std::isfinite((*each)[0]) && std::isfinite((*each)[1]);
+  if (!is_pair && !std::isfinite(call.number("scale", std::numeric_limits<double>::quiet_NaN())))
+    call.warn(call.name() + "(..., scale=" + call.shown("scale") + ") could not be converted");
 }
 
 // Extrudes the children, or the area in a file, which older scripts name instead of a child.
 TreePtr extruded(ModuleCall& call, solids::Operation operation) {
-  check_origin(call);
   if (!call["file"].text()) return call.with_children(std::move(operation));
   const std::string name = call.name().starts_with("dxf_") ? call.name().substr(4) : call.name();
   call.deprecate("Support for reading files in " + name +
@@ -96,6 +99,7 @@ TreePtr linear_extrude(ModuleCall& call) {
     result.slices = whole(*slices);
   if (const auto segments = call.number("segments")) result.segments = std::max(0, whole(*segments));
   result.convexity = std::max(1, whole(call.number("convexity", 1)));
+  check_numbers(call);
   return extruded(call, result);
 }
 
@@ -106,6 +110,7 @@ TreePtr rotate_extrude(ModuleCall& call) {
   if (std::isfinite(angle) && std::abs(angle) <= 360) result.angle = angle;
   result.start = call.number("start");
   result.convexity = std::max(2, whole(call.number("convexity", 2)));
+  check_origin(call, call.name());
   return extruded(call, result);
 }
 

@@ -3,7 +3,6 @@
 #include <pthread.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -123,14 +122,6 @@ std::optional<Program> load_script(const SourcePtr& source, const Options& optio
   return program;
 }
 
-// True if the script sets its own view.
-bool sets_view(const Program& program) {
-  const ast::Plan& plan = program.units.front().plan;
-  return std::ranges::any_of(std::array{"$vpr", "$vpt", "$vpd", "$vpf"}, [&](const char* name) {
-    return program.names->contains(name) && plan.assigns(program.names->intern(name));
-  });
-}
-
 void add_imports(const solids::Tree& tree, std::vector<std::string>& files) {
   if (const auto* file = std::get_if<solids::Import>(&tree.operation)) files.push_back(file->path);
   if (const auto* file = std::get_if<solids::Surface>(&tree.operation)) files.push_back(file->path);
@@ -154,8 +145,7 @@ Outcome run_with_files(const SourcePtr& source, const Options& options, Messages
     if (!program) return;
     Evaluator evaluator(*program, options, messages);
     outcome.tree = evaluator.run();
-    if (outcome.tree && sets_view(*program))
-      messages.add({Message::Kind::warning, "Viewall and autocenter disabled in favor of $vp*", "", 0});
+    if (outcome.tree) evaluator.check_view();
     for (const ast::File& file : program->files) outcome.files.push_back((*file.source)->name());
     outcome.files.insert(outcome.files.end(), evaluator.read_files().begin(), evaluator.read_files().end());
     if (outcome.tree) add_imports(*outcome.tree, outcome.files);

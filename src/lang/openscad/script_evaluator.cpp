@@ -1,9 +1,11 @@
 #include "lang/openscad/script_evaluator.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "lang/openscad/value_text.h"
+#include "lang/openscad/vectors.h"
 
 namespace ombre::lang::openscad {
 
@@ -68,6 +70,23 @@ solids::TreePtr Evaluator::run() {
     say(Message::Kind::error, limit.message + (limit.hint.empty() ? "" : "; " + limit.hint), at_, Code::limit);
   }
   return nullptr;
+}
+
+void Evaluator::check_view() {
+  const ast::Plan& plan = program_.units.front().plan;
+  bool sets_view = false;
+  for (const auto& [name, is_vector] : std::array{std::pair{"$vpr", true}, std::pair{"$vpt", true},
+                                                  std::pair{"$vpd", false}, std::pair{"$vpf", false}}) {
+    const Value* value = plan.assigns(symbol(name)) ? find_special(symbol(name)) : nullptr;
+    if (!value || value->is_undef()) continue;
+    if (is_vector ? vector3(*value, 0).has_value() : value->number() != nullptr)
+      sets_view = true;
+    else
+      warn(std::string("Unable to convert ") + name + '=' + value_text(*value, true, meter_) +
+               (is_vector ? " to a vec3 or vec2 of numbers" : " to a number"),
+           {});
+  }
+  if (sets_view) warn("Viewall and autocenter disabled in favor of $vp*", {});
 }
 
 // Collects the marked trees, parents before their children. The first one counts.

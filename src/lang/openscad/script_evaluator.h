@@ -74,6 +74,9 @@ struct Module {
   bool warns_of_children = false;
 };
 
+// Warns of an `origin` that is no pair of finite numbers; it counts for files alone.
+void check_origin(const ModuleCall& call, const std::string& module);
+
 std::vector<Module> shape_modules();
 std::vector<Module> plane_modules();
 std::vector<Module> transform_modules();
@@ -85,6 +88,8 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   Evaluator(const Program& program, const Options& options, Messages& messages);
   // Returns the group of all nodes, or the node marked "!"; null after an error.
   solids::TreePtr run();
+  // Warns of variables of the view that the script has set, after a run.
+  void check_view();
   const std::vector<std::string>& read_files() const { return read_files_; }  // those that functions have read
 
  private:

@@ -79,7 +79,11 @@ Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
   const bool is_count_right = count >= found->second.least && count <= found->second.most;
   std::vector<Value> arguments;
   arguments.reserve(count);
-  for (size_t n = 0; is_count_right && n < count; ++n) arguments.push_back(eval(*call.arguments[n].value, scope));
+  bool goes_on = is_count_right;
+  for (size_t n = 0; is_count_right && n < count; ++n) {
+    arguments.push_back(goes_on ? eval(*call.arguments[n].value, scope) : Value());
+    goes_on = !found->second.wants_numbers || (goes_on && arguments.back().number());
+  }
   at_ = call.span;
   if (auto made = result_of_objects(found->second.name, arguments)) return *made;
   Problems problems;

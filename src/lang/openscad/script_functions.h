@@ -62,6 +62,7 @@ struct NamedFunction {
   const char* name;
   Function call;
   size_t least = 0, most = any_number;  // numbers of arguments
+  bool wants_numbers = false;           // as in OpenSCAD, arguments after one that is no number are not evaluated
 };
 
 std::vector<NamedFunction> math_functions();

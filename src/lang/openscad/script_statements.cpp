@@ -1,4 +1,7 @@
 // Statements of OpenSCAD scripts, which make trees.
+#include <cmath>
+#include <limits>
+
 #include "lang/engine/evaluation_loops.h"
 #include "lang/engine/parser.h"
 #include "lang/openscad/ranges.h"
@@ -162,17 +165,19 @@ void Evaluator::set_counts(const CallStatement& statement, Scope& inner, size_t 
 std::optional<size_t> Evaluator::chosen_child(const CallStatement& statement, const Value& index, size_t count) {
   const double* number = index.number();
   if (!number) return std::nullopt;
-  const double place = std::trunc(*number);
-  const std::string shown = number_text(place);
+  // OpenSCAD's integers have 32 bits; what does not fit becomes the least one.
+  constexpr int least = std::numeric_limits<int>::min();
+  const int place = std::abs(*number) < -static_cast<double>(least) ? static_cast<int>(*number) : least;
+  const std::string shown = std::to_string(place);
   // OpenSCAD gives places for child() alone.
   const bool is_old = statement.name.symbol == child_name_;
   const std::string which = is_old ? "hild" : "hildren";
   const ast::Span where = is_old ? statement.span : ast::Span{};
   if (place < 0)
     warn("Negative c" + which + " index (" + shown + ") not allowed", where);
-  else if (place >= static_cast<double>(count))
+  else if (static_cast<size_t>(place) >= count)
     warn('C' + which + " index (" + shown + ") out of bounds (" + std::to_string(count) + " children)", where);
-  else if (!std::isnan(place))
+  else
     return static_cast<size_t>(place);
   return std::nullopt;
 }
@@ -185,7 +190,12 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
     messages_.add(
         {Message::Kind::deprecated, "child() will be removed in future releases. Use children() instead.", "", 0});
   const Children* children = scope->children();
-  if (!children) return nullptr;
+  if (!children) {
+    // As in OpenSCAD, a wrong number is reported outside modules, too, if it is negative.
+    const Value index = is_old && !statement.arguments.empty() ? eval(*statement.arguments[0].value, scope) : Value();
+    if (index.number() && *index.number() <= -1) (void)chosen_child(statement, index, 0);
+    return nullptr;
+  }
   meter_.count_call();
   const ast::Plan& plan = children->block->plan;
   auto result = tree(solids::Group{}, statement.span);

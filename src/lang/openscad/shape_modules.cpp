@@ -68,15 +68,17 @@ std::vector<std::vector<size_t>> index_lists(const Value& value) {
   return lists;
 }
 
-// Reads points of two or three coordinates. Those of other kinds become the origin, with a warning.
-std::vector<Vec3> points_of(const ModuleCall& call, const std::string& kind) {
+// Reads points of two or three coordinates.
+std::vector<Vec3> points_of(const ModuleCall& call, const std::string& kind,
+                            std::optional<solids::WrongPoints>& wrong) {
   std::vector<Vec3> points;
   if (!call["points"].list()) return points;
   for (const Value& item : call["points"].list()->items) {
     const auto point = vector3(item, 0);
-    if (!point)
-      call.warn("Unable to convert points[" + std::to_string(points.size()) + "] = " + call.shown_value(item) +
-                " to a " + kind + " of numbers");
+    if (!point && !wrong)
+      wrong = {"Unable to convert points[" + std::to_string(points.size()) + "] = " + call.shown_value(item) +
+                   " to a " + kind + " of numbers",
+               call.shown("points")};
     points.push_back(point.value_or(Vec3{}));
   }
   return points;
@@ -85,7 +87,7 @@ std::vector<Vec3> points_of(const ModuleCall& call, const std::string& kind) {
 TreePtr polyhedron(ModuleCall& call) {
   solids::Polyhedron result;
   (void)call.checked_fragments();
-  result.points = points_of(call, "vec3");
+  result.points = points_of(call, "vec3", result.wrong);
   const bool is_old = call.has("triangles") && !call.has("faces");
   if (is_old)
     call.deprecate("polyhedron(triangles=[]) will be removed in future releases. Use polyhedron(faces=[]) instead.");
@@ -114,7 +116,7 @@ TreePtr square(ModuleCall& call) {
 TreePtr polygon(ModuleCall& call) {
   solids::Polygon result;
   (void)call.checked_fragments();
-  for (const Vec3 point : points_of(call, "vec2")) result.points.push_back({point.x, point.y});
+  for (const Vec3 point : points_of(call, "vec2", result.wrong)) result.points.push_back({point.x, point.y});
   result.paths = index_lists(call["paths"]);
   result.convexity = whole(call.number("convexity", 1));
   return call.node(std::move(result));

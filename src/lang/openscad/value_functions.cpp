@@ -207,7 +207,7 @@ std::vector<NamedFunction> value_functions() {
   return {{"str", str},
           {"chr", chr},
           {"ord", ord},
-          {"lookup", lookup, 2, 2},
+          {"lookup", lookup, 2, 2, true},
           {"search", search, 2, 4},
           {"version", version},
           {"version_num", version_num},

@@ -1,0 +1,34 @@
+// Runs the checks of a job over its layers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jobs/printable/flag_pieces.h"
+#include "jobs/printable/print_checks.h"
+#include "jobs/slice/plan.h"
+
+namespace ombre::compile {
+
+struct PrintFinding {
+  std::string kind, text, remedy;
+  bool is_error = false;
+  FlagPieces pieces;  // boxes are in voxels of the job
+  int64_t layer = 0;  // the layer with the most marks, and its marks; empty if marks are more than what is found
+  BitLayer marks;
+};
+
+struct CheckRun {
+  int threads = 0;
+  size_t memory_bytes = size_t{2} << 30;
+  Progress* progress = nullptr;
+  const StopFlag* stop = nullptr;
+};
+
+// Returns what the checks find, errors first; the plan's stages must be prepared. The result depends on neither threads
+// nor memory. Throws Cancelled.
+std::vector<PrintFinding> run_print_checks(const Plan& plan, const std::vector<PrintCheck>& checks,
+                                           const CheckRun& run);
+
+}  // namespace ombre::compile

@@ -1,0 +1,22 @@
+// Reports what checks of a job find.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "jobs/common/events.h"
+#include "jobs/printable/print_check.h"
+
+namespace ombre::jobs {
+
+struct CheckedPart {
+  std::string design, printer;
+  std::vector<compile::PrintFinding> findings;
+  std::vector<std::string> unchecked;  // what was not looked at, a sentence each
+};
+
+void tell_findings(const Events& events, const CheckedPart& part, const voxel::Lattice& lattice);
+// Returns a page in HTML with a picture of each finding.
+std::string findings_page(const CheckedPart& part, const compile::Plan& plan, const StopFlag* stop);
+
+}  // namespace ombre::jobs
