@@ -80,6 +80,18 @@ draw_difference() {
   "$ombre" verify "$scratch/knob" --design examples/knob.vcad -D skin=2 --report "$scratch/knob.html" --force >/dev/null || true
   grep -o 'base64,[^"]*' "$scratch/knob.html" | sed -n 's/base64,//; 9p' | base64 -d >docs/user/checking_layer.png
   echo docs/user/checking_layer.png
+  cat >"$scratch/box.vcad" <<'END'
+union() {
+  difference() {
+    rectprism((20, 12, 8), "clear");
+    translate(7.9, 0, 0) rectprism((0.15, 9, 20), "clear");
+  }
+  translate(0, 0, 5) rectprism((16, 0.15, 3), "clear");
+}
+END
+  "$ombre" check "$scratch/box.vcad" --voxel 0.05 --details 0.21 --report "$scratch/check.html" >/dev/null || true
+  grep -o 'base64,[^"]*' "$scratch/check.html" | sed -n 's/base64,//; 2p' | base64 -d >docs/user/checking_thin.png
+  echo docs/user/checking_thin.png
 }
 
 # A seat solved soft, and graded by what moved.

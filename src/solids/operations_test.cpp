@@ -44,7 +44,7 @@ TEST_F(Operations, Primitives) {
     EXPECT_TRUE(evaluated(empty).empty());
 }
 
-// As OpenSCAD 2021.01 does: the foot lies below the least of the given heights, and missing ones are 0.
+// The foot lies below the least of the given heights, and missing ones are 0, as in OpenSCAD 2021.01.
 TEST_F(Operations, MissingHeightsDoNotLowerTheFoot) {
   const std::string path = ::testing::TempDir() + "missing_heights.dat";
   std::ofstream(path) << "9 6 7\n6 8\n5 3 2\n";

@@ -11,6 +11,14 @@ namespace {
 
 constexpr double rounding = 1e-6;  // of a voxel
 
+void add_row(uint64_t* to, const uint64_t* from, int64_t words) {
+  for (int64_t w = 0; w < words; ++w) to[w] |= from[w];
+}
+
+bool is_empty(const uint64_t* row, int64_t words) {
+  return std::all_of(row, row + words, [](uint64_t word) { return word == 0; });
+}
+
 // Adds the bits of a row to another, moved to the right, which is to greater x, or to the left if `shift` is negative.
 void add_shifted(uint64_t* to, const uint64_t* from, int64_t words, int64_t shift) {
   const int64_t whole = (shift >= 0 ? shift : shift - 63) / 64, part = shift - 64 * whole;
@@ -36,7 +44,7 @@ void add_spread(uint64_t* to, std::vector<uint64_t> row, int64_t most, int64_t d
     row.swap(wider);
     held += step;
   }
-  add_shifted(to, row.data(), words, 0);
+  add_row(to, row.data(), words);
 }
 
 // Returns the layer, each row dilated by a span along x that contains 0.
@@ -44,8 +52,8 @@ BitLayer spread_along_x(const BitLayer& layer, int64_t from, int64_t to) {
   BitLayer spread(layer.width(), layer.height());
   const int64_t words = layer.words();
   for (int64_t j = 0; j < layer.height(); ++j) {
+    if (is_empty(layer.row(j), words)) continue;
     const std::vector<uint64_t> row(layer.row(j), layer.row(j) + words);
-    if (std::ranges::all_of(row, [](uint64_t word) { return word == 0; })) continue;
     add_spread(spread.row(j), row, to, 1);
     add_spread(spread.row(j), row, -from, -1);
     spread.row(j)[words - 1] &= last_word_mask(layer.width());
@@ -160,6 +168,7 @@ BitLayers dilated(const BitLayers& region, const Offsets& offsets, int64_t begin
   if (region.layers.empty()) return made;
   const int64_t width = region.layers.front().width(), height = region.layers.front().height();
   made.layers.assign(static_cast<size_t>(end - begin), BitLayer(width, height));
+  // Spans of the same extent along x share the rows that are spread by it.
   std::map<std::pair<int64_t, int64_t>, std::vector<OffsetSpan>> by_extent;
   for (const OffsetSpan& span : offsets.spans) by_extent[{span.from, span.to}].push_back(span);
   for (int64_t source = region.first; source < region.end(); ++source)
@@ -167,11 +176,12 @@ BitLayers dilated(const BitLayers& region, const Offsets& offsets, int64_t begin
       const auto lands = [&](const OffsetSpan& span) { return source + span.k >= begin && source + span.k < end; };
       if (std::ranges::none_of(spans, lands)) continue;
       const BitLayer spread = spread_along_x(region.at(source), extent.first, extent.second);
-      for (const OffsetSpan& span : spans) {
-        if (!lands(span)) continue;
-        BitLayer& to = made.layers[static_cast<size_t>(source + span.k - begin)];
-        for (int64_t j = std::max<int64_t>(0, -span.j); j < std::min(height, height - span.j); ++j)
-          add_shifted(to.row(j + span.j), spread.row(j), spread.words(), 0);
+      for (int64_t j = 0; j < height; ++j) {
+        if (is_empty(spread.row(j), spread.words())) continue;
+        for (const OffsetSpan& span : spans)
+          if (lands(span) && j + span.j >= 0 && j + span.j < height)
+            add_row(made.layers[static_cast<size_t>(source + span.k - begin)].row(j + span.j), spread.row(j),
+                    spread.words());
       }
     }
   return made;

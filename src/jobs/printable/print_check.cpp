@@ -29,7 +29,7 @@ class CheckedJob {
     std::ranges::sort(materials_);
     materials_.erase(std::unique(materials_.begin(), materials_.end()), materials_.end());
     findings_.resize(checks.size());
-    most_marked_.resize(checks.size());
+    most_flagged_.resize(checks.size());
     first_ = -margin();
   }
 
@@ -82,14 +82,14 @@ class CheckedJob {
       const auto& voxels = std::get<RunLayer>(layer.channels.front());
       for (int64_t j = 0; j < count_[1]; ++j) {
         voxels.row(static_cast<uint32_t>(j)).unpack(row.data());
-        mark_row(row, j + margin(), flags);
+        flag_row(row, j + margin(), flags);
       }
       result.push_back(std::move(flags));
     }
     return result;
   }
 
-  void mark_row(const std::vector<MaterialId>& row, int64_t j, LayerFlags& flags) const {
+  void flag_row(const std::vector<MaterialId>& row, int64_t j, LayerFlags& flags) const {
     for (size_t i = 0; i < row.size();) {
       size_t end = i + 1;
       while (end < row.size() && row[end] == row[i]) ++end;
@@ -123,15 +123,15 @@ class CheckedJob {
   }
 
   void check(size_t n, const SolidLayers& layers, int64_t begin, int64_t end) {
-    BitLayers marks = checks_[n].marks(layers, begin, end);
+    BitLayers flags = checks_[n].flags(layers, begin, end);
     for (int64_t k = begin; k < end; ++k) {
-      const BitLayer& layer = marks.at(k);
+      const BitLayer& layer = flags.at(k);
       finders_[n].add(k, layer);
-      const uint64_t marked = checks_[n].found == FoundPieces::all && k >= 0 && k < count_[2] ? layer.count() : 0;
-      if (marked <= most_marked_[n]) continue;
-      most_marked_[n] = marked;
+      const uint64_t flagged = checks_[n].found == FoundPieces::all && k >= 0 && k < count_[2] ? layer.count() : 0;
+      if (flagged <= most_flagged_[n]) continue;
+      most_flagged_[n] = flagged;
       findings_[n].layer = k;
-      findings_[n].marks = layer;
+      findings_[n].flags = layer;
     }
   }
 
@@ -154,18 +154,18 @@ class CheckedJob {
         }
       finding.kind = checks_[n].kind, finding.text = checks_[n].text, finding.remedy = checks_[n].remedy;
       finding.is_error = checks_[n].is_error;
-      if (finding.marks.height() > 0) finding.marks = without_margin(finding.marks);
+      if (finding.flags.height() > 0) finding.flags = without_margin(finding.flags);
       found.push_back(std::move(finding));
     }
     std::stable_partition(found.begin(), found.end(), [](const PrintFinding& finding) { return finding.is_error; });
     return found;
   }
 
-  BitLayer without_margin(const BitLayer& marks) const {
+  BitLayer without_margin(const BitLayer& flags) const {
     BitLayer inner(count_[0], count_[1]);
     for (int64_t j = 0; j < count_[1]; ++j)
       for (int64_t i = 0; i < count_[0]; ++i)
-        if (marks.get(i + margin(), j + margin())) inner.set(i, j);
+        if (flags.get(i + margin(), j + margin())) inner.set(i, j);
     return inner;
   }
 
@@ -179,7 +179,7 @@ class CheckedJob {
   int64_t first_ = 0;  // number of the first waiting layer
   std::vector<FlagPieceFinder> finders_;
   std::vector<PrintFinding> findings_;
-  std::vector<uint64_t> most_marked_;
+  std::vector<uint64_t> most_flagged_;
 };
 
 }  // namespace

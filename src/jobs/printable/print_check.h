@@ -15,8 +15,8 @@ struct PrintFinding {
   std::string kind, text, remedy;
   bool is_error = false;
   FlagPieces pieces;  // boxes are in voxels of the job
-  int64_t layer = 0;  // the layer with the most marks, and its marks; empty if marks are more than what is found
-  BitLayer marks;
+  int64_t layer = 0;  // the layer with the most flags, and its flags; empty if flags are more than what is found
+  BitLayer flags;
 };
 
 struct CheckRun {

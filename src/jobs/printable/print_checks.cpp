@@ -20,11 +20,12 @@ PrintCheck thin_check(const std::string& of, double limit_mm, bool fails, Vec3 v
                       std::function<const BitLayers&(const SolidLayers&)> region) {
   PrintCheck check;
   check.kind = "thin";
-  check.text = "walls and details " + of + "thinner than " + mm(limit_mm) + (fails ? ", which fail" : ", which distort");
+  check.text =
+      "walls and details " + of + "thinner than " + mm(limit_mm) + (fails ? ", which fail" : ", which distort");
   check.remedy = "make them thicker, or remove them by opening(" + format_rounded(limit_mm / 2) + ")";
   check.is_error = fails;
   check.reach = reach_of_thin_places(limit_mm, voxel_mm);
-  check.marks = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
+  check.flags = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
     return thin_places(region(layers), limit_mm, voxel_mm, begin, end);
   };
   return check;
@@ -37,7 +38,7 @@ PrintCheck gap_check(double limit_mm, bool fails, Vec3 voxel_mm) {
   check.remedy = "make them wider, or fill them by closing(" + format_rounded(limit_mm / 2) + ")";
   check.is_error = fails;
   check.reach = reach_of_thin_places(limit_mm, voxel_mm);
-  check.marks = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
+  check.flags = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
     BitLayers empty = layers.solid;
     for (BitLayer& layer : empty.layers) layer.invert();
     return thin_places(empty, limit_mm, voxel_mm, begin, end);
@@ -45,8 +46,7 @@ PrintCheck gap_check(double limit_mm, bool fails, Vec3 voxel_mm) {
   return check;
 }
 
-PrintCheck neighbour_check(const voxel::ForbiddenNeighbour& rule, MaterialId material, MaterialId near,
-                           Vec3 voxel_mm) {
+PrintCheck neighbour_check(const voxel::ForbiddenNeighbour& rule, MaterialId material, MaterialId near, Vec3 voxel_mm) {
   const Offsets offsets = offsets_nearer(rule.within_mm, voxel_mm);
   PrintCheck check;
   check.kind = "neighbour";
@@ -56,21 +56,20 @@ PrintCheck neighbour_check(const voxel::ForbiddenNeighbour& rule, MaterialId mat
   check.reach = offsets.reach();
   check.materials = {material};
   if (near != 0) check.materials.push_back(near);
-  check.marks = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
+  check.flags = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
     BitLayers other = near == 0 ? layers.solid : layers.of_material.at(near);
     if (near == 0)
       for (BitLayer& layer : other.layers) layer.invert();
-    BitLayers marks = dilated(other, offsets, begin, end);
+    BitLayers flags = dilated(other, offsets, begin, end);
     for (int64_t k = begin; k < end; ++k)
-      marks.layers[static_cast<size_t>(k - begin)] &= layers.of_material.at(material).at(k);
-    return marks;
+      flags.layers[static_cast<size_t>(k - begin)] &= layers.of_material.at(material).at(k);
+    return flags;
   };
   return check;
 }
 
 BitLayers part(const BitLayers& region, int64_t begin, int64_t end) {
-  return {begin,
-          {region.layers.begin() + (begin - region.first), region.layers.begin() + (end - region.first)}};
+  return {begin, {region.layers.begin() + (begin - region.first), region.layers.begin() + (end - region.first)}};
 }
 
 PrintCheck bodies_check() {
@@ -79,7 +78,7 @@ PrintCheck bodies_check() {
   check.found = FoundPieces::but_largest;
   check.text = "bodies that do not touch the largest one";
   check.remedy = "join them to it, or remove them, if they are not meant";
-  check.marks = [](const SolidLayers& layers, int64_t begin, int64_t end) { return part(layers.solid, begin, end); };
+  check.flags = [](const SolidLayers& layers, int64_t begin, int64_t end) { return part(layers.solid, begin, end); };
   return check;
 }
 
@@ -89,7 +88,7 @@ PrintCheck hollow_check() {
   check.found = FoundPieces::enclosed;
   check.text = "closed hollows, in which support, resin or powder stays";
   check.remedy = "fill them, or give them a drain";
-  check.marks = [](const SolidLayers& layers, int64_t begin, int64_t end) {
+  check.flags = [](const SolidLayers& layers, int64_t begin, int64_t end) {
     BitLayers empty = part(layers.solid, begin, end);
     for (BitLayer& layer : empty.layers) layer.invert();
     return empty;

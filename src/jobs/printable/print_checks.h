@@ -19,11 +19,11 @@ struct SolidLayers {
   std::map<MaterialId, BitLayers> of_material;  // of those that checks read
 };
 
-// Which connected pieces of the marks a check finds: all, those that void outside the part does not reach, or all but
-// the largest.
+// A check finds all connected pieces of its flags, those that void outside the part does not reach, or all but the
+// largest.
 enum class FoundPieces : uint8_t { all, enclosed, but_largest };
 
-// One check. It marks voxels that the process does not make as they are meant.
+// One check. It flags voxels that the process does not make as they are meant.
 struct PrintCheck {
   std::string kind;    // a word for programs: "thin", "gap", "neighbour", "hollow", "bodies"
   std::string text;    // "walls and details thinner than 0.21 mm, which fail"
@@ -32,8 +32,8 @@ struct PrintCheck {
   FoundPieces found = FoundPieces::all;
   int64_t reach = 0;  // how far from a voxel it reads, in voxels
   std::vector<MaterialId> materials = {};
-  // Returns the marks of layers [begin, end). The layers that are given reach beyond them.
-  std::function<BitLayers(const SolidLayers& layers, int64_t begin, int64_t end)> marks;
+  // Returns the flags of layers [begin, end). The layers that are given reach beyond them.
+  std::function<BitLayers(const SolidLayers& layers, int64_t begin, int64_t end)> flags;
 };
 
 struct CheckLimits {

@@ -64,17 +64,17 @@ std::string picture(const PrintFinding& finding, const compile::Plan& plan, cons
   const auto& runs = std::get<RunLayer>(layers.front().channels.front());
   const auto width = static_cast<size_t>(count[0]), height = static_cast<size_t>(count[1]);
   std::vector<MaterialId> voxels(width * height);
-  std::vector<uint8_t> marks(width * height);
+  std::vector<uint8_t> flags(width * height);
   for (size_t j = 0; j < height; ++j) {
     runs.row(static_cast<uint32_t>(j)).unpack(voxels.data() + j * width);
     for (size_t i = 0; i < width; ++i)
-      marks[j * width + i] = finding.marks.get(static_cast<int64_t>(i), static_cast<int64_t>(j)) ? 1 : 0;
+      flags[j * width + i] = finding.flags.get(static_cast<int64_t>(i), static_cast<int64_t>(j)) ? 1 : 0;
   }
   const auto colour = [&](size_t voxel) {
     const auto material = std::ranges::find(request.materials, voxels[voxel], &compile::SliceMaterial::id);
     return material == request.materials.end() ? formats::Rgba{0, 0, 0, 0} : material->rgba;
   };
-  return compile::marked_layer(request.lattice, colour, marks);
+  return compile::marked_layer(request.lattice, colour, flags);
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::string findings_page(const CheckedPart& part, const compile::Plan& plan, co
       lines.push_back(format_rounded(volume_mm3(piece.voxels, plan.request.lattice)) + " mm3 " +
                       extent(piece, plan.request.lattice));
     page.add_list("Places", lines);
-    if (finding.marks.height() > 0)
+    if (finding.flags.height() > 0)
       page.add_picture("layer " + std::to_string(finding.layer), picture(finding, plan, stop));
   }
   page.add_list("Not checked", part.unchecked);
