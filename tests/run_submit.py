@@ -166,7 +166,7 @@ def slow_process_of_mpi(folder):
     """The others take the shares of a process that stands still."""
     if is_missing("mpirun"):
         return is_missing("mpirun")
-    if "ombre_mpi" not in {path.stem.removeprefix("lib") for path in folder.ombre.parents[2].glob("modules/*.so")}:
+    if "ombre_mpi_counter" not in {path.stem.removeprefix("lib") for path in folder.ombre.parents[2].glob("modules/*.so")}:
         return "skipped: this ombre was built without MPI"
     begin_slow(folder, 16)
     process = mpirun(folder, 2)

@@ -64,7 +64,7 @@ struct SweepChoices {
   }
 };
 
-// What a case's job says: its numbers, and its first error.
+// Collects what the job of a case says: its numbers, and its first error.
 class Said {
  public:
   void take(const DataMembers& event) {

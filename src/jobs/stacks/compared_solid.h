@@ -44,7 +44,7 @@ struct ComparedSolid {
 std::optional<ComparedSolid> compared_solid(const ComparedSource& source, const CommonLattice& common,
                                             const CheckWork& work, Diagnostics& diagnostics);
 
-// What a stack shows besides materials, on a lattice. Thread-safe.
+// The channels of a stack, on a lattice that it shares with another one. Thread-safe.
 struct ComparedValues {
   std::vector<voxel::Channel> channels;
   std::function<std::vector<Shown>(int64_t layer)> layer;  // throws Error for layers that cannot be read

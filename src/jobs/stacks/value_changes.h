@@ -11,7 +11,7 @@
 
 namespace ombre::compile {
 
-// What changes in a channel. Differences of numbers have their unit, those of colours are shades of the component that
+// The differences in a channel. Those of numbers have their unit, those of colours are shades of the component that
 // differs most.
 struct ValueChange {
   voxel::Channel channel;  // of the first stack
