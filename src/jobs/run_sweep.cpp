@@ -329,7 +329,7 @@ class SharedSweep final : public SharedJob {
   SweepPtr sweep_;
 };
 
-SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) {
+SharedJobPtr share_sweep(const void* job, Session& session, Diagnostics& diagnostics) {
   const auto& choices = *static_cast<const SweepChoices*>(job);
   if (choices.force || choices.resume)
     throw WrongArgument("a sweep that is shared out has neither " + spelled::option("--force") + " nor " +
@@ -343,7 +343,7 @@ SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) 
 JobKind sweep_kind() {
   JobKind kind = job_kind<SweepChoices>("sweep", "Run a job with several values of options and variables", sweep_footer,
                                         run_sweep);
-  kind.share = share;
+  kind.share = share_sweep;
   return kind;
 }
 

@@ -7,8 +7,8 @@
 namespace ombre::mpi {
 namespace {
 
-constexpr Module module{"ombre_mpi",      "MPI",       "shares that processes take as they become free",
-                        "libopenmpi-dev", "OMBRE_MPI", "each process takes the shares of its rank"};
+constexpr Module module{"ombre_mpi_counter", "MPI",       "shares that processes take as they become free",
+                        "libopenmpi-dev",    "OMBRE_MPI", "each process takes the shares of its rank"};
 
 }  // namespace
 
