@@ -165,6 +165,28 @@ def searches_go_on(folder):
     expect_same_search(folder, "whole", "parts")
 
 
+def processes_measure_what_a_search_asks_for(folder):
+    """A plan has the designs that a search measures next; round by round they give the search of one process."""
+    folder.write("short.json", {**FRONT, "evaluations": 96})
+    job = ["schaffer.vcad", "--study", "short.json"]
+    folder.run(*job, "-o", "alone")
+    folder.run(*job, "-o", "shared", "--save-job", "job.json")
+    for rounds in range(20):
+        planned = program.run(folder.command("plan", "job.json", "--shards", 3, "--force"), cwd=folder.path)
+        if planned.returncode:
+            break
+        for n in (3, 1):
+            folder.run("plan.json", "--shard", n, command="run")
+        if rounds == 1:
+            wrong = folder.run("plan.json", command="gather", status=2).stderr
+            expect("are missing, of shares 2" in wrong, wrong)
+        folder.run("plan.json", "--shard", 2, command="run")
+        folder.run("plan.json", command="gather")
+    expect("the search in shared is over" in planned.stderr, planned.stderr)
+    expect(2 < rounds < 20, f"{rounds} rounds")
+    expect_same_search(folder, "alone", "shared")
+
+
 def damaged_lines_are_measured_again(folder):
     """A journal that lost a line in its middle gives the same search, with the same numbers of designs."""
     folder.write("few.json", {**FRONT, "evaluations": 48})
@@ -466,6 +488,7 @@ def wrong_topologies_are_reported(folder):
 
 CHECKS = [bars_are_as_light_as_hookes_law_lets_them, the_best_design_is_a_script, studies_have_the_options_of_fea,
           beams_follow_beam_theory, fronts_are_found, whole_variables_are_whole, searches_go_on,
+          processes_measure_what_a_search_asks_for,
           damaged_lines_are_measured_again, the_journal_is_the_table, searches_of_older_versions_are_named,
           designs_are_turned, changed_files_are_noticed, interrupted_topologies_leave_their_steps,
           ctrl_c_keeps_the_history, wrong_studies_are_reported, designs_that_fail_are_left_out,

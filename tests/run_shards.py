@@ -155,6 +155,31 @@ def killed_processes(folder):
     gather(folder)
 
 
+def full_disk(folder):
+    """Shares that find no space end with a message; nothing is lost or doubled, and they go on when there is space."""
+    small = folder.path / "small"
+    small.mkdir()
+    if program.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", small]).returncode:
+        return "skipped: only root may mount a small disk"
+    try:
+        begin(folder, 4, output="small/shared")
+        running = [subprocess.Popen(folder.command("run", "plan.json", "--shard", n), cwd=folder.path, text=True,
+                                    env=program.environment(), stderr=subprocess.PIPE) for n in (1, 3)]
+        said = [process.communicate(timeout=120)[1] for process in running]
+        expect([process.returncode for process in running] == [2, 2], f"{said}")
+        expect(all("No space left on device; free some space there and try again" in text for text in said), f"{said}")
+        missing = sum(event["missing"] for event in folder.events("status", "plan.json") if event["event"] == "share")
+        expect(0 < missing < 80, f"{missing} layers are missing")
+        expect("are missing" in folder.run("gather", "plan.json", status=2).stderr, "a gap is not named")
+        expect(program.run(["mount", "-o", "remount,size=4m", small]).returncode == 0, "the disk does not grow")
+        folder.run("run", "plan.json", "--shard", "all", "--quiet")
+        said = folder.run("gather", "plan.json").stderr
+        expect("several processes" not in said, said)
+        expect(contents(small / "shared") == contents(folder.path / "alone"), "the shares have other bytes")
+    finally:
+        program.run(["umount", small])
+
+
 def missing_shares(folder):
     begin(folder)
     for n in (1, 2, 5):
@@ -228,7 +253,7 @@ def wrong_words(folder):
         expect(wrong.returncode != 0 and words in wrong.stderr, f"{arguments}: {wrong.stderr}")
     folder.run("mesh", "part.vcad", "-o", "part.stl", "--save-job", "mesh.json")
     wrong = folder.run("plan", "mesh.json", "--shards", 3, "-o", "more.json", status=1).stderr
-    expect("jobs of the kind mesh are not shared out yet" in wrong, wrong)
+    expect("jobs of the kind mesh have no pieces that could be shared out" in wrong, wrong)
 
 
 CHECKS = program.named((
@@ -239,6 +264,7 @@ CHECKS = program.named((
     values_of_all_shares,
     archive,
     killed_processes,
+    full_disk,
     missing_shares,
     layers_twice,
     changed_jobs,

@@ -9,8 +9,10 @@ import os
 import pathlib
 import random
 import shutil
+import signal
 import subprocess
 import sys
+import time
 
 import program
 import slurm_cluster
@@ -103,16 +105,104 @@ def dask(folder):
     expect_same(folder)
 
 
+# 400 layers, so that there is time to disturb a process.
+SLOW = """
+fgrade(["(z + 2) / 4", "(2 - z) / 4"], [red, blue]) union() {
+  sphere(2);
+  translate(3, 0, 0) rectprism([2, 2, 4], red);
+}
+"""
+
+
+def mpirun(folder, processes):
+    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    return subprocess.Popen(["mpirun", "-n", str(processes), "--oversubscribe", "--bind-to", "none",
+                             *folder.command("run", "plan.json", "--quiet")], cwd=folder.path, text=True,
+                            env=dict(program.environment(), **root), stdin=subprocess.DEVNULL,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def ranks_below(process):
+    """The ids of the processes that mpirun has started, in their order."""
+    try:
+        tasks = pathlib.Path(f"/proc/{process.pid}/task").glob("*/children")
+        return sorted(int(child) for task in tasks for child in task.read_text().split())
+    except OSError:
+        return []
+
+
+def journals(folder):
+    return list((folder.path / "shared").glob("journal-*.jsonl"))
+
+
+def begin_slow(folder, shards):
+    folder.write("part.vcad", SLOW)
+    options = ("--voxel", "0.04,0.04,0.01")
+    folder.run("slice", "part.vcad", *options, "-o", "alone")
+    folder.run("slice", "part.vcad", *options, "-o", "shared", "--save-job", "job.json")
+    folder.run("plan", "job.json", "--shards", shards)
+
+
+def wait_for_journals(folder, count, process):
+    for _ in range(6000):
+        if len(journals(folder)) >= count or process.poll() is not None:
+            return
+        time.sleep(0.01)
+
+
 def mpi(folder):
     if is_missing("mpirun"):
         return is_missing("mpirun")
-    begin(folder, 7)
-    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    subprocess.run(["mpirun", "-n", "4", "--oversubscribe", *folder.command("run", "plan.json", "--quiet")],
-                   cwd=folder.path, env=dict(program.environment(), **root), stdin=subprocess.DEVNULL,
-                   stdout=subprocess.DEVNULL, check=True, timeout=120)
+    begin(folder, 20)
+    process = mpirun(folder, 4)
+    said = process.communicate(timeout=120)[0]
+    expect(process.returncode == 0, said)
+    expect(len(journals(folder)) == 20, f"{len(journals(folder))} shares were made")
     folder.run("gather", "plan.json")
     expect_same(folder)
+
+
+def slow_process_of_mpi(folder):
+    """The others take the shares of a process that stands still."""
+    if is_missing("mpirun"):
+        return is_missing("mpirun")
+    if "ombre_mpi_counter" not in {path.stem.removeprefix("lib") for path in folder.ombre.parents[2].glob("modules/*.so")}:
+        return "skipped: this ombre was built without MPI"
+    begin_slow(folder, 16)
+    process = mpirun(folder, 2)
+    wait_for_journals(folder, 2, process)
+    slow = ranks_below(process)[-1:]
+    for rank in slow:
+        os.kill(rank, signal.SIGSTOP)
+    wait_for_journals(folder, 16, process)
+    found = len(journals(folder))
+    for rank in slow:
+        os.kill(rank, signal.SIGCONT)
+    said = process.communicate(timeout=120)[0]
+    expect(process.returncode == 0, said)
+    expect(slow and found == 16, f"{found} shares were begun beside a process that stood still: {said}")
+    folder.run("gather", "plan.json")
+    expect_same(folder)
+
+
+def killed_process_of_mpi(folder):
+    """mpirun ends the others; the same command goes on, and what was finished stays."""
+    if is_missing("mpirun"):
+        return is_missing("mpirun")
+    begin_slow(folder, 16)
+    process = mpirun(folder, 3)
+    wait_for_journals(folder, 3, process)
+    for rank in ranks_below(process)[1:2]:
+        os.kill(rank, signal.SIGKILL)
+    process.communicate(timeout=120)
+    expect(process.returncode != 0, "a killed process is not noticed")
+    before = {path.name: path.read_bytes() for path in (folder.path / "shared").glob("slice_*.png")}
+    process = mpirun(folder, 3)
+    said = process.communicate(timeout=120)[0]
+    expect(process.returncode == 0, said)
+    folder.run("gather", "plan.json")
+    expect_same(folder)
+    expect(all((folder.path / "shared" / name).read_bytes() == bytes_ for name, bytes_ in before.items()), "layers changed")
 
 
 KUBECTL = """#!/usr/bin/python3
@@ -187,7 +277,8 @@ def slurm_with_losses(folder):
     return in_slurm(folder, 20, disturb)
 
 
-CHECKS = program.named([scripts_are_printed, hostile_names, wrong_submissions, gnu_parallel, dask, mpi, kubernetes, slurm,
+CHECKS = program.named([scripts_are_printed, hostile_names, wrong_submissions, gnu_parallel, dask, mpi,
+                        slow_process_of_mpi, killed_process_of_mpi, kubernetes, slurm,
                         slurm_with_losses])
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 import functools
 import itertools
 import sys
+import zipfile
 
 import program
 from program import expect, near
@@ -100,6 +101,24 @@ def borders_of_shares_are_compared(folder):
     expect(any("are evaluated again" in text for text in event["unchecked"]), f"{event}")
 
 
+def archives_are_read(folder):
+    path = stack(folder)
+    folder.run("slice", "part.vcad", "--voxel", "0.2", "-o", "stack.zip")
+    said = [folder.events("verify", name, "--design", "part.vcad")[-1] for name in ("stack", "stack.zip")]
+    expect(said[0] == said[1], f"{said}")
+    expect(folder.events("diff", "stack.zip", "stack")[-1]["same"], "an archive differs from its folder")
+    (path / "slice_00003.png").write_bytes((path / "slice_00004.png").read_bytes())
+    with zipfile.ZipFile(folder.path / "wrong.zip", "w") as archive:
+        for file in sorted(path.iterdir()):
+            archive.write(file, file.name)
+    event = folder.events("verify", "wrong.zip", status=3)[-1]
+    expect("hash" in kinds(event) and "slice_00003.png" in str(event["findings"]), f"{event}")
+    whole = (folder.path / "stack.zip").read_bytes()
+    (folder.path / "torn.zip").write_bytes(whole[:len(whole) // 2])
+    error = folder.run("verify", "torn.zip", status=2).stderr
+    expect("torn.zip" in error and "damaged or cut short" in error, error)
+
+
 def what_is_no_stack_is_named(folder):
     path = stack(folder)
     expect("nowhere" in folder.run("verify", "nowhere", status=2).stderr, "no folder is named")
@@ -136,6 +155,49 @@ def a_stack_is_its_design(folder):
     expect("data:image/png" in folder.read("changes.html"), "the page has no pictures")
 
 
+# A cube of 20 x 20 x 20 voxels. Shades stand for 120 / 255 each, so that 24 is the shade 51, and 48 the shade 102.
+DOSED = """
+attribute("dose", "{dose}", "mJ/cm2") rectprism([2, 2, 2], red);
+"""
+
+
+def values(folder, name, dose, *options):
+    folder.write(f"{name}.vcad", DOSED.format(dose=dose))
+    folder.run("slice", f"{name}.vcad", "--by", "dose", "--range", "0,120", "--voxel", "0.1", "-o", name, *options)
+
+
+def values_that_change_are_measured(folder):
+    """Half of the cube gets 24 more."""
+    values(folder, "a", "24")
+    values(folder, "b", "x < 0 ? 24 : 48")
+    event = folder.events("diff", "a", "b", "--report", "changes.html", status=3)
+    [channel] = next(one for one in event if one["event"] == "changes")["channels"]
+    expect(channel["name"] == "dose" and channel["voxels"] == 4000, f"{channel}")
+    near(channel["mm3"], 4, 1e-9, "the volume of the differences")
+    near(channel["greatest"], 24, 1e-9, "the greatest difference")
+    near(channel["mean"], 24, 1e-9, "the mean difference")
+    near(channel["at_mm"][0], 0.05, 1e-9, "the place of the greatest difference")
+    expect([[round(n, 6) for n in corner] for corner in channel["box_mm"]] == [[0, -1, -1], [1, 1, 1]], f"{channel}")
+    expect("more in blue" in folder.read("changes.html"), "the page has no pictures")
+    said = folder.run("diff", "a", "b", status=3).stdout
+    expect("dose differs in 4 mm3 (4,000 voxels), by at most 24 mJ/cm2" in said, said)
+    expect("dose is the same" in folder.run("diff", "a", "a").stdout, "a stack differs from itself")
+
+
+def values_of_other_kinds(folder):
+    """16 bits differ from 8 by rounding alone; masks differ by 1; materials are not compared with values."""
+    values(folder, "a", "24 + x")
+    values(folder, "deep", "24 + x", "--bits", "16")
+    expect("dose is the same" in folder.run("diff", "a", "deep").stdout, "more bits are other values")
+    values(folder, "mask", "48", "--bits", "1")
+    values(folder, "half", "x < 0 ? 48 : 72", "--bits", "1")
+    [channel] = folder.events("diff", "mask", "half", status=3)[-1]["channels"]
+    expect(channel["voxels"] == 4000, f"{channel}")
+    folder.run("slice", "a.vcad", "--voxel", "0.1", "-o", "materials")
+    error = folder.run("diff", "a", "materials", status=2).stderr
+    expect("a shows values, so materials has to be a stack of values, too" in error, error)
+
+
 def checks(ombre, takes_all):
     designs = program.examples(ombre)
     if not takes_all:
@@ -151,7 +213,8 @@ def checks(ombre, takes_all):
     return found | program.named([
         a_right_stack_holds, without_a_design_this_is_said, variables_and_parts_of_jobs_are_known,
         a_report_has_pictures, files_are_compared_with_the_journal, borders_of_shares_are_compared,
-        what_is_no_stack_is_named, blocks_that_move_differ, a_stack_is_its_design])
+        what_is_no_stack_is_named, archives_are_read, blocks_that_move_differ, a_stack_is_its_design,
+        values_that_change_are_measured, values_of_other_kinds])
 
 
 if __name__ == "__main__":

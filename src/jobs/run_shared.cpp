@@ -8,11 +8,14 @@
 #include "base/text/text.h"
 #include "export/output_file.h"
 #include "formats/containers/file.h"
+#include "jobs/all_jobs.h"
 #include "jobs/common/events.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/overwrite.h"
 #include "jobs/common/pace.h"
+#include "jobs/common/run_reported.h"
 #include "jobs/shared_plan.h"
+#include "mpi/ranks.h"
 #include "options/members.h"
 
 namespace ombre::jobs {
@@ -86,10 +89,18 @@ struct StatusChoices {
   }
 };
 
+// Returns "slice, render" and so on.
+std::string shared_kinds() {
+  std::vector<std::string> names;
+  for (const JobKind& kind : all_jobs())
+    if (kind.share) names.push_back(kind.name);
+  return words_text(names);
+}
+
 SharedJobPtr share(const SavedJob& saved, Session& session, Diagnostics& diagnostics) {
   if (!saved.kind->share)
-    throw WrongArgument("jobs of the kind " + saved.kind->name +
-                        " are not shared out yet; slices and frames of render are");
+    throw WrongArgument("jobs of the kind " + saved.kind->name + " have no pieces that could be shared out; those of " +
+                        shared_kinds() + " have, and ombre sweep makes cases of any job");
   const std::shared_ptr<void> job = saved.kind->make();
   options::read_members(saved.kind->options(), job.get(), saved.options);
   return saved.kind->share(job.get(), session, diagnostics);
@@ -151,15 +162,31 @@ int plan(const PlanChoices& a, Session& session) {
   return done;
 }
 
+int make_share(const Opened& opened, int64_t number, Session& session) {
+  const PieceRange range = opened.plan.shards[static_cast<size_t>(number - 1)];
+  return opened.job->make(range, {number, opened.count()}, session);
+}
+
+// Makes shares as a process of MPI that takes the next one whenever it is free. A share that fails does not keep the
+// process from the others. Returns nothing if this build cannot do that.
+std::optional<int> make_next_shares(const Opened& opened, int64_t processes, Session& session) {
+  int code = done;
+  const auto make = [&](int64_t number) {
+    const int made = run_reported(session.events, [&] { return make_share(opened, number + 1, session); });
+    if (made != done) code = made;
+    return made != interrupted;
+  };
+  return mpi::take_numbers(opened.count(), processes, make) ? std::optional(code) : std::nullopt;
+}
+
 int run(const RunChoices& a, Session& session) {
   const auto opened = open_plan(a.plan, session);
   if (!opened) return wrong_input;
   if (a.only_stages) return opened->job->prepare(session);
-  for (const int64_t number : chosen_shards(a.shard, opened->count())) {
-    const PieceRange range = opened->plan.shards[static_cast<size_t>(number - 1)];
-    const int code = opened->job->make(range, {number, opened->count()}, session);
-    if (code != done) return code;
-  }
+  if (const int64_t processes = a.shard.empty() ? mpi_processes() : 0; processes > 1)
+    if (const auto code = make_next_shares(*opened, processes, session)) return *code;
+  for (const int64_t number : chosen_shards(a.shard, opened->count()))
+    if (const int code = make_share(*opened, number, session); code != done) return code;
   return done;
 }
 

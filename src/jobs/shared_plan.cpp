@@ -1,5 +1,6 @@
 #include "jobs/shared_plan.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <numeric>
 
@@ -75,15 +76,20 @@ std::optional<int64_t> environment_number(const char* name) {
   return number ? std::optional(static_cast<int64_t>(*number)) : std::nullopt;
 }
 
+// Returns the first engine that gave this process a number; null if none did.
+const EngineVariable* engine_here() {
+  const auto* const found =
+      std::ranges::find_if(engines, [](const auto& engine) { return environment_number(engine.number).has_value(); });
+  return found == std::end(engines) ? nullptr : found;
+}
+
 std::vector<int64_t> shards_by_engine(int64_t count) {
-  for (const EngineVariable& engine : engines) {
-    const auto number = environment_number(engine.number);
-    if (!number) continue;
-    const int64_t place = *number - engine.first;
-    const int64_t step = engine.count ? environment_number(engine.count).value_or(count) : count;
+  if (const EngineVariable* const engine = engine_here()) {
+    const int64_t number = *environment_number(engine->number), place = number - engine->first;
+    const int64_t step = engine->count ? environment_number(engine->count).value_or(count) : count;
     if (place < 0 || place >= step || step < 1)
-      throw WrongArgument(std::string(engine.number) + " is " + std::to_string(*number) + ", but the plan has shares " +
-                          std::to_string(engine.first) + " to " + std::to_string(engine.first + count - 1) +
+      throw WrongArgument(std::string(engine->number) + " is " + std::to_string(number) + ", but the plan has shares " +
+                          std::to_string(engine->first) + " to " + std::to_string(engine->first + count - 1) +
                           " in its count; start as many processes as the plan has shares");
     std::vector<int64_t> shards;
     for (int64_t shard = place + 1; shard <= count; shard += step) shards.push_back(shard);
@@ -163,6 +169,11 @@ std::vector<int64_t> chosen_shards(const std::string& wanted, int64_t count) {
   if (shard.count != count)
     throw WrongArgument(spelled::option("--shard", wanted) + ": the plan has " + std::to_string(count) + " shares");
   return {shard.number};
+}
+
+int64_t mpi_processes() {
+  const EngineVariable* const engine = engine_here();
+  return engine && engine->count ? environment_number(engine->count).value_or(0) : 0;
 }
 
 }  // namespace ombre::jobs

@@ -34,5 +34,7 @@ std::optional<SharedPlan> read_plan(const SourcePtr& source, Diagnostics& diagno
 // Returns the numbers of the shares that this process is to do. `wanted` is "3", "3/40", "all", or empty: then the
 // variables of a scheduler or of MPI say it. Throws WrongArgument.
 std::vector<int64_t> chosen_shards(const std::string& wanted, int64_t count);
+// Returns the number of processes of MPI that this one was started with; 0 if it was not, or is of a job array.
+int64_t mpi_processes();
 
 }  // namespace ombre::jobs

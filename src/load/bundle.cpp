@@ -214,7 +214,7 @@ std::optional<UnpackedBundle> unpack_bundle(const std::string& name, std::string
   };
   try {
     if (!formats::is_zip(bytes)) wrong("this is no bundle: expected a zip archive, as ombre bundle makes it");
-    formats::ZipReader archive(name, bytes, diagnostics, any_ratio);
+    formats::ZipReader archive(name, bytes, diagnostics, {.ratio = any_ratio});
     if (!archive.has(note_name)) wrong("this zip archive is no bundle: it has no " + std::string(note_name));
     fs::create_directories(folder);
     unpack_all(archive, folder, wrong);

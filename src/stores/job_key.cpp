@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/system/hash.h"
+#include "base/text/text.h"
 
 namespace ombre::stores {
 
@@ -38,6 +39,12 @@ std::vector<std::string> JobKey::differences(const JobKey& earlier) const {
   missing_in(parts_, earlier.parts_);
   missing_in(earlier.parts_, parts_);
   return names;
+}
+
+std::string JobKey::difference(const Data* earlier) const {
+  const std::vector<std::string> changed = differences(read(earlier).value_or(JobKey()));
+  if (changed.empty()) return "";
+  return join(changed, ", ") + (changed.size() == 1 ? " differs" : " differ");
 }
 
 }  // namespace ombre::stores

@@ -23,6 +23,8 @@ class JobKey {
   Data data() const;
   // Returns the names of the parts in which an earlier key differs, each once: first those of this one.
   std::vector<std::string> differences(const JobKey& earlier) const;
+  // Returns "part.vcad, --size differ" for an earlier key as data, which may be null; "" if the keys are equal.
+  std::string difference(const Data* earlier) const;
 
   bool operator==(const JobKey&) const = default;
 

@@ -168,8 +168,8 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>& entries) {
 
 bool can_write_zip() { return true; }
 
-ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, uint64_t ratio)
-    : name_(name), diagnostics_(diagnostics), ratio_(ratio) {
+ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, ZipLimits limits)
+    : name_(name), diagnostics_(diagnostics), limits_(limits) {
   zip_error_t error;
   libzip().error_init(&error);
   zip_source_t* const source = libzip().source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -180,7 +180,7 @@ ZipReader::ZipReader(const std::string& name, std::string_view bytes, Diagnostic
     fail(diagnostics, name, "this zip archive is damaged or cut short", "save or copy it again");
   }
   const zip_int64_t count = libzip().get_num_entries(archive_, 0);
-  for (zip_int64_t i = 0; i < std::min<zip_int64_t>(count, most_entries); ++i) {
+  for (zip_int64_t i = 0; i < std::min(count, static_cast<zip_int64_t>(limits_.entries)); ++i) {
     const char* const entry = libzip().get_name(archive_, static_cast<zip_uint64_t>(i), 0);
     names_.emplace_back(entry ? entry : "");
     by_key_.emplace(name_key(names_.back()), names_.size() - 1);
@@ -196,11 +196,11 @@ void ZipReader::fail_entry(const std::string& entry, const std::string& problem,
 }
 
 std::optional<size_t> ZipReader::find(const std::string& entry) const {
-  if (const auto exact = std::find(names_.begin(), names_.end(), entry); exact != names_.end())
-    return exact - names_.begin();
   const auto near = by_key_.find(name_key(entry));
   if (near == by_key_.end()) return std::nullopt;
-  return near->second;
+  if (names_[near->second] == entry) return near->second;
+  const auto exact = std::find(names_.begin(), names_.end(), entry);
+  return exact == names_.end() ? near->second : static_cast<size_t>(exact - names_.begin());
 }
 
 // The sizes stated by an entry are used only to reject it early.
@@ -210,9 +210,10 @@ void ZipReader::check(const std::string& entry, const struct zip_stat& stat) con
   if (stat.size > most_bytes - bytes_read_)
     fail_entry(entry, "has " + format_count(stat.size) + " bytes unpacked; of an archive at most " +
                           format_count(most_bytes) + " bytes are read");
-  if (stat.size > small_entry_bytes && stat.size / ratio_ > stat.comp_size)
-    fail_entry(entry, "is packed more tightly than " + format_count(ratio_) + " to 1 (" + format_count(stat.size) +
-                          " bytes into " + format_count(stat.comp_size) + "), which is taken for an attack on memory");
+  if (stat.size > small_entry_bytes && stat.size / limits_.ratio > stat.comp_size)
+    fail_entry(entry, "is packed more tightly than " + format_count(limits_.ratio) + " to 1 (" +
+                          format_count(stat.size) + " bytes into " + format_count(stat.comp_size) +
+                          "), which is taken for an attack on memory");
 }
 
 bool ZipReader::is_link(const std::string& entry) const {
@@ -245,7 +246,7 @@ std::string ZipReader::read(const std::string& entry) {
     if (bytes.size() > stat.size) fail_entry(entry, "is larger than the archive says");
     if (got == 0) break;
   }
-  bytes_read_ += bytes.size();
+  if (limits_.keeps_all) bytes_read_ += bytes.size();
   return bytes;
 }
 

@@ -34,16 +34,21 @@ bool can_write_zip();
 
 inline bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
+// Archives that exceed these limits, or are packed more tightly than meshes ever are, are treated as attacks.
+struct ZipLimits {
+  uint64_t ratio = 200;       // of the bytes of an entry to its packed bytes
+  uint64_t entries = 10'000;  // further ones are not seen
+  bool keeps_all = true;      // true if the caller keeps what it reads, so that the sum of all bytes is bounded
+};
+
 // Reads entries into memory, never to disk. Errors in the archive are reported, and DesignError is thrown.
 class ZipReader {
  public:
-  // Limits; archives that exceed them, or are packed more tightly than meshes ever are, are treated as attacks.
   static constexpr uint64_t most_bytes = uint64_t{1} << 30;
-  static constexpr uint64_t most_entries = 10'000;
-  static constexpr uint64_t most_ratio = 200, small_entry_bytes = uint64_t{16} << 20;
+  static constexpr uint64_t small_entry_bytes = uint64_t{16} << 20;
 
-  // Opens an archive; `name` and the bytes must outlive this object. `ratio` is the greatest compression ratio.
-  ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, uint64_t ratio = most_ratio);
+  // Opens an archive; `name` and the bytes must outlive this object.
+  ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, ZipLimits limits = {});
   ~ZipReader();
   ZipReader(const ZipReader&) = delete;
   ZipReader& operator=(const ZipReader&) = delete;
@@ -64,7 +69,7 @@ class ZipReader {
 
   const std::string& name_;
   Diagnostics& diagnostics_;
-  uint64_t ratio_;
+  ZipLimits limits_;
   zip* archive_ = nullptr;
   std::vector<std::string> names_;        // in the order of the archive
   std::map<std::string, size_t> by_key_;  // the first entry of each key

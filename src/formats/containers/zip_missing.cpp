@@ -15,8 +15,8 @@ void write_zip(const std::string& path, const std::vector<ZipEntry>&) {
               "cannot write " + path + ": " + xml_missing + "; " + xml_remedy + ", or write another format");
 }
 
-ZipReader::ZipReader(const std::string& name, std::string_view, Diagnostics& diagnostics, uint64_t ratio)
-    : name_(name), diagnostics_(diagnostics), ratio_(ratio) {
+ZipReader::ZipReader(const std::string& name, std::string_view, Diagnostics& diagnostics, ZipLimits limits)
+    : name_(name), diagnostics_(diagnostics), limits_(limits) {
   fail(diagnostics, name, std::string("zip archives cannot be read: ") + xml_missing, xml_remedy);
 }
 

@@ -17,11 +17,12 @@
 #include "jobs/optimise/optimise_job.h"
 #include "jobs/optimise/run_topology.h"
 #include "jobs/optimise/search_history.h"
+#include "jobs/optimise/search_report.h"
 #include "jobs/optimise/stored_search.h"
 #include "load/turned.h"
-#include "optimise/chart.h"
-#include "optimise/ranking.h"
 #include "stores/folder_store.h"
+#include "stores/journal_folder.h"
+#include "stores/shard_store.h"
 
 namespace ombre::jobs {
 namespace {
@@ -83,34 +84,86 @@ void refuse_folder(const OptimiseChoices& a, const Folder& folder) {
     throw WrongArgument(folder.history() + " is there; choose another " + spelled::option("-o") + begin_again);
 }
 
+// Returns a function that loads the design with other options, and turns it.
+compile::LoadWith loader(const OptimiseChoices& a, Session& session) {
+  return [&a, &session](const compile::LoadOptions& with, Diagnostics& found) {
+    const compile::LoadedPtr loaded = session.load(a.design.design, with, found);
+    return loaded ? compile::turned(loaded, a.design.rotate.value_or(Vec3{}), found) : nullptr;
+  };
+}
+
+compile::LoadOptions load_options(const OptimiseChoices& a, Session& session) {
+  compile::LoadOptions options = a.design.load();
+  options.cache = &session.cache;
+  return options;
+}
+
+// A search that is ready to measure designs.
+struct VariableSearch {
+  const OptimiseChoices choices;
+  const OptimiseStudy study;
+  const stores::JobKey key;
+  const compile::StoredSearch stored;
+  const compile::DesignMeter meter;
+  const Folder folder;
+
+  VariableSearch(const OptimiseChoices& a, OptimiseStudy of, const Data& data, const compile::PlanOptions& plan,
+                 Session& session)
+      : choices(a),
+        study(std::move(of)),
+        key(compile::search_key(choices, data, study, plan.program)),
+        stored(study, key),
+        meter(study, loader(choices, session), load_options(choices, session), plan),
+        folder{choices.folder} {}
+  VariableSearch(const VariableSearch&) = delete;
+  VariableSearch& operator=(const VariableSearch&) = delete;
+};
+using VariableSearchPtr = std::shared_ptr<const VariableSearch>;
+
+using Values = std::vector<double>;
+
+std::vector<Values> all_values(const OptimiseStudy& study, const std::vector<optimise::Point>& points) {
+  std::vector<Values> all;
+  for (const optimise::Point& point : points) all.push_back(compile::values_at(study, point));
+  return all;
+}
+
+// Returns the designs that are not in the history, each once.
+std::vector<Values> missing_in(const History& history, const std::vector<Values>& all) {
+  std::vector<Values> missing;
+  for (const Values& values : all)
+    if (!history.find(values) && std::ranges::find(missing, values) == missing.end()) missing.push_back(values);
+  return missing;
+}
+
+std::vector<Outcome> outcomes_in(const History& history, const OptimiseStudy& study, const std::vector<Values>& all) {
+  std::vector<Outcome> outcomes;
+  for (const Values& values : all) outcomes.push_back(outcome_of(study, history.find(values)->measured));
+  return outcomes;
+}
+
 // Measures designs that are not in the history, several at once if memory allows.
 class Evaluator {
  public:
-  Evaluator(const OptimiseChoices& a, const OptimiseStudy& study, const compile::DesignMeter& meter, History& history,
-            const Folder& folder, stores::Store& store, Session& session)
-      : study_(study),
-        meter_(meter),
+  Evaluator(const VariableSearch& search, History& history, stores::Store& store, Session& session)
+      : study_(search.study),
+        meter_(search.meter),
         history_(history),
         store_(store),
-        path_(folder.history()),
-        table_(folder.history()),
+        path_(search.folder.history()),
+        table_(search.folder.history()),
         session_(session),
         progress_(session.events, Counted::steps),
-        threads_(a.work.threads > 0 ? a.work.threads : core_count()),
-        memory_(static_cast<double>(a.work.memory_bytes)) {}
+        threads_(search.choices.work.threads > 0 ? search.choices.work.threads : core_count()),
+        memory_(static_cast<double>(search.choices.work.memory_bytes)) {}
 
   std::vector<Outcome> measure(const std::vector<optimise::Point>& points) {
     if (session_.stop.requested()) throw Cancelled();
-    std::vector<std::vector<double>> all, missing;
-    for (const optimise::Point& point : points) all.push_back(compile::values_at(study_, point));
-    for (const auto& values : all)
-      if (!history_.find(values) && std::ranges::find(missing, values) == missing.end()) missing.push_back(values);
-    measure_missing(missing);
+    const std::vector<Values> all = all_values(study_, points);
+    measure_missing(missing_in(history_, all));
     requested_ += points.size();
     progress_.update({std::min(requested_, study_.search.evaluations), study_.search.evaluations});
-    std::vector<Outcome> outcomes;
-    for (const auto& values : all) outcomes.push_back(outcome_of(study_, history_.find(values)->measured));
-    return outcomes;
+    return outcomes_in(history_, study_, all);
   }
   void finish() {
     progress_.finish();
@@ -122,7 +175,7 @@ class Evaluator {
   size_t measured() const { return measured_; }
 
  private:
-  void measure_missing(const std::vector<std::vector<double>>& missing) {
+  void measure_missing(const std::vector<Values>& missing) {
     const auto count = static_cast<int>(missing.size());
     const int at_once = most_at_once(count);
     const int each = std::max(1, threads_ / std::max(1, at_once));
@@ -159,150 +212,19 @@ class Evaluator {
   size_t requested_ = 0, measured_ = 0;
 };
 
-std::string values_text(const OptimiseStudy& study, const History::Row& row) {
-  std::vector<std::string> parts;
-  for (size_t n = 0; n < row.values.size(); ++n)
-    parts.push_back(study.variables[n].name + " = " + format_rounded(row.values[n], 6));
-  return join(parts, ", ");
-}
-
-std::string measures_text(const OptimiseStudy& study, const History::Row& row) {
-  std::vector<std::string> parts;
-  const auto measures = study.measures();
-  for (size_t n = 0; n < measures.size(); ++n)
-    parts.push_back(measures[n].label() + " " + format_rounded(row.measured.values[n], 6));
-  return join(parts, ", ");
-}
-
-// Returns the option that turns the script as the measured designs were turned.
-std::string turn_text(const OptimiseChoices& a) {
-  if (!a.design.rotate) return "";
-  const Vec3 turn = *a.design.rotate;
-  return "; with " +
-         spelled::option("--rotate", format_number(turn.x) + "," + format_number(turn.y) + "," + format_number(turn.z))
-             .text();
-}
-
-// Returns a script that is the design with other values: the last value of a variable counts.
-std::string script_of(const OptimiseChoices& a, const OptimiseStudy& study, const Folder& folder,
-                      const History::Row& row) {
-  const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(folder.path));
-  std::string text = "// " + measures_text(study, row) + turn_text(a) + "\ninclude <" + design.generic_string() + ">\n";
-  for (size_t n = 0; n < row.values.size(); ++n)
-    text += study.variables[n].name + " = " + format_number(row.values[n]) + ";\n";
-  return text;
-}
-
-// Returns some of them, evenly from the first to the last.
-std::vector<size_t> some_of(const std::vector<size_t>& front, size_t most) {
-  if (front.size() <= most) return front;
-  std::vector<size_t> some;
-  for (size_t n = 0; n < most; ++n) some.push_back(front[most == 1 ? 0 : n * (front.size() - 1) / (most - 1)]);
-  return some;
-}
-
-std::string chart_of(const OptimiseStudy& study, const std::vector<const History::Row*>& rows,
-                     const std::vector<Outcome>& outcomes, const std::vector<size_t>& front) {
-  using Kind = optimise::ChartPoint::Kind;
-  const auto measures = study.measures();
-  const bool has_two = study.objectives.size() > 1;
-  optimise::Chart chart;
-  chart.title = has_two ? "Designs, the best in red" : "Designs in the order of the search, the best in red";
-  chart.x_label = has_two ? measures[0].label() : "design";
-  chart.y_label = measures[has_two ? 1 : 0].label();
-  chart.joins_best = has_two;
-  const auto add = [&](size_t n, Kind kind) {
-    const auto& values = rows[n]->measured.values;
-    if (has_two)
-      chart.points.push_back({values[0], values[1], kind});
-    else
-      chart.points.push_back({static_cast<double>(n + 1), values[0], kind});
-  };
-  for (size_t n = 0; n < outcomes.size(); ++n)
-    if (!outcomes[n].failed && std::ranges::find(front, n) == front.end())
-      add(n, optimise::is_feasible(outcomes[n]) ? Kind::feasible : Kind::other);
-  for (const size_t n : front) add(n, Kind::best);
-  return optimise::chart_svg(chart);
-}
-
-class Report {
- public:
-  Report(const OptimiseChoices& a, const OptimiseStudy& study, const History& history, const Folder& folder,
-         const Events& events)
-      : a_(a), study_(study), history_(history), rows_(history.rows()), folder_(folder), events_(events) {
-    for (const History::Row* row : rows_) outcomes_.push_back(outcome_of(study, row->measured));
-    front_ = optimise::front_of(outcomes_);
-  }
-
-  int write() {
-    write_file("chart.svg", chart_of(study_, rows_, outcomes_, front_));
-    if (front_.empty()) return tell_nothing_holds();
-    std::string table = history_.header();
-    for (const size_t row : front_) table += history_.line(*rows_[row]);
-    write_file("front.csv", table);
-    size_t number = 0;
-    const std::string ending = fs::path(a_.design.design).extension().string();
-    for (const size_t row : some_of(front_, static_cast<size_t>(a_.best))) {
-      const std::string name = "best_" + std::to_string(++number) + ending;
-      write_file(name, script_of(a_, study_, folder_, *rows_[row]));
-      tell(row, name);
-    }
-    events_.event("done", {{"files", files_}});
-    return done;
-  }
-
- private:
-  void write_file(const std::string& name, const std::string& text) {
-    exporting::write_file(folder_.file(name), text);
-    files_.emplace_back(folder_.file(name));
-  }
-
-  void tell(size_t row, const std::string& name) const {
-    const History::Row& best = *rows_[row];
-    events_.say(name + ": " + values_text(study_, best) + "; " + measures_text(study_, best));
-    DataMembers values, measures;
-    for (size_t n = 0; n < best.values.size(); ++n) values.emplace_back(study_.variables[n].name, best.values[n]);
-    const auto all = study_.measures();
-    for (size_t n = 0; n < all.size(); ++n) measures.emplace_back(all[n].label(), best.measured.values[n]);
-    events_.event("best", {{"file", folder_.file(name)}, {"variables", values}, {"measures", measures}});
-  }
-
-  int tell_nothing_holds() const {
-    size_t nearest = outcomes_.size();
-    for (size_t n = 0; n < outcomes_.size(); ++n)
-      if (!outcomes_[n].failed &&
-          (nearest == outcomes_.size() || outcomes_[n].violation() < outcomes_[nearest].violation()))
-        nearest = n;
-    const History::Row& row = *rows_[nearest];
-    events_.error(Code::nothing_inside, "no design keeps all limits; the nearest is " + values_text(study_, row) +
-                                            ": " + measures_text(study_, row));
-    return check_failed;
-  }
-
-  const OptimiseChoices& a_;
-  const OptimiseStudy& study_;
-  const History& history_;
-  std::vector<const History::Row*> rows_;
-  const Folder& folder_;
-  const Events& events_;
-  std::vector<Outcome> outcomes_;
-  std::vector<size_t> front_;
-  DataList files_;
-};
-
-optimise::Problem problem_of(const OptimiseStudy& study, Evaluator& evaluator) {
+optimise::Problem problem_of(const OptimiseStudy& study, decltype(optimise::Problem::evaluate) evaluate) {
   optimise::Problem problem;
   for (const compile::DesignVariable& variable : study.variables)
     problem.start.push_back((variable.start - variable.low) / (variable.high - variable.low));
   problem.objectives = study.objectives.size();
   problem.constraints = study.limits.size();
-  problem.evaluate = [&](const std::vector<optimise::Point>& points) { return evaluator.measure(points); };
+  problem.evaluate = std::move(evaluate);
   return problem;
 }
 
 // Runs the search from the start design. If that has no measures, the study is wrong.
 bool run_search(const OptimiseStudy& study, const History& history, Evaluator& evaluator, Session& session) {
-  const optimise::Problem problem = problem_of(study, evaluator);
+  const optimise::Problem problem = problem_of(study, [&](const auto& points) { return evaluator.measure(points); });
   evaluator.measure({problem.start});
   const History::Row& first = *history.find(compile::values_at(study, problem.start));
   if (!first.measured.failure.empty()) {
@@ -316,37 +238,14 @@ bool run_search(const OptimiseStudy& study, const History& history, Evaluator& e
   return true;
 }
 
-int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, const Data& data, Session& session) {
-  const optimise::Method& method = *optimise::find_method(study.search.method);
-  if (!optimise::is_built(method)) optimise::search({}, study.search);  // throws, and says what is missing
-  Diagnostics diagnostics;
-  compile::check_variables(study, make_source(a.design.design, formats::read_file(a.design.design)), diagnostics);
-  auto plan = plan_options({}, session, diagnostics);
-  session.events.diagnose(diagnostics);
-  if (!plan || diagnostics.has_errors()) return wrong_input;
-
-  const Folder folder{a.folder};
-  refuse_folder(a, folder);
-  const compile::StoredSearch search(study, compile::search_key(a, data, study, plan->program));
-  stores::FolderStore store(folder.path.string(), search,
-                            a.resume ? stores::FolderUse::resume : stores::FolderUse::replace,
-                            {a.work.threads, nullptr, &session.stop});
-  fs::remove(folder.file(earlier_key));
-  History history(study);
-  history.read(store.finished());
+// Measures what the history lacks, until the search is over, and reports it.
+int finish_search(const VariableSearch& search, History& history, stores::Store& store, Session& session) {
+  const Folder& folder = search.folder;
   exporting::write_file(folder.history(), history.table());
-
-  compile::LoadOptions options = a.design.load();
-  options.cache = &session.cache;
-  const auto load = [&](const compile::LoadOptions& with, Diagnostics& found) {
-    const compile::LoadedPtr loaded = session.load(a.design.design, with, found);
-    return loaded ? compile::turned(loaded, a.design.rotate.value_or(Vec3{}), found) : nullptr;
-  };
-  const compile::DesignMeter meter(study, load, options, *plan);
-  Evaluator evaluator(a, study, meter, history, folder, store, session);
+  Evaluator evaluator(search, history, store, session);
   const size_t known = history.size();
   try {
-    if (!run_search(study, history, evaluator, session)) return wrong_input;
+    if (!run_search(search.study, history, evaluator, session)) return wrong_input;
   } catch (const Cancelled&) {
     evaluator.finish();
     session.events.say(folder.history() + " has " + format_count(history.size()) +
@@ -358,27 +257,151 @@ int optimise_variables(const OptimiseChoices& a, const OptimiseStudy& study, con
   session.events.event("search", {{"measured", static_cast<double>(evaluator.measured())},
                                   {"known", static_cast<double>(known)},
                                   {"history", folder.history()}});
-  return Report(a, study, history, folder, session.events).write();
+  return report_search(search.choices, search.study, history, session.events);
+}
+
+int optimise_variables(const VariableSearch& search, Session& session) {
+  const OptimiseChoices& a = search.choices;
+  refuse_folder(a, search.folder);
+  stores::FolderStore store(a.folder, search.stored, a.resume ? stores::FolderUse::resume : stores::FolderUse::replace,
+                            {a.work.threads, nullptr, &session.stop});
+  fs::remove(search.folder.file(earlier_key));
+  History history(search.study);
+  history.read(store.finished());
+  return finish_search(search, history, store, session);
+}
+
+// Returns null, and adds diagnostics, if the study or the script is wrong.
+VariableSearchPtr plan_search(const OptimiseChoices& a, const std::optional<Data>& data, Session& session,
+                              Diagnostics& diagnostics) {
+  const std::string ending = ending_of(a.design.design);
+  if (ending != ".vcad" && ending != ".scad")
+    throw WrongArgument(a.design.design + " has no variables that could be set; take a .vcad or .scad script");
+  auto study = data ? compile::read_optimise_study(*data, diagnostics) : std::nullopt;
+  if (!study) return nullptr;
+  const optimise::Method& method = *optimise::find_method(study->search.method);
+  if (!optimise::is_built(method)) optimise::search({}, study->search);  // throws, and says what is missing
+  compile::check_variables(*study, make_source(a.design.design, formats::read_file(a.design.design)), diagnostics);
+  const auto plan = plan_options({}, session, diagnostics);
+  if (!plan || diagnostics.has_errors()) return nullptr;
+  return std::make_shared<VariableSearch>(a, std::move(*study), *data, *plan, session);
 }
 
 int run_optimise(const OptimiseChoices& a, Session& session) {
   Diagnostics diagnostics;
   const auto data = parse_json(study_source(a.study), diagnostics);
   if (data && data->find("topology")) return optimise_topology(a, *data, session);
-  const std::string ending = ending_of(a.design.design);
-  if (ending != ".vcad" && ending != ".scad")
-    throw WrongArgument(a.design.design + " has no variables that could be set; take a .vcad or .scad script");
-  const auto study = data ? compile::read_optimise_study(*data, diagnostics) : std::nullopt;
+  const VariableSearchPtr search = plan_search(a, data, session, diagnostics);
   session.events.diagnose(diagnostics);
-  if (!study) return wrong_input;
-  return optimise_variables(a, *study, *data, session);
+  return search ? optimise_variables(*search, session) : wrong_input;
+}
+
+// Thrown where a search needs designs that nobody has measured yet.
+struct DesignsWanted : std::exception {
+  explicit DesignsWanted(std::vector<Values> wanted) : values(std::move(wanted)) {}
+  const char* what() const noexcept override { return "designs are to be measured"; }
+  std::vector<Values> values;
+};
+
+// Returns the designs that the search measures next, all at once; none if it is over.
+std::vector<Values> next_designs(const OptimiseStudy& study, const History& history) {
+  const optimise::Problem problem = problem_of(study, [&](const std::vector<optimise::Point>& points) {
+    const std::vector<Values> all = all_values(study, points);
+    if (std::vector<Values> missing = missing_in(history, all); !missing.empty()) throw DesignsWanted(missing);
+    return outcomes_in(history, study, all);
+  });
+  try {
+    const bool begins = !problem.evaluate({problem.start}).front().failed;
+    if (begins) optimise::search(problem, study.search);
+  } catch (const DesignsWanted& wanted) {
+    return wanted.values;
+  }
+  return {};
+}
+
+// The designs that a search measures next, as pieces that several processes measure. What follows depends on them.
+class SharedSearch final : public SharedJob {
+ public:
+  explicit SharedSearch(VariableSearchPtr search) : search_(std::move(search)), known_(search_->study) {
+    const stores::JournalFolder folder(search_->choices.folder, search_->stored, stores::journal_file);
+    if (fs::exists(folder.file(stores::journal_file))) {
+      folder.check_description();
+      known_.read(stores::parse_journal(search_->stored.words().id_name, folder.read(stores::journal_file),
+                                        [&](const stores::Entry& entry) { return search_->stored.accepts(entry); }));
+    }
+    if (known_.size() > 0 && known_.rows().back()->number != static_cast<int64_t>(known_.size()))
+      throw WrongArgument("designs are missing in the history of " + search_->choices.folder +
+                          "; measure them first: ombre optimise with " + spelled::option("--resume"));
+    next_ = next_designs(search_->study, known_);
+    if (next_.empty())
+      throw WrongArgument("the search in " + search_->choices.folder +
+                          " is over: all designs that it asks for are measured");
+  }
+
+  std::string folder() const override { return search_->choices.folder; }
+  const stores::StoredJob& stored() const override { return search_->stored; }
+  stores::PieceRange pieces() const override {
+    const auto first = static_cast<int64_t>(known_.size()) + 1;
+    return {first, first + static_cast<int64_t>(next_.size())};
+  }
+  DataMembers description() const override { return {{"key", search_->key.data()}}; }
+  std::string difference(const DataMembers& earlier) const override {
+    return search_->key.difference(Data(earlier).find("key"));
+  }
+  // How long a design takes is not known before one was measured.
+  PieceCosts costs(Session&) const override { return {std::vector<double>(next_.size()), 0}; }
+
+  int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const override {
+    stores::ShardStore store(folder(), stored(), shard, {0, nullptr, &session.stop});
+    for (int64_t number = range.begin; number < range.end; ++number) {
+      if (store.finished().contains(number)) continue;
+      const Values& values = next_[static_cast<size_t>(number - pieces().begin)];
+      compile::Measured measured = search_->meter.measure(values, search_->choices.work.threads, &session.stop);
+      store.put(History::piece({number, values, std::move(measured)}));
+    }
+    store.close();
+    return done;
+  }
+
+  int join(Session& session) const override {
+    stores::FolderStore store(folder(), stored(), stores::FolderUse::resume, {0, nullptr, &session.stop});
+    History history(search_->study);
+    history.read(store.finished());
+    const std::vector<Values> following = next_designs(search_->study, history);
+    if (following.empty()) return finish_search(*search_, history, store, session);
+    store.close();
+    exporting::write_file(search_->folder.history(), history.table());
+    session.events.say(format_count(history.size()) + " designs are known; the search goes on with " +
+                       format_count(following.size()) + ": make the next plan by ombre plan");
+    session.events.event("designs", {{"known", number(history.size())}, {"next", number(following.size())}});
+    return done;
+  }
+
+ private:
+  VariableSearchPtr search_;
+  History known_;
+  std::vector<Values> next_;
+};
+
+SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) {
+  const auto& choices = *static_cast<const OptimiseChoices*>(job);
+  if (choices.force || choices.resume)
+    throw WrongArgument("a search that is shared out has neither " + spelled::option("--force") + " nor " +
+                        spelled::option("--resume"));
+  const auto data = parse_json(study_source(choices.study), diagnostics);
+  if (data && data->find("topology"))
+    throw WrongArgument("the densities of a topology are found step by step, so they are not shared out");
+  VariableSearchPtr search = plan_search(choices, data, session, diagnostics);
+  return search ? std::make_unique<SharedSearch>(std::move(search)) : nullptr;
 }
 
 }  // namespace
 
 JobKind optimise_kind() {
-  return job_kind<OptimiseChoices>("optimise", "Search for the values of a design's variables that serve it best",
-                                   optimise_footer, run_optimise);
+  JobKind kind = job_kind<OptimiseChoices>(
+      "optimise", "Search for the values of a design's variables that serve it best", optimise_footer, run_optimise);
+  kind.share = share;
+  return kind;
 }
 
 }  // namespace ombre::jobs

@@ -71,12 +71,11 @@ std::string StoredSearch::description(const stores::Entries&) const {
 }
 
 void StoredSearch::check_same(const std::string& folder, const DataMembers& there) const {
-  const auto earlier = stores::JobKey::read(Data(there).find("key"));
-  const std::vector<std::string> changed = key_.differences(earlier.value_or(stores::JobKey()));
-  if (changed.empty()) return;
-  throw options::WrongValue("the history in " + folder + " is of another study or design, since " +
-                            join(changed, ", ") + (changed.size() == 1 ? " differs" : " differ") + "; choose another " +
-                            spelled::option("-o") + ", or " + spelled::option("--force") + " to begin again");
+  const std::string difference = key_.difference(Data(there).find("key"));
+  if (difference.empty()) return;
+  throw options::WrongValue("the history in " + folder + " is of another study or design, since " + difference +
+                            "; choose another " + spelled::option("-o") + ", or " + spelled::option("--force") +
+                            " to begin again");
 }
 
 bool StoredSearch::accepts(const stores::Entry& entry) const { return measured_design(entry, study_).has_value(); }

@@ -63,9 +63,7 @@ class SharedFrames final : public SharedJob {
   stores::PieceRange pieces() const override { return {0, choices_.frames}; }
   DataMembers description() const override { return {{"frames", number(choices_.frames)}, {"key", key_.data()}}; }
   std::string difference(const DataMembers& earlier) const override {
-    const auto key = stores::JobKey::read(Data(earlier).find("key"));
-    const std::vector<std::string> changed = key_.differences(key.value_or(stores::JobKey()));
-    return changed.empty() ? "" : ombre::join(changed, ", ") + (changed.size() == 1 ? " differs" : " differ");
+    return key_.difference(Data(earlier).find("key"));
   }
   // How long a frame takes is not known before one is made.
   PieceCosts costs(Session&) const override { return {std::vector<double>(static_cast<size_t>(choices_.frames)), 0}; }

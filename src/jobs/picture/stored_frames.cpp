@@ -44,13 +44,11 @@ std::string StoredFrames::description(const stores::Entries& finished) const {
 }
 
 void StoredFrames::check_same(const std::string& folder, const DataMembers& there) const {
-  const auto earlier = stores::JobKey::read(Data(there).find("key"));
-  const std::vector<std::string> changed = key_.differences(earlier.value_or(stores::JobKey()));
-  if (changed.empty()) return;
+  const std::string difference = key_.difference(Data(there).find("key"));
+  if (difference.empty()) return;
   throw Error(Code::other_job,
-              folder + " holds other frames, since " + join(changed, ", ") +
-                  (changed.size() == 1 ? " differs" : " differ") + "; replace them with " + spelled::option("--force") +
-                  ", or choose another folder",
+              folder + " holds other frames, since " + difference + "; replace them with " +
+                  spelled::option("--force") + ", or choose another folder",
               {{"file", folder}});
 }
 

@@ -8,6 +8,7 @@
 #include "base/text/text.h"
 #include "jobs/slice/stored_slices.h"
 #include "questions/build.h"
+#include "stores/open_store.h"
 
 namespace ombre::compile {
 namespace {
@@ -47,12 +48,14 @@ std::vector<int64_t> places(const voxel::Lattice& common, const voxel::Lattice& 
   return list;
 }
 
-std::function<Shown(int64_t)> stack_layers(const std::shared_ptr<const Stack>& stack, const voxel::Lattice& common) {
+using ChannelsOfLayer = std::function<std::vector<Shown>(int64_t layer)>;
+
+ChannelsOfLayer stack_layers(const std::shared_ptr<const Stack>& stack, const voxel::Lattice& common) {
   const voxel::Lattice& own = stack->request().lattice;
   const auto reader = std::make_shared<const LayerReader>(stack->request());
   return [stack, reader, x = places(common, own, 0), y = places(common, own, 1), z = places(common, own, 2),
           width = own.count[0]](int64_t layer) {
-    Shown shown(x.size() * y.size());
+    std::vector<Shown> shown(stack->request().channels.size(), Shown(x.size() * y.size()));
     const int64_t k = z[static_cast<size_t>(layer)];
     if (k < 0) return shown;
     const auto images = read_layer(*stack, *reader, k);
@@ -61,9 +64,11 @@ std::function<Shown(int64_t)> stack_layers(const std::shared_ptr<const Stack>& s
                   "layer " + std::to_string(k) + " of " + stack->folder + " cannot be read; ombre verify " +
                       stack->folder + " says why",
                   {{"file", stack->folder}});
-    for (size_t j = 0; j < y.size(); ++j)
-      for (size_t i = 0; i < x.size(); ++i)
-        if (x[i] >= 0 && y[j] >= 0) shown[j * x.size() + i] = images->front()[static_cast<size_t>(y[j] * width + x[i])];
+    for (size_t n = 0; n < shown.size(); ++n)
+      for (size_t j = 0; j < y.size(); ++j)
+        for (size_t i = 0; i < x.size(); ++i)
+          if (x[i] >= 0 && y[j] >= 0)
+            shown[n][j * x.size() + i] = (*images)[n][static_cast<size_t>(y[j] * width + x[i])];
     return shown;
   };
 }
@@ -87,6 +92,7 @@ std::function<Shown(int64_t)> design_layers(const std::shared_ptr<const DesignVo
 }  // namespace
 
 bool is_stack(const std::string& path) {
+  if (stores::is_archive(path)) return true;
   std::error_code ignored;
   return std::filesystem::exists(std::filesystem::path(path) / job_file, ignored);
 }
@@ -94,8 +100,6 @@ bool is_stack(const std::string& path) {
 ComparedSource compared_stack(const std::string& path) {
   Findings ignored;  // ombre verify tells them
   const auto stack = std::make_shared<const Stack>(open_stack(path, ignored));
-  if (!stack->request().has_materials())
-    throw Error(Code::file_kind, path + " shows values, not materials, so it cannot be compared", {{"file", path}});
   return {path, nullptr, stack, stack->request().lattice.box()};
 }
 
@@ -136,12 +140,19 @@ CommonLattice common_lattice(const ComparedSource& a, const ComparedSource& b,
 std::optional<ComparedSolid> compared_solid(const ComparedSource& source, const CommonLattice& common,
                                             const CheckWork& work, Diagnostics& diagnostics) {
   const voxel::Lattice& lattice = common.sampling.lattice;
-  if (source.stack) return ComparedSolid{source.stack->request().materials, stack_layers(source.stack, lattice)};
+  if (source.stack)
+    return ComparedSolid{
+        source.stack->request().materials,
+        [layers = stack_layers(source.stack, lattice)](int64_t layer) { return std::move(layers(layer).front()); }};
   Sampling sampling = common.sampling;
   const StageLoan loan{work.threads, work.memory_bytes, work.progress, work.stop};
   const auto design = DesignVoxels::make(source.design, sampling, whole_lattice(sampling), loan, diagnostics);
   if (!design) return std::nullopt;
   return ComparedSolid{design->materials(), design_layers(design, lattice, sampling.evaluator, work.stop)};
+}
+
+ComparedValues compared_values(const std::shared_ptr<const Stack>& stack, const voxel::Lattice& common) {
+  return {stack->request().channels, stack_layers(stack, common)};
 }
 
 }  // namespace ombre::compile

@@ -21,9 +21,8 @@ struct ComparedSource {
   Box box;
 };
 
-// True if the path is the folder of a slice job.
+// True if the path is the folder or the archive of a slice job.
 bool is_stack(const std::string& path);
-// Throws Error for stacks that show no materials.
 ComparedSource compared_stack(const std::string& path);
 // Returns nothing, and adds diagnostics, if the design is empty or has no bounds.
 std::optional<ComparedSource> compared_design(const LoadedPtr& loaded, Diagnostics& diagnostics);
@@ -41,8 +40,15 @@ struct ComparedSolid {
   std::vector<SliceMaterial> materials;
   std::function<Shown(int64_t layer)> layer;  // ids of materials; throws Error for layers that cannot be read
 };
-// Returns nothing, and adds diagnostics, if the design is wrong. Throws Cancelled.
+// Returns nothing, and adds diagnostics, if the design is wrong. A stack has to show materials. Throws Cancelled.
 std::optional<ComparedSolid> compared_solid(const ComparedSource& source, const CommonLattice& common,
                                             const CheckWork& work, Diagnostics& diagnostics);
+
+// The channels of a stack, on a lattice that it shares with another one. Thread-safe.
+struct ComparedValues {
+  std::vector<voxel::Channel> channels;
+  std::function<std::vector<Shown>(int64_t layer)> layer;  // throws Error for layers that cannot be read
+};
+ComparedValues compared_values(const std::shared_ptr<const Stack>& stack, const voxel::Lattice& common);
 
 }  // namespace ombre::compile

@@ -20,8 +20,9 @@ struct DiffChoices {
   static const options::Spec<DiffChoices>& options() {
     using namespace options;
     static const options::Spec<DiffChoices> spec{
-        option("first", &DiffChoices::first, kind::file, "A design, or the folder of a slice job", "A").required(),
-        option("second", &DiffChoices::second, kind::file, "Another design or folder", "B").required(),
+        option("first", &DiffChoices::first, kind::file, "A design, or the folder or archive of a slice job", "A")
+            .required(),
+        option("second", &DiffChoices::second, kind::file, "Another one of these", "B").required(),
         option("--voxel", &DiffChoices::voxel, kind::voxel,
                "Voxel size of the comparison: one length, or x,y,z; mm (default: that of the stacks, the finer one if\n"
                "they differ; of two designs the finer one of their root(), or 0.1 mm)",

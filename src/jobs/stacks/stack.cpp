@@ -5,25 +5,23 @@
 
 #include "base/text/error.h"
 #include "base/text/text.h"
-#include "formats/containers/file.h"
 #include "jobs/slice/stored_slices.h"
 #include "stores/journal_folder.h"
-#include "stores/open_store.h"
 #include "stores/shard.h"
 
 namespace ombre::compile {
 namespace {
 
-DescribedJob read_description(const std::string& path) {
+DescribedJob read_description(const std::string& path, std::string text) {
   Diagnostics problems;
-  auto job = read_job(make_source(path, formats::read_file(path)), problems);
+  auto job = read_job(make_source(path, std::move(text)), problems);
   if (!job) throw Error(Code::file_content, std::string(trim(to_text(problems))), {{"file", path}});
   return std::move(*job);
 }
 
 // Adds the lines of a journal to the stack, and what is wrong with them.
 void add_journal(const std::string& name, Stack& stack, Findings& findings) {
-  const std::string text = formats::read_file(stack.path(name));
+  const std::string text = stack.read(name);
   const StoredSlices slices(stack.request());
   const auto all = [](const stores::Entry&) { return true; };
   size_t number = 0;
@@ -47,19 +45,15 @@ void add_journal(const std::string& name, Stack& stack, Findings& findings) {
 
 }  // namespace
 
-std::string Stack::path(const std::string& name) const { return (std::filesystem::path(folder) / name).string(); }
-
 Stack open_stack(const std::string& folder, Findings& findings) {
-  if (stores::is_archive(folder))
-    throw Error(Code::file_kind, folder + " is an archive; unpack it, and give the folder with the layers",
-                {{"file", folder}});
-  const std::vector<std::string> names = stores::names_in(folder);
+  auto stored = stores::open_files(folder);
+  const std::vector<std::string>& names = stored->names();
   if (std::ranges::find(names, job_file) == names.end())
     throw Error(Code::file_kind, folder + " holds no slice job: there is no " + job_file + " in it",
                 {{"file", folder}});
-  DescribedJob job = read_description((std::filesystem::path(folder) / job_file).string());
+  DescribedJob job = read_description((std::filesystem::path(folder) / job_file).string(), stored->read(job_file));
   LayerFiles files(job.request);
-  Stack stack{folder, std::move(job), std::move(files), {names.begin(), names.end()}, false, {}};
+  Stack stack{folder, std::move(stored), std::move(job), std::move(files), {names.begin(), names.end()}, false, {}};
   for (const std::string& name : names) {
     if (name != stores::journal_file && !stores::is_journal_of_shard(name)) continue;
     stack.has_journal = true;

@@ -8,7 +8,6 @@
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
-#include "formats/containers/file.h"
 #include "jobs/slice/channel_counts.h"
 #include "jobs/slice/job_description.h"
 #include "jobs/slice/stored_slices.h"
@@ -85,7 +84,7 @@ class StackChecker {
         add_missing(layer, names[n], result);
         continue;
       }
-      bytes.push_back(formats::read_file(stack_.path(names[n])));
+      bytes.push_back(stack_.read(names[n]));
       ++result.files;
       result.bytes += bytes.back().size();
       if (entry) check_hash(layer, entry->files[n], bytes.back(), result.findings);
@@ -213,7 +212,7 @@ std::optional<std::vector<Shown>> read_layer(const Stack& stack, const LayerRead
   const std::vector<std::string> names = stack.files.names(layer);
   for (const std::string& name : names) {
     if (!stack.names.contains(name)) return std::nullopt;
-    bytes.push_back(formats::read_file(stack.path(name)));
+    bytes.push_back(stack.read(name));
   }
   Findings ignored;  // check_stack() tells them
   return reader.read(layer, names, bytes, ignored);

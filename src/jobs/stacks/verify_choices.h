@@ -34,7 +34,7 @@ struct VerifyChoices {
   static const options::Spec<VerifyChoices>& options() {
     using namespace options;
     static const options::Spec<VerifyChoices> spec{
-        option("stack", &VerifyChoices::stack, kind::file, "Folder of a slice job", "DIR").required(),
+        option("stack", &VerifyChoices::stack, kind::file, "Folder or .zip archive of a slice job", "STACK").required(),
         group(&VerifyChoices::design, optional_design()),
         option("--voxels", &VerifyChoices::voxels, kind::number,
                "The most voxels that are evaluated again, layers at borders of shares apart (default 2e7)", "N")
