@@ -42,7 +42,7 @@ TEST(Downloads, PackFolders) {
   EXPECT_NEAR(share, 1, 1e-9);
   const std::string bytes = folder.read("job.zip"), name = "job.zip";
   Diagnostics diagnostics;
-  formats::ZipReader zip(name, bytes, diagnostics, 100'000);
+  formats::ZipReader zip(name, bytes, diagnostics, {.entries = 100'000});
   EXPECT_EQ(zip.names(), (std::vector<std::string>{"job/deep/large.txt", "job/empty.txt", "job/slice_0.png"}));
   EXPECT_EQ(zip.read("job/slice_0.png"), "first");
   EXPECT_EQ(zip.read("job/deep/large.txt"), large);
