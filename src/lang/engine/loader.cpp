@@ -9,7 +9,7 @@
 #include "base/system/named_files.h"
 #include "base/system/temporary.h"
 #include "base/text/text.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/text/data.h"
-#include "lang/engine/ast.h"
 #include "lang/engine/meter.h"
+#include "lang/syntax/ast.h"
 
 namespace ombre::lang {
 

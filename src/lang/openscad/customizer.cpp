@@ -6,7 +6,7 @@
 
 #include "base/text/json.h"
 #include "base/text/text.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang::openscad {
 namespace {

@@ -1,11 +1,11 @@
 // The part of the parser that reads statements.
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 #include <algorithm>
 #include <array>
 
 #include "base/text/text.h"
-#include "lang/engine/parser_state.h"
+#include "lang/syntax/parser_state.h"
 
 namespace ombre::lang {
 

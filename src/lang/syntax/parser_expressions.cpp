@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "lang/engine/parser_state.h"
+#include "lang/syntax/parser_state.h"
 
 namespace ombre::lang {
 
