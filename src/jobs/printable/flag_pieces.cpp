@@ -53,8 +53,7 @@ void FlagPieceFinder::merge(uint32_t a, uint32_t b) {
 
 // Joins a run with those of a neighbouring row that touch it.
 void FlagPieceFinder::join(const std::vector<Run>& before, Run& run) {
-  const auto first =
-      std::ranges::partition_point(before, [&](const Run& other) { return other.end <= run.begin; });
+  const auto first = std::ranges::partition_point(before, [&](const Run& other) { return other.end <= run.begin; });
   for (auto other = first; other != before.end() && other->begin < run.end; ++other)
     if (run.label == no_label)
       run.label = root(other->label);
@@ -78,7 +77,8 @@ void FlagPieceFinder::add(int64_t k, const BitLayer& layer) {
       FlagPiece& piece = pieces_[root(run.label)];
       piece.voxels += static_cast<uint64_t>(end - begin);
       piece.box.lo = {std::min(piece.box.lo[0], begin), std::min(piece.box.lo[1], j), std::min(piece.box.lo[2], k)};
-      piece.box.hi = {std::max(piece.box.hi[0], end), std::max(piece.box.hi[1], j + 1), std::max(piece.box.hi[2], k + 1)};
+      piece.box.hi = {std::max(piece.box.hi[0], end), std::max(piece.box.hi[1], j + 1),
+                      std::max(piece.box.hi[2], k + 1)};
       rows[row].push_back(run);
     });
   }

@@ -127,16 +127,17 @@ TEST_F(PrintChecks, AWallBelowTheLimitIsFoundWhole) {
 }
 
 TEST_F(PrintChecks, EdgesCornersAndCurvesAreNoThinPlaces) {
-  for (const char* solid : {"rectprism([3, 3, 3], red);", "sphere(2, red);", "rotate(30, 40, 50) rectprism([3, 2, 3], red);",
-                            "difference() { rectprism([4, 4, 4], red); translate(2, 2, 2) rectprism([4, 4, 4], red); }",
-                            "cylinder(1, 3, red);", "torus(3, 0.6, red);"})
+  for (const char* solid :
+       {"rectprism([3, 3, 3], red);", "sphere(2, red);", "rotate(30, 40, 50) rectprism([3, 2, 3], red);",
+        "difference() { rectprism([4, 4, 4], red); translate(2, 2, 2) rectprism([4, 4, 4], red); }",
+        "cylinder(1, 3, red);", "torus(3, 0.6, red);"})
     for (const double limit : {0.3, 0.5, 0.8}) EXPECT_TRUE(found(solid, details(limit)).empty()) << solid << limit;
 }
 
 // A fin of 0.2 mm on a block: it is found but for its root, which is excused as a corner is.
 TEST_F(PrintChecks, AFinOnABlockIsFound) {
-  const auto all = found("union() { rectprism([4, 4, 2], red); translate(0, 0, 2) rectprism([4, 0.2, 2.4], red); }",
-                         details(0.5));
+  const auto all =
+      found("union() { rectprism([4, 4, 2], red); translate(0, 0, 2) rectprism([4, 0.2, 2.4], red); }", details(0.5));
   ASSERT_EQ(all.size(), 1U);
   const IndexBox& box = all[0].pieces.largest[0].box;
   EXPECT_EQ(box.hi, (std::array<int64_t, 3>{40, 21, 42}));
@@ -147,8 +148,7 @@ TEST_F(PrintChecks, AFinOnABlockIsFound) {
 
 // Two blocks 0.3 mm apart, 2 mm of each beside the other.
 TEST_F(PrintChecks, AGapBelowTheLimitIsFound) {
-  const std::string blocks =
-      "union() { rectprism([2, 2, 2], red); translate(2.3, 0, 0) rectprism([2, 2, 2], red); }";
+  const std::string blocks = "union() { rectprism([2, 2, 2], red); translate(2.3, 0, 0) rectprism([2, 2, 2], red); }";
   EXPECT_FALSE(of_kind(found(blocks, details(0.3)), "gap"));
   const auto all = found(blocks, details(0.4));
   const PrintFinding* gap = of_kind(all, "gap");
@@ -176,7 +176,7 @@ TEST_F(PrintChecks, ClosedHollowsAreFoundAndOpenOnesAreNot) {
 
 // A core of 20 voxels, 2 voxels below the surface: the outermost of its voxels are 0.2 mm from it, the next 0.3 mm.
 TEST_F(PrintChecks, MaterialsKeepTheirDistance) {
-  const std::string part = 
+  const std::string part =
       "union() { rectprism([2, 2, 2], blue);"
       "difference() { rectprism([2.4, 2.4, 2.4], red); rectprism([2, 2, 2], red); } }";
   const auto rule = [](double mm, const char* near) {
@@ -194,7 +194,9 @@ TEST_F(PrintChecks, MaterialsKeepTheirDistance) {
 }
 
 TEST_F(PrintChecks, ThreadsAndMemoryChangeNothing) {
-  const std::string foam = "intersection() { rectprism([6, 6, 6], red); tpms(\"gyroid\", cell = [2, 2, 2], thickness = 0.25, material = \"red\"); }";
+  const std::string foam =
+      "intersection() { rectprism([6, 6, 6], red); tpms(\"gyroid\", cell = [2, 2, 2], thickness = 0.25, material = "
+      "\"red\"); }";
   CheckLimits limits{voxel::SmallestFeature{0.5, 0.3}, {{"red", "surface", 0.1}}, false};
   const auto expected = found(foam, limits);
   EXPECT_FALSE(expected.empty());

@@ -20,7 +20,8 @@ PrintCheck thin_check(const std::string& of, double limit_mm, bool fails, Vec3 v
                       std::function<const BitLayers&(const SolidLayers&)> region) {
   PrintCheck check;
   check.kind = "thin";
-  check.text = "walls and details " + of + "thinner than " + mm(limit_mm) + (fails ? ", which fail" : ", which distort");
+  check.text =
+      "walls and details " + of + "thinner than " + mm(limit_mm) + (fails ? ", which fail" : ", which distort");
   check.remedy = "make them thicker, or remove them by opening(" + format_rounded(limit_mm / 2) + ")";
   check.is_error = fails;
   check.reach = reach_of_thin_places(limit_mm, voxel_mm);
@@ -45,8 +46,7 @@ PrintCheck gap_check(double limit_mm, bool fails, Vec3 voxel_mm) {
   return check;
 }
 
-PrintCheck neighbour_check(const voxel::ForbiddenNeighbour& rule, MaterialId material, MaterialId near,
-                           Vec3 voxel_mm) {
+PrintCheck neighbour_check(const voxel::ForbiddenNeighbour& rule, MaterialId material, MaterialId near, Vec3 voxel_mm) {
   const Offsets offsets = offsets_nearer(rule.within_mm, voxel_mm);
   PrintCheck check;
   check.kind = "neighbour";
@@ -69,8 +69,7 @@ PrintCheck neighbour_check(const voxel::ForbiddenNeighbour& rule, MaterialId mat
 }
 
 BitLayers part(const BitLayers& region, int64_t begin, int64_t end) {
-  return {begin,
-          {region.layers.begin() + (begin - region.first), region.layers.begin() + (end - region.first)}};
+  return {begin, {region.layers.begin() + (begin - region.first), region.layers.begin() + (end - region.first)}};
 }
 
 PrintCheck bodies_check() {

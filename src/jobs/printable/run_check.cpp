@@ -15,7 +15,8 @@ using compile::CheckChoices;
 
 constexpr const char* check_footer =
     "It makes the voxels of the job, and looks for walls and gaps that are too thin, materials that may not be\n"
-    "neighbours, closed hollows and loose bodies. The limits are those of the printer's profile. The exit code is 3 if\n"
+    "neighbours, closed hollows and loose bodies. The limits are those of the printer's profile. The exit code is 3 "
+    "if\n"
     "something stands in the way; warnings alone do not change it.\n\n"
     "Examples:\n"
     "  ombre check part.vcad --printer j750\n"
