@@ -401,7 +401,7 @@ def bundles_slice_as_their_designs_do(job):
 
 
 def reference_is_up_to_date(job):
-    for command in ("nodes", "codes", "commands", "formats", "printers"):
+    for command in ("nodes", "operators", "codes", "commands", "formats", "printers"):
         printed = program.run([job.ombre, command, "--markdown"]).stdout
         reference = program.SOURCE / "docs" / "reference" / f"{command}.md"
         found = reference.read_text(encoding="utf-8") if reference.exists() else ""
@@ -412,6 +412,8 @@ def reference_is_up_to_date(job):
 def examples_of_nodes_slice(job):
     listed = program.run([job.ombre, "nodes", "--json"]).stdout
     for node in map(json.loads, listed.splitlines()):
+        if node["event"] != "node":
+            continue
         design = job.write(node["name"] + ".vcad", node["example"])
         result = program.run(job.slicing(node["name"], "--voxel", "0.5", design=design), cwd=EXAMPLES)
         if program.WITHOUT_CAD in result.stderr:

@@ -3,6 +3,8 @@
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "load/find_printer.h"
+#include "load/library_folders.h"
+#include "load/library_operators.h"
 #include "load/node_registry.h"
 
 namespace ombre::cli {
@@ -22,6 +24,12 @@ std::vector<Completion> printers() {
 std::vector<Completion> nodes() {
   std::vector<Completion> found;
   for (const auto& type : compile::node_registry().types()) found.push_back({type->name, type->sentence});
+  try {
+    for (const compile::Operator& op : compile::operators_in(compile::library_folders()))
+      found.push_back({op.declaration.name, op.declaration.sentence});
+  } catch (const Error&) {
+    return found;
+  }
   return found;
 }
 
@@ -29,7 +37,7 @@ std::vector<Completion> nodes() {
 std::vector<Completion> choices(const CLI::Option& option) {
   const std::string name = option.get_name(), type = option.get_type_name();
   if (name == "printer" || name == "--printer") return printers();
-  if (name == "node") return nodes();
+  if (name == "node" || name == "operator") return nodes();
   const size_t begin = type.find(":{"), end = type.rfind('}');
   std::vector<Completion> found;
   if (begin == std::string::npos || end == std::string::npos) return found;

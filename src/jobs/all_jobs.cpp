@@ -23,6 +23,7 @@ JobKind scad_kind();
 JobKind bundle_kind();
 JobKind optimise_kind();
 JobKind codes_kind();
+JobKind operators_kind();
 JobKind formats_kind();
 JobKind plan_kind();
 JobKind run_kind();
@@ -36,11 +37,11 @@ JobKind sweep_kind();
 
 const std::vector<JobKind>& all_jobs() {
   static const std::vector<JobKind> all{
-      slice_kind(),    layer_kind(),      render_kind(), voxels_kind(), mesh_kind(),     contours_kind(),
-      fea_kind(),      homogenise_kind(), sheet_kind(),  probe_kind(),  info_kind(),     nodes_kind(),
-      printers_kind(), materials_kind(),  scad_kind(),   bundle_kind(), optimise_kind(), codes_kind(),
-      formats_kind(),  sweep_kind(),      plan_kind(),   run_kind(),    status_kind(),   gather_kind(),
-      submit_kind(),   verify_kind(),     diff_kind(),   check_kind()};
+      slice_kind(),     layer_kind(),      render_kind(), voxels_kind(), mesh_kind(),     contours_kind(),
+      fea_kind(),       homogenise_kind(), sheet_kind(),  probe_kind(),  info_kind(),     nodes_kind(),
+      printers_kind(),  materials_kind(),  scad_kind(),   bundle_kind(), optimise_kind(), codes_kind(),
+      operators_kind(), formats_kind(), sweep_kind(),   plan_kind(),   run_kind(),    status_kind(),   gather_kind(),
+      submit_kind(),    verify_kind(),     diff_kind(),   check_kind()};
   return all;
 }
 

@@ -1,6 +1,7 @@
 #include "load/bundle.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 #include "formats/containers/zip_archive.h"
 #include "load/data_folder.h"
 #include "load/files_read.h"
+#include "load/library_folders.h"
 #include "load/load.h"
 
 namespace ombre::compile {
@@ -91,6 +93,10 @@ class Packer {
   void choose(const std::set<fs::path>& files) {
     root_ = design_.parent_path();
     for (const fs::path& file : files) {
+      if (const auto name = name_in_library(file)) {
+        libraries_[file] = *name;
+        continue;
+      }
       if (is_of_system(file) && !is_within(file, design_.parent_path())) {
         if (!is_of_ombre(file)) contents_.left_outside.push_back(file.string());
         continue;
@@ -100,10 +106,17 @@ class Packer {
     }
     chosen_.insert(design_);
     contents_.design = name_of(design_);
+    for (const auto& [file, name] : libraries_) chosen_.insert(file);
     for (const fs::path& file : chosen_) contents_.files.push_back(name_of(file));
+    std::ranges::sort(contents_.files);
   }
 
-  std::string name_of(const fs::path& file) const { return file.lexically_relative(root_).generic_string(); }
+  // Libraries lie beside the design, where `use` looks for them first.
+  std::string name_of(const fs::path& file) const {
+    const auto library = libraries_.find(file);
+    const fs::path place = library == libraries_.end() ? file : design_.parent_path() / library->second;
+    return place.lexically_relative(root_).generic_string();
+  }
 
   static void add(const std::string& name, std::string bytes, std::vector<formats::ZipEntry>& entries) {
     formats::LazyBytes lazy;
@@ -147,6 +160,7 @@ class Packer {
   LoadOptions options_;
   Diagnostics& diagnostics_;
   std::set<fs::path> chosen_;
+  std::map<fs::path, std::string> libraries_;  // files of libraries, and their names in these
   BundleContents contents_;
 };
 

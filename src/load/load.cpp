@@ -15,6 +15,7 @@
 #include "load/bundle.h"
 #include "load/data_folder.h"
 #include "load/design_sources.h"
+#include "load/library_folders.h"
 #include "load/material_map.h"
 #include "load/scad_words_design.h"
 #include "nodes/all_nodes.h"
@@ -69,6 +70,7 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   run.read_file = [&](const std::string& name) { return sources::read_included(name, cache); };
   run.threads = options.threads > 0 ? options.threads : core_count();
   run.needed = options.needed;
+  run.libraries = library_folders();
   for (const std::string& text : options.definitions)
     if (auto definition = parse_definition(text, diagnostics)) run.definitions.push_back(std::move(*definition));
   if (!materials || diagnostics.has_errors()) return std::nullopt;
@@ -107,6 +109,7 @@ std::optional<openscad::Options> script_options(const LoadOptions& options, sour
                                                 Diagnostics& diagnostics) {
   openscad::Options run;
   run.libraries = openscad::library_folders();
+  for (std::string& folder : library_folders()) run.libraries.push_back(std::move(folder));
   run.stop = options.stop;
   run.is_preview = false;
   run.read_file = [&cache](const std::string& path) { return sources::read_included(path, cache); };

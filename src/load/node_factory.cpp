@@ -2,6 +2,7 @@
 
 #include "base/text/text.h"
 #include "lang/vcad/node_calls.h"
+#include "load/library_folders.h"
 #include "nodes/all_nodes.h"
 
 namespace ombre::compile {
@@ -22,6 +23,14 @@ design::NodePtr NodeFactory::make(std::string_view type, Arguments arguments, st
   for (auto& [name, value] : arguments) call.push_back({std::move(name), {}, std::move(value)});
   const auto values = lang::bound_arguments(*known, std::move(call), reader);
   return values ? lang::make_called(*known, *values, std::move(inputs), registry, reader) : nullptr;
+}
+
+std::optional<lang::HostResult> NodeFactory::call(const lang::HostCall& call, const SourceRange& where,
+                                                  Diagnostics& diagnostics) {
+  lang::Options options;
+  options.read_file = [this](const std::string& path) { return sources::read_included(path, *cache_); };
+  options.libraries = library_folders();
+  return lang::call_operator(call, nodes::registry(), materials_, &loader_, options, where, diagnostics);
 }
 
 }  // namespace ombre::compile

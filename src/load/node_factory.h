@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "design/design.h"
+#include "lang/vcad/operator_call.h"
 #include "load/design_sources.h"
 
 namespace ombre::compile {
@@ -25,6 +27,9 @@ class NodeFactory {
   using Arguments = std::vector<std::pair<std::string, Data>>;
   design::NodePtr make(std::string_view type, Arguments arguments, std::vector<design::NodePtr> inputs,
                        const SourceRange& where, Diagnostics& diagnostics);
+
+  // Calls a module or function of a library, as a design that uses it does.
+  std::optional<lang::HostResult> call(const lang::HostCall& call, const SourceRange& where, Diagnostics& diagnostics);
 
  private:
   design::MaterialTable materials_;

@@ -7,9 +7,9 @@
 
 #include "fuzz/checks.h"
 #include "fuzz/small_limits.h"
-#include "lang/engine/ast_print.h"
 #include "lang/engine/interpret.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/ast_print.h"
+#include "lang/syntax/parser.h"
 
 namespace {
 

@@ -9,6 +9,8 @@
 #include "base/text/text.h"
 #include "host_function.h"
 #include "jobs/slice/slice_request.h"
+#include "load/library_folders.h"
+#include "load/library_operators.h"
 #include "load/load.h"
 #include "load/node_registry.h"
 #include "python_data.h"
@@ -100,23 +102,35 @@ FactoryPtr make_factory(const CachePtr& cache, const std::string& path) {
   return std::make_shared<compile::NodeFactory>(std::move(*materials), cache);
 }
 
-NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const py::tuple& positional,
-                     const py::dict& named, const std::vector<NodeHandle>& inputs,
-                     const std::optional<std::pair<std::string, int>>& place) {
-  const SourceRange where = place ? line_of(place->first, place->second) : call_site();
+compile::NodeFactory::Arguments arguments_of(const py::tuple& positional, const py::dict& named,
+                                             const SourceRange& where, const std::string& callee) {
   compile::NodeFactory::Arguments arguments;
-  for (const py::handle value : positional) arguments.emplace_back("", to_data(value, where, type));
+  for (const py::handle value : positional) arguments.emplace_back("", to_data(value, where, callee));
   for (const auto& [key, value] : named) {
     auto parameter = key.cast<std::string>();
     Data data = to_data(value, where, parameter);
     arguments.emplace_back(std::move(parameter), std::move(data));
   }
+  return arguments;
+}
+
+std::vector<design::NodePtr> nodes_of(const std::vector<NodeHandle>& inputs, const FactoryPtr& factory,
+                                      const std::string& callee) {
   std::vector<design::NodePtr> nodes;
   for (const NodeHandle& input : inputs) {
     if (&input.factory->materials().all() != &factory->materials().all())
-      throw py::value_error(type + ": its inputs were made with other materials; give all of them the same");
+      throw py::value_error(callee + ": its inputs were made with other materials; give all of them the same");
     nodes.push_back(input.node);
   }
+  return nodes;
+}
+
+NodeHandle make_node(const FactoryPtr& factory, const std::string& type, const py::tuple& positional,
+                     const py::dict& named, const std::vector<NodeHandle>& inputs,
+                     const std::optional<std::pair<std::string, int>>& place) {
+  const SourceRange where = place ? line_of(place->first, place->second) : call_site();
+  compile::NodeFactory::Arguments arguments = arguments_of(positional, named, where, type);
+  std::vector<design::NodePtr> nodes = nodes_of(inputs, factory, type);
   Diagnostics diagnostics;
   design::NodePtr node = factory->make(type, std::move(arguments), std::move(nodes), where, diagnostics);
   raise_errors(diagnostics);
@@ -149,6 +163,49 @@ py::object parameter(const Data& data, const FactoryPtr& factory) {
   for (const auto& [name, value] : formula ? *data.find("with")->members() : DataMembers{})
     outputs[py::str(name)] = output_of(value, factory);
   return values.attr("from_parameter")(formula ? *formula->string() : std::string(), outputs);
+}
+
+// Returns the value of a function of a library; members of an object are those of a SimpleNamespace.
+py::object function_result(const Data& data, const FactoryPtr& factory) {
+  if (const DataList* list = data.list()) {
+    py::list result;
+    for (const Data& element : *list) result.append(function_result(element, factory));
+    return result;
+  }
+  if (const auto node = std::dynamic_pointer_cast<const design::NodeObject>(data.host_object())) {
+    const bool is_solid = node->node()->type().is_solid();
+    const py::object convert = is_solid ? py::module_::import("ombre._solid").attr("wrap")
+                                        : py::module_::import("ombre._values").attr("from_node");
+    return convert(NodeHandle{node->node(), factory});
+  }
+  if (const auto formula = std::dynamic_pointer_cast<const design::FormulaObject>(data.host_object()))
+    return parameter(design::write_formula(formula->expression()), factory);
+  if (design::is_value(data)) return parameter(data, factory);
+  if (!data.members()) return to_python(data);
+  py::dict members;
+  for (const auto& [name, member] : *data.members()) members[py::str(name)] = function_result(member, factory);
+  return py::module_::import("types").attr("SimpleNamespace")(**members);
+}
+
+// Calls a module or function of a library, and returns a node or a value.
+py::object call_operator(const FactoryPtr& factory, const std::string& library, const std::string& name, bool is_module,
+                         const py::tuple& positional, const py::dict& named, const std::vector<NodeHandle>& inputs) {
+  const SourceRange where = call_site();
+  lang::HostCall call{library, name, is_module, arguments_of(positional, named, where, name),
+                      nodes_of(inputs, factory, name)};
+  Diagnostics diagnostics;
+  const auto result = factory->call(call, where, diagnostics);
+  raise_errors(diagnostics);
+  if (!is_module) return function_result(result->value, factory);
+  return py::module_::import("ombre._solid").attr("wrap")(NodeHandle{result->solid, factory});
+}
+
+// Returns the descriptions of the operators in the libraries of these folders.
+py::list operators(const std::vector<std::string>& folders) {
+  py::list result;
+  for (const compile::Operator& op : compile::operators_in(folders))
+    result.append(to_python(compile::describe_operator(op)));
+  return result;
 }
 
 py::dict parameters(const NodeHandle& handle) {
@@ -350,6 +407,8 @@ void add_designs(py::module_& module, const CachePtr& cache) {
       .def(py::init([cache](const std::string& path) { return make_factory(cache, path); }), py::arg("path"))
       .def("make", &make_node, py::arg("type"), py::arg("positional"), py::arg("named"), py::arg("inputs"),
            py::arg("place") = py::none())
+      .def("call", &call_operator, py::arg("library"), py::arg("name"), py::arg("is_module"), py::arg("positional"),
+           py::arg("named"), py::arg("inputs"))
       .def_property_readonly("materials", [](const FactoryPtr& f) { return materials_list(f->materials()); });
   py::class_<NodeHandle>(module, "Node", "A node of a design; never changes.")
       .def_property_readonly("type", [](const NodeHandle& h) { return h.node->type().name; })
@@ -395,6 +454,8 @@ void add_designs(py::module_& module, const CachePtr& cache) {
                              })
       .def("sample", &sample, py::arg("points"), py::arg("question"), py::arg("threads") = 0);
   module.def("check_numpy", &check_numpy);
+  module.def("operators", [] { return operators(compile::library_folders()); });
+  module.def("own_operators", [] { return operators(compile::own_library_folders()); });
   module.def("source_memory", [cache] { return about(*cache); });
   module.def("set_source_memory", [cache](size_t bytes) { cache->set_most_bytes(bytes); });
 }

@@ -24,6 +24,7 @@ from ._expressions import coordinates as _coordinates, functions as _functions
 from ._functions import pointwise
 from ._info import volume_info
 from ._materials import Materials
+from ._operators import operators
 from ._points import delaunay_edges, voronoi_edges
 from ._script import option
 from ._solid import Solid, node_classes as _node_classes
@@ -39,7 +40,7 @@ globals().update({**{n: f for n, f in _functions.items() if n != "if"},
 
 __all__ = ["Design", "Samples", "Voxels", "load", "load_text", "optimise", "run_job", "source_memory",
            "CheckError", "DesignError", "DesignWarning", "FunctionError", "MachineError",
-           "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "volume_info", "option", "Solid",
+           "Expression", "d", "t", "where", "pointwise", "Materials", "delaunay_edges", "voronoi_edges", "volume_info", "option", "operators", "Solid",
            "Value",
            *_coordinates, *_nodes,
            *(n for n in _functions if n != "if" and n not in _builtin_names)]

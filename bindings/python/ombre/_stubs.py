@@ -188,6 +188,32 @@ def _jobs():
         yield f"    def {name}(self, voxel: Union[float, str, Sequence[float], None] = ...{what}{words}) -> {result}: ...\n"
 
 
+# Types of parameters of operators; all else takes anything.
+_port_types = {"number": "float", "value": "Number", "vector": "Numbers", "material": "Material", "mixture": "Material",
+               "text": "str", "image": "str", "solid": "Solid", "truth": "bool"}
+
+
+def _operator(info):
+    words = "".join(f", {p['name']}: {_port_types.get(p['kind'], 'Any')} = ..."
+                    for p in info["parameters"] if _safe(p["name"]))
+    result = "Solid" if info["gives"] == "solid" else "Any"
+    return (f"    def {info['name']}(self, *arguments: Argument{words}) -> {result}:\n" +
+            _docstring(info["sentence"] or info["name"], 8) + "        ...\n")
+
+
+def _operator_classes():
+    """A class for each library, and one that has all of them."""
+    libraries = {}
+    for info in ombre._core.own_operators():
+        libraries.setdefault(info["library"].removeprefix("ombre/").removesuffix(".vcad"), []).append(info)
+    names = {library: "_Library_" + "".join(c if c.isalnum() else "_" for c in library) for library in libraries}
+    for library, infos in libraries.items():
+        yield f"\nclass {names[library]}:\n" + "".join(map(_operator, infos))
+    yield "\nclass _Operators:\n    def __getattr__(self, name: str) -> Any: ...\n"
+    yield from (f"    {library}: {name}\n" for library, name in names.items() if library.isidentifier())
+    yield "operators: _Operators\n"
+
+
 def stub():
     """The stub's text."""
     out = [_head]
@@ -219,6 +245,7 @@ def stub():
         out.append(f"\nclass {info['name']}({base}):\n" + _docstring(_solid._doc(info), 4) +
                    "".join(f"    {o['name']}: {o['python']}\n" for o in info["outputs"]) +
                    f"    def __init__(self, *arguments: Argument{_keywords(info)}) -> None: ...\n")
+    out += _operator_classes()
     out += ["\n"] + [f"{name}: Expression\n" for name in (*ombre._coordinates, "d", "t")]
     out += [f"def {name}(*values: Number) -> Expression: ...\n" for name in ombre._functions
             if name != "if" and name not in ombre._nodes]

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/text/text.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 #include "questions/build.h"
 
 namespace ombre::compile {

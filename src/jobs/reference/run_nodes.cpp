@@ -8,6 +8,7 @@
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
 #include "jobs/reference/list_or_page.h"
+#include "jobs/reference/operator_text.h"
 #include "load/node_data.h"
 #include "load/node_registry.h"
 
@@ -82,13 +83,16 @@ void list_nodes(const Session& session) {
     category = type->category;
     session.events.print("  " + type->name + std::string(width + 2 - type->name.size(), ' ') + type->sentence + '\n');
   }
+  if (!session.events.wants_data()) session.events.print("\noperators of libraries\n");
+  list_operators(session);
 }
 
 int show_node(const std::string& wanted, Session& session) {
   const design::Registry& registry = compile::node_registry();
   const NodeType* type = registry.find(wanted);
+  if (!type && show_operator(wanted, session)) return done;
   if (!type) {
-    const std::string hint = did_you_mean(wanted, registry.names());
+    const std::string hint = did_you_mean(wanted, names_with_operators(registry.names()));
     throw WrongArgument("there is no node \"" + wanted + "\"; " + (hint.empty() ? "ombre nodes lists them" : hint));
   }
   if (session.events.wants_data())
@@ -148,7 +152,7 @@ int show_nodes(const NodesChoices& a, Session& session) {
 }  // namespace
 
 JobKind nodes_kind() {
-  return job_kind<NodesChoices>("nodes", "List what a design can be made of, or explain one node",
+  return job_kind<NodesChoices>("nodes", "List what a design can be made of, or explain one node or operator",
                                 "Examples:\n  ombre nodes\n  ombre nodes sphere\n", show_nodes);
 }
 

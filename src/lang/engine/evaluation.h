@@ -55,6 +55,7 @@ class Evaluation {
     const ast::Expr* body = nullptr;
     ScopePtr scope;              // the scope where it was defined
     const Unit* used = nullptr;  // the file that defines the function, if it is one of `use`
+    const Declaration* declaration = nullptr;
   };
 
   Evaluation(const Program& program, const Limits& limits, const StopFlag* stop)
@@ -134,6 +135,7 @@ class Evaluation {
   void bind(const std::vector<ast::Parameter>& parameters, const std::vector<ast::Argument>& arguments,
             const ScopePtr& caller, const ScopePtr& home, const ScopePtr& into, const ast::Span& callee,
             size_t specials_from);
+  void check_arguments(const Declaration& declaration, const std::vector<ast::Argument>& arguments, const Scope& bound);
   void bind_let(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t specials_from);
   void echo(const std::vector<ast::Argument>& arguments, const ScopePtr& scope);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lang/engine/argument_check.h"
 #include "lang/engine/evaluation_loops.h"
 
 namespace ombre::lang {
@@ -36,6 +37,7 @@ Value Evaluation<Language, Product>::eval_tail(const ast::Expr& start, const Sco
           if (callee.used) self().enter(*callee.used, mark.size());
           bind(*callee.parameters, call.arguments, scope, callee.scope, inner, place(call.span, call.callee->span),
                mark.size());
+          if (callee.declaration) check_arguments(*callee.declaration, call.arguments, *inner);
           entered.add(call, *callee.body);
           scope = std::move(inner);
           expr = callee.body;
@@ -97,7 +99,7 @@ bool Evaluation<Language, Product>::find_function(Symbol name, const ScopePtr& s
   };
   const auto is_defined = [&](const ast::Plan* plan, const ScopePtr& home, const Unit* used) {
     const ast::FunctionDef* function = plan ? plan->function(name) : nullptr;
-    if (function) callee = {&function->parameters, function->body.get(), home, used};
+    if (function) callee = {&function->parameters, function->body.get(), home, used, function->declaration.get()};
     return function != nullptr;
   };
   if (name->front() == '$') {
@@ -173,6 +175,27 @@ void Evaluation<Language, Product>::bind(const std::vector<ast::Parameter>& para
   if (!specials_last) return;
   for (const auto& [name, value] : into->variables())
     if (name->front() == '$') set_special(name, value, specials_from);
+}
+
+// Compares the arguments of a call with the declaration of the operator.
+template <class Language, class Product>
+void Evaluation<Language, Product>::check_arguments(const Declaration& declaration,
+                                                    const std::vector<ast::Argument>& arguments, const Scope& bound) {
+  const auto& parameters = declaration.parameters;
+  size_t position = 0;
+  for (const ast::Argument& argument : arguments) {
+    const auto is_it = [&](const DeclaredParameter& one) { return one.name == argument.name.text(); };
+    auto parameter = parameters.end();
+    if (argument.name.symbol)
+      parameter = std::ranges::find_if(parameters, is_it);
+    else if (position < parameters.size())
+      parameter = parameters.begin() + static_cast<std::ptrdiff_t>(position++);
+    if (parameter == parameters.end()) continue;
+    const Value* value = bound.own(symbol(parameter->name));
+    const std::string mismatch = value ? mismatch_of(*parameter, *value) : "";
+    if (!mismatch.empty())
+      self().stop_at_argument(argument.value->span, declaration.name + ": " + parameter->name + ": " + mismatch);
+  }
 }
 
 // Assigns the variables one after the other, so that each can use those before it.

@@ -100,6 +100,7 @@ void Evaluation<Language, Product>::call_module(const ast::ModuleDef& module, co
   try {
     bind(module.parameters, statement.arguments, scope, home, inner, place(statement.span, statement.name.span),
          mark.size());
+    if (module.declaration) check_arguments(*module.declaration, statement.arguments, *inner);
   } catch (const LimitReached&) {
     self().stop_if_recursive(module);
     throw;

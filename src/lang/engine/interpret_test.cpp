@@ -439,5 +439,58 @@ TEST(Interpret, NothingIsEvaluatedAfterASyntaxError) {
             "part.vcad:1:5: error: expected a value, found \";\"\n  1 | a = ; cube(a); cube(1);\n    |     ^\n");
 }
 
+const std::string honeycomb = R"(/// Hexagonal cells.
+module honey(
+  size = 6,     // [1:0.5:20] mm: Width of a cell
+  core = "soft",// material: What fills the cells
+  lie = "flat", // [flat, steep] text: How they lie
+  at = [0, 0],  // vector mm: Where
+  count = 3     // [1:9] number: How many
+) { show(size, core, lie, at, count); }
+/// A length.
+function width(
+  of            // number mm: Of what
+) = 2 * of;
+)";
+
+TEST(Interpret, DeclaredParametersAreChecked) {
+  const Cases cases{
+      {"honey(25);", "13:7: error: honey: size: expected a number from 1 to 20 (mm), found 25"},
+      {"honey(\"big\");", "13:7: error: honey: size: expected a number from 1 to 20 (mm), found \"big\""},
+      {"honey(core = 3);", "13:14: error: honey: core: expected a material or a mixture, found 3"},
+      {"honey(lie = \"falt\");", "13:13: error: honey: lie: expected one of \"flat\", \"steep\", found \"falt\""},
+      {"honey(at = 3);", "13:12: error: honey: at: expected a list of numbers (mm), found 3"},
+      {"honey(at = [1, true]);", "13:12: error: honey: at: expected a list of numbers (mm), found a list of 2"},
+      {"honey(count = 0);", "13:15: error: honey: count: expected a number from 1 to 9, found 0"},
+      {"cube(width(true));", "13:12: error: width: of: expected a number (mm), found true"}};
+  for (const auto& [call, message] : cases) expect_message(honeycomb + call, message);
+  expect_nodes(honeycomb + "honey(20, at = [1, 2]); cube(width(3)); honey(undef);",
+               "show(20,\"soft\",\"flat\",[1,2],3) cube(6) show(undef,\"soft\",\"flat\",[0,0],3)");
+}
+
+TEST(Interpret, LibrariesAreSearchedLast) {
+  std::vector<std::string> tried;
+  Options options;
+  options.libraries = {"/home/me/library", "/usr/share/library"};
+  options.read_file = [&](const std::string& path) {
+    tried.push_back(path);
+    return path == "/usr/share/library/ombre/cells.vcad"
+               ? std::optional<std::string>("use <more.vcad>\nfunction f() = g();")
+           : path == "/usr/share/library/ombre/more.vcad" ? std::optional<std::string>("function g() = 7;")
+                                                          : std::nullopt;
+  };
+  expect_nodes("use <ombre/cells.vcad>\ncube(f());", "cube(7)", options);
+  EXPECT_EQ(tried,
+            (std::vector<std::string>{"ombre/cells.vcad", "/home/me/library/ombre/cells.vcad",
+                                      "/usr/share/library/ombre/cells.vcad", "/usr/share/library/ombre/more.vcad"}));
+  tried.clear();
+  EXPECT_EQ(first_message("use <ombre/none.vcad>\ncube(1);", options),
+            "part.vcad:1:6: error: there is no file \"ombre/none.vcad\"; looked for ombre/none.vcad and "
+            "/home/me/library/ombre/none.vcad and /usr/share/library/ombre/none.vcad");
+  tried.clear();
+  first_message("use <ombre/../../secret.vcad>\ncube(1);", options);
+  EXPECT_EQ(tried, (std::vector<std::string>{"ombre/../../secret.vcad"}));
+}
+
 }  // namespace
 }  // namespace ombre::lang

@@ -62,6 +62,9 @@ class Interpreter : Evaluation<Interpreter, Product> {
   [[noreturn]] void stop_without_part(const ast::Member& member, const Object& object, const std::string& known);
   [[noreturn]] void stop_at_function(const ast::Span& argument);
   [[noreturn]] void stop_at_choice(const ast::Span& where, const Value& yes, const Value& no);
+  [[noreturn]] void stop_at_argument(const ast::Span& where, std::string_view message) {
+    fail(Code::parameter_type, where, message);
+  }
   [[noreturn]] void report_parameter(const ast::Name& name, const ast::Span& callee,
                                      const std::vector<ast::Parameter>& parameters);
   [[noreturn]] void report_too_many(const ast::Argument& argument, const ast::Span& callee,

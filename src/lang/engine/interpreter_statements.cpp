@@ -1,6 +1,6 @@
 // Statements of .vcad scripts, which make nodes.
 #include "lang/engine/interpreter.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang {
 

@@ -9,7 +9,7 @@
 #include "base/system/named_files.h"
 #include "base/system/temporary.h"
 #include "base/text/text.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang {
 namespace {
@@ -37,6 +37,7 @@ class Loader {
     const Temporary begin(unit_begin_, open_.size());
     Unit& result = program_.units.emplace_back();
     result.path = source->name();
+    result.has_words = dialect_ == Dialect::openscad && is_vcad(source->name());
     units_[normal(source->name())] = &result;  // before its files are read, since these may use it in turn
     splice(source, result);
     if (dialect_ == Dialect::vcad) warn_of_replaced(result.plan, diagnostics_);
@@ -46,7 +47,7 @@ class Loader {
   // Adds a file's statements to the unit, with the statements of included files in their places.
   void splice(const SourcePtr& source, Unit& into) {
     open_.push_back(opened_as(source->name()));
-    program_.files.push_back(parse_deferred(source, program_.names, dialect_, diagnostics_));
+    program_.files.push_back(parse_deferred(source, program_.names, dialect_of(source->name()), diagnostics_));
     const ast::File& file = program_.files.back();
     for (const ast::StatementPtr& statement : file.statements) {
       if (statement->kind == ast::Statement::Kind::include)
@@ -137,30 +138,55 @@ class Loader {
     return false;
   }
 
-  std::vector<std::string> places(const ast::Include& include) const {
-    std::vector<std::string> places = places_of(include.path, (*include.span.source)->name());
-    for (const std::string& library : libraries_) places.push_back((fs::path(library) / include.path).generic_string());
+  static bool is_vcad(const std::string& path) { return to_lower(path).ends_with(".vcad"); }
+
+  // Operators in .vcad files keep their language when OpenSCAD scripts use them.
+  Dialect dialect_of(const std::string& path) const { return is_vcad(path) ? Dialect::vcad : dialect_; }
+
+  // Returns the paths beside the including file, beside the file that it links to, and in the working directory.
+  static std::vector<std::string> near_places(const ast::Include& include) {
+    return places_of(include.path, (*include.span.source)->name());
+  }
+
+  // Returns the paths beside the design and in the libraries, which a path cannot leave.
+  std::vector<std::string> library_places(const ast::Include& include) const {
+    const fs::path path(include.path);
+    if (path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) return {};
+    const fs::path main = fs::path(program_.units.front().path).parent_path();
+    std::vector<std::string> places;
+    if (include.is_use) places.push_back((main / path).generic_string());
+    for (const std::string& library : libraries_) places.push_back((fs::path(library) / path).generic_string());
     return places;
   }
 
-  // Searches beside the including file, then beside the file that it links to, in the working directory, and in the
-  // libraries.
+  std::vector<std::string> places(const ast::Include& include) const {
+    std::vector<std::string> places = near_places(include);
+    for (std::string& place : library_places(include))
+      if (std::ranges::find(places, place) == places.end()) places.push_back(std::move(place));
+    return places;
+  }
+
   SourcePtr find(const ast::Include& include) {
     if (include.path.empty()) {
       diagnostics_.error(Code::syntax, include.span.range(), "there is no path between < and >");
       return nullptr;
     }
-    std::vector<std::string> places = this->places(include);
+    const std::vector<std::string> places = this->places(include);
     for (const std::string& path : places)
       if (auto text = read_(path)) return make_source(path, std::move(*text));
     if (dialect_ == Dialect::openscad) {
       cannot_open(include);
       return nullptr;
     }
-    if (places.size() > 1) places.back() += " in the working directory";
     diagnostics_.error(Code::file_missing, include.path_span.range(), "there is no file \"" + include.path + '"',
-                       "looked for " + join(places, " and "), {{"file", include.path}});
+                       "looked for " + places_text(include, places), {{"file", include.path}});
     return nullptr;
+  }
+
+  static std::string places_text(const ast::Include& include, std::vector<std::string> places) {
+    const size_t near = near_places(include).size();
+    if (near > 1) places[near - 1] += " in the working directory";
+    return join(places, " and ");
   }
 
   static std::string normal(const std::string& path) { return fs::path(path).lexically_normal().generic_string(); }

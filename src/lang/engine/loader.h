@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/text/diagnostic.h"
-#include "lang/engine/ast.h"
 #include "lang/engine/run_options.h"
+#include "lang/syntax/ast.h"
 
 namespace ombre::lang {
 

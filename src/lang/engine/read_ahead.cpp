@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang {
 namespace {

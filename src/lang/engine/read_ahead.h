@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/system/ahead.h"
-#include "lang/engine/ast.h"
+#include "lang/syntax/ast.h"
 
 namespace ombre::lang {
 

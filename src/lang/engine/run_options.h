@@ -8,8 +8,8 @@
 
 #include "base/system/progress.h"
 #include "base/text/data.h"
-#include "lang/engine/dialect.h"
 #include "lang/engine/limits.h"
+#include "lang/syntax/dialect.h"
 
 namespace ombre::lang {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/text/data.h"
-#include "lang/engine/ast.h"
 #include "lang/engine/meter.h"
+#include "lang/syntax/ast.h"
 
 namespace ombre::lang {
 
@@ -71,7 +71,10 @@ class Value {
 // A value that only a vocabulary understands, such as a number that varies in space.
 class Object {
  public:
+  enum class Form : uint8_t { value, mixture, solid, values };
+
   virtual ~Object() = default;
+  virtual Form form() const = 0;             // `values` is a node with several outputs
   virtual std::string describe() const = 0;  // description for messages: "a value that varies in space"
   virtual std::string text() const = 0;      // text that echo prints
   virtual Data data() const = 0;             // data for a parameter of a node

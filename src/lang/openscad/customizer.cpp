@@ -6,12 +6,10 @@
 
 #include "base/text/json.h"
 #include "base/text/text.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang::openscad {
 namespace {
-
-using ast::Expr;
 
 struct Comment {
   size_t begin, end;  // including the comment signs
@@ -47,84 +45,17 @@ Outline outline_of(std::string_view text) {
   return outline;
 }
 
-// Returns the value of an expression if it is plain: a number, text, truth value or vector of numbers.
-std::optional<Data> plain_value(const Expr& expr) {
-  if (expr.kind == Expr::Kind::number) return Data(static_cast<const ast::Number&>(expr).value);
-  if (expr.kind == Expr::Kind::boolean) return Data(static_cast<const ast::Boolean&>(expr).value);
-  if (expr.kind == Expr::Kind::string) return Data(static_cast<const ast::String&>(expr).value);
-  if (expr.kind == Expr::Kind::unary) {
-    const auto& sign = static_cast<const ast::Unary&>(expr);
-    const auto number = plain_value(*sign.operand);
-    if (sign.op == ast::Operator::negate && number && number->number()) return Data(-*number->number());
-    return std::nullopt;
-  }
-  if (expr.kind != Expr::Kind::list) return std::nullopt;
-  DataList items;
-  for (const ast::ExprPtr& element : static_cast<const ast::List&>(expr).elements) {
-    auto item = plain_value(*element);
-    if (!item || !item->number()) return std::nullopt;
-    items.push_back(std::move(*item));
-  }
-  return items.empty() ? std::nullopt : std::optional(Data(std::move(items)));
-}
-
-std::vector<std::string> parts_of(std::string_view text, char at) {
-  std::vector<std::string> parts;
-  bool is_quoted = false;
-  std::string part;
-  for (const char c : text) {
-    if (c == '"') is_quoted = !is_quoted;
-    if (c == at && !is_quoted)
-      parts.push_back(std::string(trim(std::exchange(part, {}))));
-    else
-      part += c;
-  }
-  parts.push_back(std::string(trim(part)));
-  return parts;
-}
-
-Data choice_value(const std::string& text, bool is_text) {
-  const bool is_quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
-  if (is_quoted) return Data(text.substr(1, text.size() - 2));
-  if (const auto number = parse_number(text); number && !is_text) return Data(*number);
-  return Data(text);
-}
-
-// Reads choices: [a, b] or [1:small, 2:large].
-void read_choices(std::string_view inside, Parameter& parameter) {
-  const bool is_text = parameter.value.string() != nullptr;
-  for (const std::string& item : parts_of(inside, ',')) {
-    const std::vector<std::string> parts = parts_of(item, ':');
-    Data value = choice_value(parts[0], is_text);
-    const Data label = choice_value(parts.back(), true);
-    parameter.choices.emplace_back(std::move(value), *label.string());
-  }
-  parameter.kind = Parameter::Kind::choice;
-}
-
-// Reads a range: [most], [least:most] or [least:step:most].
-bool read_range(std::string_view inside, Parameter& parameter) {
-  std::vector<double> numbers;
-  for (const std::string& part : parts_of(inside, ':')) {
-    const auto number = parse_number(part);
-    if (!number) return false;
-    numbers.push_back(*number);
-  }
-  if (numbers.size() > 3) return false;
-  parameter.most = numbers.back();
-  if (numbers.size() > 1) parameter.least = numbers.front();
-  if (numbers.size() == 3) parameter.step = numbers[1];
-  return true;
-}
-
 // Interprets the comment after a value.
 void read_widget(const std::string& comment, Parameter& parameter) {
   if (parameter.value.boolean()) return;
   if (comment.size() > 1 && comment.front() == '[' && comment.back() == ']') {
     const std::string_view inside = std::string_view(comment).substr(1, comment.size() - 2);
     const bool is_list = inside.find(',') != std::string_view::npos || parameter.value.string();
-    if (is_list && parameter.kind != Parameter::Kind::vector) return read_choices(inside, parameter);
-    if (!read_range(inside, parameter) && parameter.kind != Parameter::Kind::vector) read_choices(inside, parameter);
+    const bool is_vector = parameter.kind == Parameter::Kind::vector;
+    if (is_vector || !is_list)
+      if (read_range(inside, parameter) || is_vector) return;
+    read_choices(inside, parameter.value.string() != nullptr, parameter);
+    parameter.kind = Parameter::Kind::choice;
     return;
   }
   const auto number = parse_number(comment);

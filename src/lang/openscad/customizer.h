@@ -9,19 +9,18 @@
 
 #include "base/text/data.h"
 #include "base/text/diagnostic.h"
+#include "lang/syntax/annotation.h"
 
 namespace ombre::lang::openscad {
 
-struct Parameter {
+struct Parameter : Allowed {
   enum class Kind : uint8_t { number, boolean, text, vector, choice };
 
   std::string name, description;
   std::string section;  // empty if there is none; "Hidden" marks parameters that users should not see
   Kind kind = Kind::number;
-  Data value;                                         // the script's value, with its position
-  std::optional<double> least, step, most;            // limits of a number, or of each number of a vector
-  std::optional<size_t> longest;                      // greatest number of characters of a text
-  std::vector<std::pair<Data, std::string>> choices;  // values and their labels
+  Data value;                     // the script's value, with its position
+  std::optional<size_t> longest;  // greatest number of characters of a text
 };
 
 // Returns the parameters in the order of the script. They end at the first "{", where modules begin.

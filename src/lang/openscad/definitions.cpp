@@ -4,8 +4,8 @@
 #include <cctype>
 
 #include "base/text/text.h"
-#include "lang/engine/lexer.h"
 #include "lang/openscad/value_text.h"
+#include "lang/syntax/lexer.h"
 
 namespace ombre::lang::openscad {
 namespace {

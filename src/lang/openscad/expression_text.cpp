@@ -1,6 +1,6 @@
 // Prints expressions and statements as OpenSCAD does, for functions as values, failed assertions and .ast files.
-#include "lang/engine/ast_print.h"
 #include "lang/openscad/value_text.h"
+#include "lang/syntax/ast_print.h"
 
 namespace ombre::lang::openscad {
 namespace {

@@ -8,10 +8,10 @@
 #include <filesystem>
 
 #include "base/text/error.h"
-#include "lang/engine/lexer.h"
 #include "lang/openscad/overwritten.h"
 #include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
+#include "lang/syntax/lexer.h"
 
 namespace ombre::lang::openscad {
 namespace {

@@ -229,6 +229,9 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   void enter(const Unit& used, size_t specials_from);
   void replace_callee(const ast::Call& call, const Value& value, const ScopePtr& scope, Callee& callee);
   Value call_other(const ast::Call& call, const ScopePtr& scope);
+  [[noreturn]] void stop_at_argument(const ast::Span& where, std::string message) {
+    stop(std::move(message), where, Code::parameter_type);
+  }
   void report_too_many(const ast::Argument& argument, const ast::Span& where,
                        const std::vector<ast::Parameter>& parameters);
   void report_parameter(const ast::Name& name, const ast::Span& where, const std::vector<ast::Parameter>& parameters);

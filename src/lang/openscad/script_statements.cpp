@@ -3,10 +3,10 @@
 #include <limits>
 
 #include "lang/engine/evaluation_loops.h"
-#include "lang/engine/parser.h"
 #include "lang/openscad/ranges.h"
 #include "lang/openscad/script_evaluator.h"
 #include "lang/openscad/value_text.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang::openscad {
 

@@ -32,6 +32,7 @@ class ValueObject final : public Object {
   const std::optional<Expression>& number() const { return number_; }
   bool is_mixture() const { return node_ && node_->type().outputs[output_].type.form == OutputForm::mixture; }
 
+  Form form() const override { return is_mixture() ? Form::mixture : number_ ? Form::value : Form::values; }
   std::string describe() const override;
   std::string text() const override;
   Data data() const override;
@@ -211,6 +212,7 @@ class SolidObject final : public Object {
   SolidObject(const SolidObject&) = delete;
   SolidObject& operator=(const SolidObject&) = delete;
 
+  Form form() const override { return Form::solid; }
   std::string describe() const override { return "a " + node_->type().name; }
   std::string text() const override { return node_->type().name; }
   Data data() const override { return Data(HostObjectPtr(std::make_shared<design::NodeObject>(node_))); }
@@ -276,6 +278,40 @@ Value value_of(const NodePtr& node, const ValueMaker& maker, Meter& meter) {
   std::optional<Expression> number;
   if (node->type().outputs[first].type.is_number()) number = design::expression_of({node, first});
   return ObjectPtr(std::make_shared<ValueObject>(node, first, std::move(number), maker, meter));
+}
+
+namespace {
+
+// Makes a node whose value is the formula.
+Value formula_value(const Data& formula, const ValueMaker& maker, Meter& meter) {
+  const design::NodeType& type = *maker.registry.find("formula");
+  Diagnostics diagnostics;
+  const NodePtr node = design::make_node(type, {{&type.parameters[0], formula}}, {},
+                                         {maker.materials, diagnostics, nullptr, formula.where, type.name, ""});
+  return node ? value_of(node, maker, meter) : Value();
+}
+
+const design::NodeObject* node_in(const Data& data) {
+  return dynamic_cast<const design::NodeObject*>(data.host_object().get());
+}
+
+}  // namespace
+
+Value host_value(const Data& data, const ValueMaker& maker, Meter& meter) {
+  if (const design::NodeObject* object = node_in(data))
+    return object->node()->type().is_solid() ? solid_value(object->node(), maker, meter)
+                                             : value_of(object->node(), maker, meter);
+  const DataMembers* members = data.members();
+  const Data *from = members ? data.find("from") : nullptr, *output = members ? data.find("output") : nullptr;
+  if (from && output && node_in(*from) && output->string())
+    if (const auto number = node_in(*from)->node()->type().output(*output->string()))
+      return output_value(node_in(*from)->node(), *number, maker, meter);
+  if (data.host_object() || (members && data.find("formula"))) return formula_value(data, maker, meter);
+  const DataList* list = data.list();
+  if (!list) return from_data(data, meter);
+  ListBuilder builder(meter);
+  for (const Data& item : *list) builder.push(host_value(item, maker, meter));
+  return builder.finish();
 }
 
 }  // namespace ombre::lang

@@ -19,5 +19,7 @@ struct ValueMaker {
 Value value_of(const design::NodePtr& node, const ValueMaker& maker, Meter& meter);
 // Returns the value of a call of a solid in an expression.
 Value solid_value(const design::NodePtr& node, const ValueMaker& maker, Meter& meter);
+// Returns the value of data that a host program gives, which may hold nodes, outputs of nodes and formulas of these.
+Value host_value(const Data& data, const ValueMaker& maker, Meter& meter);
 
 }  // namespace ombre::lang

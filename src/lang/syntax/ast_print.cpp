@@ -1,4 +1,4 @@
-#include "lang/engine/ast_print.h"
+#include "lang/syntax/ast_print.h"
 
 #include "base/text/text.h"
 

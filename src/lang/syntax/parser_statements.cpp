@@ -1,11 +1,12 @@
 // The part of the parser that reads statements.
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 #include <algorithm>
 #include <array>
 
 #include "base/text/text.h"
-#include "lang/engine/parser_state.h"
+#include "lang/syntax/declaration.h"
+#include "lang/syntax/parser_state.h"
 
 namespace ombre::lang {
 
@@ -178,6 +179,9 @@ std::unique_ptr<Definition> Parser::definition(const char* what) {
   take();
   result->name = name(what);
   parameters(result->parameters);
+  if (dialect_ == Dialect::vcad)
+    if (auto declared = read_declaration(*result, diagnostics_))
+      result->declaration = std::make_shared<const Declaration>(std::move(*declared));
   return result;
 }
 

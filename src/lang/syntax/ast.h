@@ -18,6 +18,8 @@
 
 namespace ombre::lang {
 
+struct Declaration;
+
 // A table of names in which equal names are equal pointers.
 using Symbol = const std::string*;
 
@@ -193,7 +195,8 @@ struct Argument {
 
 struct Parameter {
   Name name;
-  ExprPtr value;  // the default; may be absent
+  ExprPtr value;    // the default; may be absent
+  Span whole = {};  // range from the name to the end of the default
 };
 
 struct Call : Expr {
@@ -343,6 +346,7 @@ struct FunctionDef : Statement {
   Name name;
   std::vector<Parameter> parameters;
   ExprPtr body;
+  std::shared_ptr<const Declaration> declaration;  // null if comments declare nothing
 };
 
 struct ModuleDef : Statement {
@@ -350,6 +354,7 @@ struct ModuleDef : Statement {
   Name name;
   std::vector<Parameter> parameters;
   Block body;
+  std::shared_ptr<const Declaration> declaration;  // null if comments declare nothing
 };
 
 struct Include : Statement {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/text/diagnostic.h"
-#include "lang/engine/ast.h"
-#include "lang/engine/dialect.h"
+#include "lang/syntax/ast.h"
+#include "lang/syntax/dialect.h"
 
 namespace ombre::lang {
 

@@ -1,4 +1,4 @@
-#include "lang/engine/ast.h"
+#include "lang/syntax/ast.h"
 
 namespace ombre::lang::ast {
 

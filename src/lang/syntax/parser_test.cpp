@@ -1,8 +1,8 @@
-#include "lang/engine/parser.h"
+#include "lang/syntax/parser.h"
 
 #include <gtest/gtest.h>
 
-#include "lang/engine/ast_print.h"
+#include "lang/syntax/ast_print.h"
 
 namespace ombre::lang {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lang/engine/ast.h"
+#include "lang/syntax/ast.h"
 
 namespace ombre::lang {
 

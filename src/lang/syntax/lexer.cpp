@@ -1,4 +1,4 @@
-#include "lang/engine/lexer.h"
+#include "lang/syntax/lexer.h"
 
 #include <algorithm>
 #include <utility>

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/system/temporary.h"
-#include "lang/engine/ast.h"
-#include "lang/engine/lexer.h"
-#include "lang/engine/parser.h"
+#include "lang/syntax/ast.h"
+#include "lang/syntax/lexer.h"
+#include "lang/syntax/parser.h"
 
 namespace ombre::lang {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "lang/engine/parser_state.h"
+#include "lang/syntax/parser_state.h"
 
 namespace ombre::lang {
 
@@ -436,6 +436,7 @@ void Parser::parameters(std::vector<Parameter>& into) {
   while (!at(TokenKind::right_paren)) {
     Parameter parameter{name("the name of a parameter"), nullptr};
     if (accept(TokenKind::assign)) parameter.value = expression();
+    parameter.whole = since(parameter.name.span.begin);
     for (const Parameter& other : into)
       if (dialect_ == Dialect::vcad && other.name.symbol == parameter.name.symbol)
         diagnostics_.error(Code::twice, parameter.name.span.range(),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/text/diagnostic.h"
-#include "lang/engine/dialect.h"
+#include "lang/syntax/dialect.h"
 
 namespace ombre::lang {
 

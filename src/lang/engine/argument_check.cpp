@@ -1,0 +1,105 @@
+#include "lang/engine/argument_check.h"
+
+#include <algorithm>
+
+#include "base/text/text.h"
+
+namespace ombre::lang {
+namespace {
+
+bool is_object(const Value& value, Object::Form form) { return value.object() && value.object()->form() == form; }
+
+bool is_numeric(const Value& value) { return value.number() || is_object(value, Object::Form::value); }
+
+bool is_region(const Value& value) { return is_numeric(value) || value.boolean(); }
+
+bool is_numeric_list(const Value& value) {
+  return value.range() || (value.list() && std::ranges::all_of(value.list()->items, is_numeric));
+}
+
+bool is_mixture(const Value& value) { return value.text() || is_object(value, Object::Form::mixture); }
+
+struct PortType {
+  std::string_view name, expected;
+  bool (*fits)(const Value& value);
+};
+
+constexpr PortType types[] = {
+    {"number", "a number", [](const Value& value) { return value.number() != nullptr; }},
+    {"value", "a number or a value that varies in space", is_numeric},
+    {"vector", "a list of numbers", is_numeric_list},
+    {"colour", "the name of a colour or a list of numbers",
+     [](const Value& value) { return value.text() || is_numeric_list(value); }},
+    {"mixture", "a material or a mixture", is_mixture},
+    {"material", "a material or a mixture", is_mixture},
+    {"text", "a text", [](const Value& value) { return value.text() != nullptr; }},
+    {"image", "the path of an image", [](const Value& value) { return value.text() != nullptr; }},
+    {"solid", "a solid", [](const Value& value) { return is_object(value, Object::Form::solid); }},
+    {"region", "a region: a value that is 1 inside", is_region},
+    {"frame", "a frame", [](const Value& value) { return value.record() || value.object() || value.list(); }},
+    {"curve", "a list of points", [](const Value& value) { return value.list() || value.record(); }},
+    {"points", "a list of points", [](const Value& value) { return value.list() != nullptr; }},
+    {"index", "an index: numbers that count cells",
+     [](const Value& value) { return is_numeric(value) || is_numeric_list(value); }},
+    {"truth", "true or false", [](const Value& value) { return value.boolean() != nullptr; }},
+};
+
+bool is_choice(const DeclaredParameter& parameter, const Value& value) {
+  return std::ranges::any_of(parameter.choices, [&](const auto& choice) {
+    const Data& allowed = choice.first;
+    if (value.text() && allowed.string()) return value.text()->text == *allowed.string();
+    return value.number() && allowed.number() && *value.number() == *allowed.number();
+  });
+}
+
+bool is_in_range(const DeclaredParameter& parameter, const Value& value) {
+  if (const List* list = value.list())
+    return std::ranges::all_of(list->items, [&](const Value& item) { return is_in_range(parameter, item); });
+  const double* number = value.number();
+  return !number || (!(parameter.least && *number < *parameter.least) && !(parameter.most && *number > *parameter.most));
+}
+
+std::string range_text(const DeclaredParameter& parameter) {
+  const auto text = [](double number) { return format_number(number); };
+  if (parameter.least && parameter.most) return " from " + text(*parameter.least) + " to " + text(*parameter.most);
+  if (parameter.least) return " of at least " + text(*parameter.least);
+  return parameter.most ? " up to " + text(*parameter.most) : "";
+}
+
+std::string choices_text(const DeclaredParameter& parameter) {
+  std::vector<std::string> names;
+  for (const auto& [value, label] : parameter.choices)
+    names.push_back(value.string() ? '"' + *value.string() + '"' : format_number(*value.number()));
+  return "one of " + join(names, ", ");
+}
+
+std::string expected_text(const DeclaredParameter& parameter, std::string_view expected) {
+  if (!parameter.choices.empty()) return choices_text(parameter);
+  const std::string range = range_text(parameter);
+  const bool is_limited_number = parameter.type == "value" && !range.empty();
+  std::string text = (is_limited_number ? "a number" : std::string(expected)) + range;
+  if (!parameter.unit.empty()) text += " (" + parameter.unit + ')';
+  return text;
+}
+
+std::string found_text(const Value& value) {
+  constexpr size_t longest = 40;
+  if (value.number()) return number_text(*value.number());
+  if (value.boolean()) return *value.boolean() ? "true" : "false";
+  if (value.text() && value.text()->text.size() <= longest) return '"' + value.text()->text + '"';
+  return describe(value);
+}
+
+}  // namespace
+
+std::string mismatch_of(const DeclaredParameter& parameter, const Value& value) {
+  if (value.is_undef()) return "";  // stands for the default, or for nothing
+  const auto* type = std::ranges::find(types, parameter.type, &PortType::name);
+  const bool fits = type == std::end(types) || type->fits(value);
+  const bool is_allowed = parameter.choices.empty() ? is_in_range(parameter, value) : is_choice(parameter, value);
+  if (fits && is_allowed) return "";
+  const std::string_view expected = type == std::end(types) ? "a value" : type->expected;
+  return "expected " + expected_text(parameter, expected) + ", found " + found_text(value);
+}
+
+}  // namespace ombre::lang

@@ -1,0 +1,15 @@
+// Compares arguments of operators with what their declarations allow.
+#pragma once
+
+#include <string>
+
+#include "lang/engine/value.h"
+#include "lang/syntax/declaration.h"
+
+namespace ombre::lang {
+
+// Returns nothing if the parameter may have this value, else what was expected and found: "expected a number from 1 to
+// 20 (mm), found 25".
+std::string mismatch_of(const DeclaredParameter& parameter, const Value& value);
+
+}  // namespace ombre::lang

@@ -1,0 +1,89 @@
+#include "load/library_operators.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "base/text/text.h"
+#include "lang/engine/loader.h"
+#include "lang/syntax/parser.h"
+
+namespace ombre::compile {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Returns the paths of all library files by the names that `use` gives them.
+std::map<std::string, fs::path> library_files(const std::vector<std::string>& folders) {
+  std::map<std::string, fs::path> files;
+  for (const std::string& folder : folders) {
+    std::error_code failed;
+    for (fs::recursive_directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+      if (at->path().extension() == ".vcad")
+        files.emplace(at->path().lexically_relative(folder).generic_string(), at->path());
+  }
+  return files;
+}
+
+std::vector<lang::Declaration> declarations_in(const fs::path& file) {
+  auto text = lang::read_real_file(file.string());
+  if (!text) return {};
+  Diagnostics ignored;
+  return lang::declarations_of(lang::parse(make_source(file.string(), std::move(*text)), ignored));
+}
+
+DataList choices_of(const lang::DeclaredParameter& parameter) {
+  DataList choices;
+  for (const auto& [value, label] : parameter.choices)
+    choices.push_back(value.string() ? value : Data(format_number(*value.number())));
+  return choices;
+}
+
+Data limit(const std::optional<double>& number) { return number ? Data(*number) : Data(); }
+
+DataMembers describe_parameter(const lang::DeclaredParameter& parameter) {
+  const bool is_required = parameter.default_text.empty();
+  return {{"name", parameter.name},
+          {"doc", parameter.sentence},
+          {"kind", parameter.type.empty() ? "any value" : parameter.type},
+          {"unit", parameter.unit},
+          {"required", is_required},
+          {"default", parameter.value ? *parameter.value : Data()},
+          {"written_default", parameter.default_text},
+          {"choices", choices_of(parameter)},
+          {"least", limit(parameter.least)},
+          {"step", limit(parameter.step)},
+          {"most", limit(parameter.most)}};
+}
+
+}  // namespace
+
+std::vector<Operator> operators_in(const std::vector<std::string>& folders) {
+  std::vector<Operator> operators;
+  for (const auto& [name, path] : library_files(folders))
+    for (lang::Declaration& declaration : declarations_in(path)) operators.push_back({std::move(declaration), name});
+  const auto category = [](const Operator& op) -> const std::string& { return op.declaration.category; };
+  std::ranges::stable_sort(operators, {}, category);
+  return operators;
+}
+
+DataMembers describe_operator(const Operator& op) {
+  const lang::Declaration& declaration = op.declaration;
+  DataList parameters, outputs;
+  for (const lang::DeclaredParameter& parameter : declaration.parameters)
+    parameters.emplace_back(describe_parameter(parameter));
+  for (const lang::DeclaredOutput& output : declaration.outputs)
+    outputs.emplace_back(DataMembers{{"name", output.name}, {"type", output.type}, {"unit", output.unit}});
+  return {{"name", declaration.name},
+          {"category", declaration.category},
+          {"sentence", declaration.sentence},
+          {"parameters", std::move(parameters)},
+          {"gives", declaration.is_module ? "solid" : "values"},
+          {"outputs", std::move(outputs)},
+          {"example", declaration.example},
+          {"source", declaration.source},
+          {"library", op.library}};
+}
+
+}  // namespace ombre::compile
