@@ -32,12 +32,12 @@ def rows():
 
 def design_of(lines):
     """A design as tests/cases has it: expectations first, then the script, which may call all libraries."""
-    def is_told(line):
+    def is_stated(line):
         return line.startswith(("expect ", "arguments: "))
-    told = [f"// {line}" for line in lines if is_told(line)]
+    stated = [f"// {line}" for line in lines if is_stated(line)]
     uses = [f"use <{path}>" for path in sorted(LIBRARY.glob("*.vcad"))]
-    script = [line for line in lines if not is_told(line) and not line.startswith("# ")]
-    return "\n".join([*told, *uses, *script, ""])
+    script = [line for line in lines if not is_stated(line) and not line.startswith("# ")]
+    return "\n".join([*stated, *uses, *script, ""])
 
 
 def png_of(rows):
