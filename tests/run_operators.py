@@ -58,6 +58,25 @@ def check(ombre, number, lines):
         return "\n".join(run_cases.Case(ombre, design).problems)
 
 
+def examples():
+    """Name, library and example of each operator."""
+    for library in sorted(LIBRARY.glob("*.vcad")):
+        for block, name in re.findall(r"((?:^///.*\n)+)(?:function|module) (\w+)", library.read_text(encoding="utf-8"), re.M):
+            example = re.search(r"^/// Example: (.*)$", block, re.M)
+            yield name, library, example[1] if example else ""
+
+
+def example_works(ombre, library, example):
+    """Models stand beside the examples of the repository."""
+    if not example:
+        return "it has no example"
+    with tempfile.TemporaryDirectory() as scratch:
+        design = pathlib.Path(scratch) / "example.vcad"
+        design.write_text(f"use <{library}>\n{example}\n".replace("models/", f"{program.SOURCE}/examples/models/"))
+        result = program.run([ombre, "probe", design, "--at", "1,2,3", "--json"])
+    return result.stdout if result.returncode or '"message"' in result.stdout else ""
+
+
 def numbers_are_complete(found):
     missing = sorted(set(range(1, COUNT + 1)) - {number for number, _, _ in found})
     return f"rows without a call: {missing}" if missing else ""
@@ -73,6 +92,8 @@ def main():
     checks = [(f"{number} {name}", lambda number=number, lines=lines: check(ombre, number, lines))
               for number, name, lines in found if not given.numbers or number in given.numbers]
     if not given.numbers:
+        checks += [(f"example of {name}", lambda library=library, example=example: example_works(ombre, library, example))
+                   for name, library, example in examples()]
         checks.append(("all rows", lambda: numbers_are_complete(found)))
     return program.check_all(checks)
 
