@@ -41,7 +41,7 @@ const std::vector<Builtin>& builtins() {
   static const std::vector<Builtin> all = [] {
     std::vector<Builtin> table;
     for (const auto& [name, parameters, is_variadic, call] : common_functions<BuiltinCall>())
-      table.push_back({name, parameters, parameters.size(), is_variadic, call});
+      table.push_back({name, parameters, parameters.size(), is_variadic, call, false});
     for (const auto& part : {math_builtins(), list_builtins(), text_builtins(), point_builtins()})
       table.insert(table.end(), part.begin(), part.end());
     return table;

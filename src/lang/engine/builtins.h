@@ -18,8 +18,8 @@ struct BadArgument {
 // The arguments of one call, which are checked as they are read.
 class BuiltinCall {
  public:
-  BuiltinCall(const char* name, std::vector<Value> arguments, Meter& m)
-      : meter(m), name_(name), arguments_(std::move(arguments)) {}
+  BuiltinCall(const char* name, std::vector<Value> arguments, Meter& m, std::vector<std::string> names = {})
+      : meter(m), name_(name), arguments_(std::move(arguments)), names_(std::move(names)) {}
 
   size_t size() const { return arguments_.size(); }
   bool has(size_t i) const { return i < size() && !arguments_[i].is_undef(); }
@@ -29,6 +29,8 @@ class BuiltinCall {
   const List& list(size_t i) const;
   const std::string& text(size_t i) const;
   const std::vector<Value>& all() const { return arguments_; }
+  // Returns the name before an argument of a function with named members; empty if there is none.
+  const std::string& name_of(size_t i) const { return names_[i]; }
   [[noreturn]] Value expected(size_t i, const std::string& what, const Phrase& hint = {}) const;
 
   Meter& meter;
@@ -36,6 +38,7 @@ class BuiltinCall {
  private:
   const char* name_;
   std::vector<Value> arguments_;
+  std::vector<std::string> names_;
 };
 
 struct Builtin {
@@ -44,6 +47,7 @@ struct Builtin {
   size_t required;   // number of required arguments
   bool is_variadic;  // any number of further arguments may follow
   Value (*call)(const BuiltinCall& call);
+  bool names_members = false;  // names before arguments are not those of parameters
 
   std::string signature() const;  // for example "pow(base, exponent)"
 };

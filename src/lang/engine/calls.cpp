@@ -26,27 +26,32 @@ void Interpreter::set_counts(const CallStatement& statement, Scope& inner, size_
 }
 
 void Interpreter::call_children(const CallStatement& statement, const ScopePtr& scope, Nodes& out) {
-  const Children* children = scope->children();
-  if (!children) fail(statement.name.span, "children() means something inside of a module only");
-  meter_.count_call();
   if (!statement.children.statements.empty())
     fail(statement.children.statements.front()->span, "children() takes no children itself");
+  make_children(statement.arguments, statement.name.span, scope, out);
+}
+
+void Interpreter::make_children(const std::vector<ast::Argument>& arguments, const ast::Span& where,
+                                const ScopePtr& scope, Nodes& out) {
+  const Children* children = scope->children();
+  if (!children) fail(where, "children() means something inside of a module only");
+  meter_.count_call();
   const ast::Plan& plan = children->block->plan;
-  const std::vector<size_t> chosen = chosen_children(statement, scope, plan.actions.size());
-  if (statement.arguments.empty()) return run_block(*children->block, children->scope, out);
+  const std::vector<size_t> chosen = chosen_children(arguments, scope, plan.actions.size());
+  if (arguments.empty()) return run_block(*children->block, children->scope, out);
   const ScopePtr inner = make_scope(children->scope, &plan);
   const SpecialsMark mark(*this);
   assign(plan, inner);
   for (const size_t index : chosen) run_action(*plan.actions[index], inner, out);
 }
 
-std::vector<size_t> Interpreter::chosen_children(const CallStatement& statement, const ScopePtr& scope, size_t count) {
+std::vector<size_t> Interpreter::chosen_children(const std::vector<ast::Argument>& arguments, const ScopePtr& scope,
+                                                 size_t count) {
   std::vector<size_t> chosen;
-  if (statement.arguments.empty()) return chosen;
-  if (statement.arguments.size() > 1)
-    fail(statement.arguments[1].value->span, "children() takes one argument",
-         "a list chooses several: children([0, 2])");
-  const ast::Expr& argument = *statement.arguments.front().value;
+  if (arguments.empty()) return chosen;
+  if (arguments.size() > 1)
+    fail(arguments[1].value->span, "children() takes one argument", "a list chooses several: children([0, 2])");
+  const ast::Expr& argument = *arguments.front().value;
   const auto choose = [&](const Value& index) {
     const double* number = index.number();
     if (!number) fail_found(argument.span, "children() needs numbers", index, "children are counted from 0");

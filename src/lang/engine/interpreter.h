@@ -110,7 +110,9 @@ class Interpreter : Evaluation<Interpreter, Product> {
   void check_assignments(const ast::ModuleDef&) {}
   void set_counts(const ast::CallStatement& statement, Scope& inner, size_t specials_from);
   void call_children(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
-  std::vector<size_t> chosen_children(const ast::CallStatement& statement, const ScopePtr& scope, size_t count);
+  void make_children(const std::vector<ast::Argument>& arguments, const ast::Span& where, const ScopePtr& scope,
+                     Nodes& out);
+  std::vector<size_t> chosen_children(const std::vector<ast::Argument>& arguments, const ScopePtr& scope, size_t count);
   void call_node(const ast::CallStatement& statement, const ScopePtr& scope, Nodes& out);
   std::vector<SourceRange> callers() const;
   static void ignore(const ast::Argument&, const Value&) {}
@@ -142,6 +144,7 @@ class Interpreter : Evaluation<Interpreter, Product> {
   [[noreturn]] void replace_callee(const ast::Call& call, const Value& value, const ScopePtr& scope, Callee& callee);
   Value call_other(const ast::Call& call, const ScopePtr& scope);
   Value call_builtin(const Builtin& builtin, const ast::Call& call, const ScopePtr& scope);
+  Value children_value(const ast::Call& call, const ScopePtr& scope);
   Value call_value_node(const ast::Call& call, const ScopePtr& scope);
   std::vector<Value> builtin_arguments(const Builtin& builtin, const ast::Call& call, const ScopePtr& scope,
                                        std::vector<const ast::Expr*>& places);

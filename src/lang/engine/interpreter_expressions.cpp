@@ -78,6 +78,12 @@ Value Interpreter::binary(ast::Operator op, const ast::Span& where, const Value&
 
 Value Interpreter::eval_other_member(const ast::Member& member, const Value& base) {
   const std::string& name = member.member.text();
+  if (const Record* record = base.record()) {
+    if (const Value* value = record->find(name)) return *value;
+    std::string names;
+    for (const auto& [known, value] : record->members) names += (names.empty() ? "it has ." : ", .") + known;
+    fail(member.member.span, "this object has no member ." + name, names);
+  }
   if (name != "x" && name != "y" && name != "z") fail(member.member.span, "a vector has the parts .x, .y and .z only");
   fail_found(member.base->span, "only vectors have the parts .x, .y and .z", base);
 }

@@ -14,6 +14,7 @@ Value Interpreter::call_other(const ast::Call& call, const ScopePtr& scope) {
   const ast::Name& name = static_cast<const ast::Variable&>(*call.callee).name;
   const auto builtin = builtins_.find(name.symbol);
   if (builtin != builtins_.end()) return call_builtin(*builtin->second, call, scope);
+  if (name.symbol == children_name_) return children_value(call, scope);
   if (vocabulary_.gives_value(name.text())) return call_value_node(call, scope);
   if (!name.is_special() || !find_special(name.symbol)) fail_unknown_function(name, *scope);
   fail_found(call.callee->span, "only a function can be called", eval(*call.callee, scope));
@@ -25,13 +26,27 @@ Value Interpreter::call_builtin(const Builtin& builtin, const ast::Call& call, c
   std::vector<Value> values = builtin_arguments(builtin, call, scope, places);
   at_ = call.span;
   if (const auto made = result_of_objects(builtin.name, values)) return *made;
-  const BuiltinCall arguments(builtin.name, std::move(values), meter_);
+  std::vector<std::string> names;
+  for (const ast::Argument& argument : call.arguments)
+    if (builtin.names_members) names.push_back(argument.name.symbol ? argument.name.text() : "");
+  const BuiltinCall arguments(builtin.name, std::move(values), meter_, std::move(names));
   try {
     return builtin.call(arguments);
   } catch (const BadArgument& bad) {
     const bool has_place = bad.index < places.size() && places[bad.index];
     fail(has_place ? places[bad.index]->span : call.span, bad.message, bad.hint);
   }
+}
+
+// Returns what children() makes as one solid, on which values can be measured.
+Value Interpreter::children_value(const ast::Call& call, const ScopePtr& scope) {
+  Nodes made;
+  make_children(call.arguments, call.callee->span, scope, made);
+  Diagnostics found;
+  const auto value = vocabulary_.solid(std::move(made), call.span.range(), found, meter_);
+  for (const Diagnostic& diagnostic : found.list()) report(diagnostic);
+  if (!value) throw Stopped{};
+  return *value;
 }
 
 Value Interpreter::call_value_node(const ast::Call& call, const ScopePtr& scope) {
@@ -57,7 +72,7 @@ std::vector<Value> Interpreter::builtin_arguments(const Builtin& builtin, const 
   size_t position = 0;
   for (const ast::Argument& argument : call.arguments) {
     const size_t place = builtin_place(builtin, argument, position);
-    if (!argument.name.symbol) ++position;
+    if (!argument.name.symbol || builtin.names_members) ++position;
     if (values.size() <= place) {
       values.resize(place + 1);
       places.resize(place + 1);
@@ -71,7 +86,7 @@ std::vector<Value> Interpreter::builtin_arguments(const Builtin& builtin, const 
 }
 
 size_t Interpreter::builtin_place(const Builtin& builtin, const ast::Argument& argument, size_t position) {
-  if (!argument.name.symbol) {
+  if (!argument.name.symbol || builtin.names_members) {
     if (position >= builtin.parameters.size() && !builtin.is_variadic)
       fail_builtin(argument.value->span, builtin, "too many arguments for ", "()");
     return position;

@@ -1,4 +1,4 @@
-// Builtin functions of lists.
+// Builtin functions of lists, and of objects.
 #include <cmath>
 
 #include "base/text/utf8.h"
@@ -87,12 +87,35 @@ class Search {
 
 Value search(const BuiltinCall& call) { return Search(call).run(); }
 
+Value object(const BuiltinCall& call) {
+  RecordBuilder members(call.meter);
+  for (size_t n = 0; n < call.size(); ++n) {
+    if (!call.name_of(n).empty())
+      members.set(call.name_of(n), call[n]);
+    else if (const Record* other = call[n].record())
+      members.set_all(*other);
+    else
+      return call.expected(n, "members with names, or objects", "write for example object(size = 3)");
+  }
+  return members.finish();
+}
+
+Value is_object(const BuiltinCall& call) { return call[0].record() != nullptr; }
+
+Value has_key(const BuiltinCall& call) {
+  const Record* record = call[0].record();
+  return record ? Value(record->find(call.text(1)) != nullptr) : call.expected(0, "an object");
+}
+
 }  // namespace
 
 std::vector<Builtin> list_builtins() {
   return {
       {"lookup", {"key", "table"}, 2, false, lookup},
       {"search", {"match_value", "string_or_vector", "num_returns_per_match", "index_col_num"}, 2, false, search},
+      {"object", {}, 0, true, object, true},
+      {"is_object", {"value"}, 1, false, is_object},
+      {"has_key", {"object", "name"}, 2, false, has_key},
   };
 }
 

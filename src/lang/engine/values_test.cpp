@@ -59,6 +59,26 @@ TEST(Values, Vectors) {
   )");
 }
 
+TEST(Values, Objects) {
+  expect_values(R"(
+    object(a = 1, b = [2, "c"]) => { a = 1; b = [2, "c"]; }
+    object(a = 1).a => 1
+    object(a = 1)["a"] => 1
+    object(a = object(b = 2)).a.b => 2
+    object(object(a = 1, b = 2), b = 3) => { a = 1; b = 3; }
+    object(a = 1, b = 2) == object(b = 2, a = 1) => true
+    is_object(object()) => true
+    is_object([1]) => false
+    has_key(object(a = undef), "a") => true
+    has_key(object(a = 1), "b") => false
+  )");
+  expect_errors(R"(
+    object(3) => object() needs members with names, or objects, found a number
+    object(edges = 1, index = 2).edge => this object has no member .edge
+    has_key([1], "a") => has_key() needs an object, found a list of 1
+  )");
+}
+
 TEST(Values, ComparisonsAndLogic) {
   expect_values(R"(
     1 < 2 && 2 <= 2 && 3 > 2 && 3 >= 3 => true

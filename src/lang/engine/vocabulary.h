@@ -61,6 +61,10 @@ class Vocabulary {
   virtual bool gives_value(std::string_view) const { return false; }
   virtual std::vector<std::string> value_names() const { return {}; }
   virtual std::optional<Value> value(Invocation, Diagnostics&, Meter&) { return std::nullopt; }
+  // Returns the value of an expression that stands for the union of nodes.
+  virtual std::optional<Value> solid(std::vector<Product>, const SourceRange&, Diagnostics&, Meter&) {
+    return std::nullopt;
+  }
 };
 
 }  // namespace ombre::lang

@@ -134,6 +134,14 @@ std::optional<Value> VcadVocabulary::value(Invocation call, Diagnostics& diagnos
   return std::nullopt;
 }
 
+std::optional<Value> VcadVocabulary::solid(std::vector<Product> products, const SourceRange& where,
+                                           Diagnostics& diagnostics, Meter& meter) {
+  const Reader reader{materials_, diagnostics, loader_, where, "union", ""};
+  const NodePtr node = products.empty() ? design::make_nothing(*registry_.find("union"), where)
+                                        : known_.first(joined(nodes_of(std::move(products)), registry_, reader));
+  return node ? std::optional(solid_value(node, maker_, meter)) : std::nullopt;
+}
+
 NodePtr VcadVocabulary::make_of_type(const NodeType& type, Invocation& call, Diagnostics& diagnostics) {
   const Reader reader{materials_, diagnostics, loader_, call.whole, type.name, "", &call.variable};
   if (type.inputs.most > 0) put_first(take_solids(call.arguments), call);

@@ -25,6 +25,8 @@ class VcadVocabulary : public Vocabulary {
   bool gives_value(std::string_view name) const override;
   std::vector<std::string> value_names() const override { return registry_.value_names(); }
   std::optional<Value> value(Invocation call, Diagnostics& diagnostics, Meter& meter) override;
+  std::optional<Value> solid(std::vector<Product> products, const SourceRange& where, Diagnostics& diagnostics,
+                             Meter& meter) override;
 
   // Returns the design that the top-level nodes make. Returns nothing and adds a diagnostic if there is none.
   std::optional<design::Design> finish(std::vector<Product> top_level, const SourceRange& whole,

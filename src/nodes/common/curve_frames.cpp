@@ -29,12 +29,12 @@ std::vector<Vec3> second_derivatives(const std::vector<Vec3>& points, const std:
 
 }  // namespace
 
-CurveFrames::CurveFrames(std::vector<Vec3> points, Vec3 toward) {
+CurveFrames::CurveFrames(std::vector<Vec3> points, Vec3 toward, Ends ends) : ends_(ends) {
   make_sections(points);
   make_nodes(toward);
   find_tightest();
   points.push_back(toward);
-  content_ = hash_bytes("curve frames " +
+  content_ = hash_bytes((ends == Ends::cut ? "cut curve frames " : "curve frames ") +
                         std::string(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Vec3)));
 }
 
@@ -141,7 +141,9 @@ Box CurveFrames::box() const {
 }
 
 int CurveFrames::channel(std::string_view channel_name) const {
-  constexpr std::array<std::string_view, 5> names{"along", "first", "second", "stretch", "distance"};
+  constexpr std::array<std::string_view, channel_count> names{"along",     "first",     "second",    "stretch",
+                                                              "distance",  "tangent_x", "tangent_y", "tangent_z",
+                                                              "normal_x",  "normal_y",  "normal_z"};
   const auto found = std::ranges::find(names, channel_name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
@@ -169,7 +171,13 @@ double CurveFrames::nearest_parameter(Vec3 p, size_t node) const {
 CurveFrames::Place CurveFrames::place_beyond(Vec3 p, const Node& end) const {
   const Vec3 way = p - end.at;
   const double ahead = dot(way, end.tangent), a = dot(way, end.normal), b = dot(way, cross(end.tangent, end.normal));
-  return {end.along + ahead, a, b, 1, std::sqrt(a * a + b * b)};
+  return framed(end.along + ahead, way, end.tangent, end.normal, 1, std::sqrt(a * a + b * b));
+}
+
+CurveFrames::Place CurveFrames::framed(double s, Vec3 way, Vec3 tangent, Vec3 normal, double stretched, double away) {
+  const Vec3 up = cross(tangent, normal);
+  return {s,         dot(way, normal), dot(way, up), stretched, away, tangent.x,
+          tangent.y, tangent.z,        up.x,         up.y,      up.z};
 }
 
 CurveFrames::Place CurveFrames::place(Vec3 p) const {
@@ -187,8 +195,9 @@ CurveFrames::Place CurveFrames::place(Vec3 p) const {
   const size_t section = from + 1 < nodes_.size() ? nodes_[from + 1].section : nodes_[from].section;
   const Moving moving = at(t, section);
   const Vec3 way = p - moving.at, tangent = moving.tangent(), normal = moved_normal(nodes_[from], moving.at, tangent);
-  Place found{nodes_[from].along + arc(nodes_[from].parameter, t, section), dot(way, normal),
-              dot(way, cross(tangent, normal)), 1 - dot(way, moving.curvature()), ombre::length(way)};
+  Place found = framed(nodes_[from].along + arc(nodes_[from].parameter, t, section), way, tangent, normal,
+                       1 - dot(way, moving.curvature()), ombre::length(way));
+  if (ends_ == Ends::cut) return found;
   const bool is_before = dot(p - nodes_.front().at, nodes_.front().tangent) < 0;
   const bool is_after = dot(p - nodes_.back().at, nodes_.back().tangent) > 0;
   for (const auto& [is_beyond, end] : {std::pair{is_before, &nodes_.front()}, {is_after, &nodes_.back()}}) {
@@ -216,6 +225,7 @@ Interval CurveFrames::range(int channel, const Box& box) const {
   const Place middle = place(box.center());
   const double farthest = middle[distance] + radius;
   if (channel == distance) return {std::max(0.0, middle[distance] - radius), farthest};
+  if (channel >= tangent_x) return {-1 - rounding_mm, 1 + rounding_mm};
   const double bend = farthest / least_radius_ * more;
   if (farthest >= reach_ || bend >= 1) return Interval::everything();
   if (channel == stretch) return {1 - bend, 1 + bend};

@@ -14,13 +14,14 @@
 
 namespace ombre::nodes {
 
-// A natural cubic spline through points, continued straight beyond its ends. Frames are parallel transported (W. Wang
+// A natural cubic spline through points, which may continue straight beyond its ends. Frames are parallel transported (W. Wang
 // and others, "Computation of rotation minimizing frames", ACM Transactions on Graphics 27, 2008).
 class CurveFrames final : public program::FieldSource {
  public:
   // The curve needs two points at least, each different from the one before. The second normal is `toward` at the
   // start, as far as it is perpendicular to the curve.
-  CurveFrames(std::vector<Vec3> points, Vec3 toward);
+  enum class Ends : uint8_t { straight, cut };
+  CurveFrames(std::vector<Vec3> points, Vec3 toward, Ends ends = Ends::straight);
 
   // Limits ranges of channels to points at most this far from the curve, where the nearest point changes continuously.
   void set_reach(double mm) { reach_ = mm; }
@@ -33,7 +34,21 @@ class CurveFrames final : public program::FieldSource {
   // Returns a box around the curve.
   Box box() const;
 
-  enum Channel { along, first, second, stretch, distance };  // mm; the stretch of lengths along the curve
+  // mm; the stretch of lengths along the curve; the tangent, and the direction of `second`.
+  enum Channel {
+    along,
+    first,
+    second,
+    stretch,
+    distance,
+    tangent_x,
+    tangent_y,
+    tangent_z,
+    normal_x,
+    normal_y,
+    normal_z,
+    channel_count
+  };
 
   std::string name() const override { return "curve"; }
   Hash content() const override { return content_; }
@@ -61,7 +76,7 @@ class CurveFrames final : public program::FieldSource {
     size_t section = 0;
     Vec3 at, tangent, normal;
   };
-  using Place = std::array<double, 5>;  // the channels
+  using Place = std::array<double, channel_count>;
 
   void make_sections(const std::vector<Vec3>& points);
   void make_nodes(Vec3 toward);
@@ -72,12 +87,14 @@ class CurveFrames final : public program::FieldSource {
   double nearest_parameter(Vec3 p, size_t node) const;
   Place place(Vec3 p) const;
   Place place_beyond(Vec3 p, const Node& end) const;
+  static Place framed(double s, Vec3 way, Vec3 tangent, Vec3 normal, double stretched, double away);
 
   std::vector<Section> sections_;
   std::vector<Node> nodes_;
   double least_radius_ = std::numeric_limits<double>::infinity();
   Vec3 tightest_;
   double reach_ = 0;
+  Ends ends_;
   Hash content_;
 };
 

@@ -5,6 +5,7 @@
 #include "design/source_loader.h"
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
+#include "nodes/common/curve_frames.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/frame.h"
 #include "nodes/common/solid_values.h"
@@ -226,10 +227,60 @@ struct PathDistance {
   Field share_along(const Ask& ask) const { return channel_of(source, "along", ask.p); }
 };
 
+struct CurveDistance {
+  Points points;
+  Vec3 toward{0, 0, 1};
+  std::shared_ptr<CurveFrames> curve;  // made with the node
+
+  static Spec<CurveDistance> spec() {
+    return {"curve_distance",
+            "The distance to a smooth curve through points, the position of the nearest point along it, and a frame that "
+            "moves along the curve without turning around it.",
+            {{"points", &CurveDistance::points, "Two to 1000 different points", required(unit::points)},
+             {"toward", &CurveDistance::toward,
+              "Direction of the frame's normal at the start, as far as it is perpendicular to the curve"}},
+            no_inputs,
+            "sphere(8, mix(\"red\", \"blue\", curve_distance([[-6, 0, 0], [0, 5, 0], [6, 0, 0]]).along));",
+            {{"distance", &CurveDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
+             {"along", &CurveDistance::share_along, "Position by length, 0 at the first point, 1 at the end",
+              Interval(0, 1)},
+             {"place", &CurveDistance::place, "Length along the curve, and the way from it across and along the normal, mm"},
+             {"tangent", &CurveDistance::tangent, "Direction of the curve at its nearest point, of length 1"},
+             {"normal", &CurveDistance::normal, "Direction of the frame's normal there, of length 1"}}};
+  }
+
+  bool complete(const Reader& reader) {
+    std::vector<Vec3> way;
+    for (const Vec3& point : points.at)
+      if (way.empty() || !(point == way.back())) way.push_back(point);
+    constexpr size_t most_points = 1000;
+    if (way.size() < 2 || way.size() > most_points)
+      return reader.refuse("curve_distance needs 2 to 1000 different points",
+                           "write for example " + spelled::parameter("points", "[(0, 0, 0), (10, 0, 0), (15, 8, 0)]"));
+    curve = std::make_shared<CurveFrames>(std::move(way), toward, CurveFrames::Ends::cut);
+    return true;
+  }
+
+  Field distance(const Ask& ask) const { return read(ask.p, CurveFrames::distance); }
+  Field share_along(const Ask& ask) const { return limited(length_along(ask.p) / curve->length(), 0, 1); }
+  VectorField place(const Ask& ask) const {
+    return {length_along(ask.p), read(ask.p, CurveFrames::first), read(ask.p, CurveFrames::second)};
+  }
+  VectorField tangent(const Ask& ask) const { return three(ask.p, CurveFrames::tangent_x); }
+  VectorField normal(const Ask& ask) const { return three(ask.p, CurveFrames::normal_x); }
+
+ private:
+  Field length_along(const Point& p) const { return limited(read(p, CurveFrames::along), 0, curve->length()); }
+  Field read(const Point& p, int channel) const { return p.builder().source(curve, channel, p.x, p.y, p.z); }
+  VectorField three(const Point& p, int first) const {
+    return {read(p, first), read(p, first + 1), read(p, first + 2)};
+  }
+};
+
 }  // namespace
 
 void add_value_places(Registry& registry) {
-  registry.add<Coordinates, At, DistanceTo, Mask, PointDistance, PathDistance>("values");
+  registry.add<Coordinates, At, DistanceTo, Mask, PointDistance, PathDistance, CurveDistance>("values");
 }
 
 }  // namespace ombre::nodes

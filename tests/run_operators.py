@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Calls each operator of tests/data/operators.txt, and compares what it gives with what is written there.
+
+    python3 tests/run_operators.py build/release/apps/ombre/ombre [NUMBER...]
+"""
+import argparse
+import pathlib
+import re
+import struct
+import tempfile
+import zlib
+
+import program
+import run_cases
+
+TABLE = program.TESTS / "data" / "operators.txt"
+LIBRARY = program.SOURCE / "data" / "library" / "ombre"
+COUNT = 140  # rows of the table
+
+
+def rows():
+    """Number, name and lines of each row."""
+    found = []
+    for line in TABLE.read_text(encoding="utf-8").splitlines():
+        title = re.fullmatch(r"(\d+) (.+)", line)
+        if title:
+            found.append((int(title[1]), title[2], []))
+        elif line.startswith("  "):
+            found[-1][2].append(line.strip())
+    return found
+
+
+def design_of(lines):
+    """A design as tests/cases has it: expectations first, then the script, which may call all libraries."""
+    def is_stated(line):
+        return line.startswith(("expect ", "arguments: "))
+    stated = [f"// {line}" for line in lines if is_stated(line)]
+    uses = [f"use <{path}>" for path in sorted(LIBRARY.glob("*.vcad"))]
+    script = [line for line in lines if not is_stated(line) and not line.startswith("# ")]
+    return "\n".join([*stated, *uses, *script, ""])
+
+
+def png_of(rows):
+    """A gray image of 8 bits."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)
+    pixels = zlib.compress(b"".join(b"\0" + bytes(row) for row in rows))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
+
+
+def check(ombre, number, lines):
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / "checks.png").write_bytes(png_of([[255, 0], [0, 255]]))
+        design = folder / f"operator_{number}.vcad"
+        design.write_text(design_of(lines), encoding="utf-8")
+        return "\n".join(run_cases.Case(ombre, design).problems)
+
+
+def examples():
+    """Name, library and example of each operator."""
+    for library in sorted(LIBRARY.glob("*.vcad")):
+        for block, name in re.findall(r"((?:^///.*\n)+)(?:function|module) (\w+)", library.read_text(encoding="utf-8"), re.M):
+            example = re.search(r"^/// Example: (.*)$", block, re.M)
+            yield name, library, example[1] if example else ""
+
+
+def example_works(ombre, library, example):
+    """Models stand beside the examples of the repository."""
+    if not example:
+        return "it has no example"
+    with tempfile.TemporaryDirectory() as scratch:
+        design = pathlib.Path(scratch) / "example.vcad"
+        design.write_text(f"use <{library}>\n{example}\n".replace("models/", f"{program.SOURCE}/examples/models/"))
+        result = program.run([ombre, "probe", design, "--at", "1,2,3", "--json"])
+    return result.stdout if result.returncode or '"message"' in result.stdout else ""
+
+
+def numbers_are_complete(found):
+    missing = sorted(set(range(1, COUNT + 1)) - {number for number, _, _ in found})
+    return f"rows without a call: {missing}" if missing else ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Calls each operator.")
+    parser.add_argument("ombre", type=pathlib.Path, help="the program")
+    parser.add_argument("numbers", nargs="*", type=int, help="only these rows")
+    given = parser.parse_args()
+    found = rows()
+    ombre = given.ombre.resolve()
+    checks = [(f"{number} {name}", lambda number=number, lines=lines: check(ombre, number, lines))
+              for number, name, lines in found if not given.numbers or number in given.numbers]
+    if not given.numbers:
+        checks += [(f"example of {name}", lambda library=library, example=example: example_works(ombre, library, example))
+                   for name, library, example in examples()]
+        checks.append(("all rows", lambda: numbers_are_complete(found)))
+    return program.check_all(checks)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
