@@ -40,8 +40,8 @@ const std::vector<JobKind>& all_jobs() {
       slice_kind(),     layer_kind(),      render_kind(), voxels_kind(), mesh_kind(),     contours_kind(),
       fea_kind(),       homogenise_kind(), sheet_kind(),  probe_kind(),  info_kind(),     nodes_kind(),
       printers_kind(),  materials_kind(),  scad_kind(),   bundle_kind(), optimise_kind(), codes_kind(),
-      operators_kind(), formats_kind(), sweep_kind(),   plan_kind(),   run_kind(),    status_kind(),   gather_kind(),
-      submit_kind(),    verify_kind(),     diff_kind(),   check_kind()};
+      operators_kind(), formats_kind(),    sweep_kind(),  plan_kind(),   run_kind(),      status_kind(),
+      gather_kind(),    submit_kind(),     verify_kind(), diff_kind(),   check_kind()};
   return all;
 }
 
