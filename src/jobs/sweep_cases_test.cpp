@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "jobs/all_jobs.h"
 #include "jobs/common/session.h"
 
 namespace ombre::jobs {
@@ -10,7 +9,23 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-SavedJob mesh_of(DataMembers options) { return {find_job("mesh"), std::move(options)}; }
+struct BarChoices {
+  std::string cell;
+  std::vector<std::string> definitions;
+
+  static const options::Spec<BarChoices>& options() {
+    using namespace options;
+    static const options::Spec<BarChoices> spec{
+        option("--cell", &BarChoices::cell, kind::text, "Size", "MM"),
+        list("-D,--define", &BarChoices::definitions, kind::text, "Variables", "NAME=VALUE")};
+    return spec;
+  }
+};
+
+SavedJob bar(DataMembers options) {
+  static const JobKind kind = job_kind<BarChoices>("bar", "", "", [](const BarChoices&, Session&) { return done; });
+  return {&kind, std::move(options)};
+}
 
 const Data* option_of(const SavedJob& job, const std::string& name) {
   for (const auto& [member, value] : job.options)
@@ -27,8 +42,7 @@ TEST(SweepCases, CommasWithinBracketsBelongToAValue) {
 }
 
 TEST(SweepCases, TheLastValuesChangeFirst) {
-  const SweepCases cases(mesh_of({{"design", "part.vcad"}}),
-                         {parse_varied("width=1,2", true), parse_varied("cell=3,4,5", false)});
+  const SweepCases cases(bar({}), {parse_varied("width=1,2", true), parse_varied("cell=3,4,5", false)});
   ASSERT_EQ(cases.count(), 6);
   EXPECT_EQ(cases.values(0), (Texts{"1", "3"}));
   EXPECT_EQ(cases.values(1), (Texts{"1", "4"}));
@@ -37,7 +51,7 @@ TEST(SweepCases, TheLastValuesChangeFirst) {
 }
 
 TEST(SweepCases, ValuesReplaceThoseOfTheJob) {
-  const SweepCases cases(mesh_of({{"cell", "1"}, {"define", DataList{"height=7"}}}),
+  const SweepCases cases(bar({{"cell", "1"}, {"define", DataList{"height=7"}}}),
                          {parse_varied("width=2", true), parse_varied("cell=3", false)});
   const SavedJob job = cases.job_of(0);
   EXPECT_EQ(job.options.size(), 2U);
@@ -48,9 +62,9 @@ TEST(SweepCases, ValuesReplaceThoseOfTheJob) {
 TEST(SweepCases, SlipsAreNamed) {
   for (const char* text : {"width", "width=", "=1", "width=1,,2", "width=,1"})
     EXPECT_THROW(parse_varied(text, true), WrongArgument) << text;
-  EXPECT_THROW(SweepCases(mesh_of({}), {parse_varied("weather=1,2", false)}), WrongArgument);
+  EXPECT_THROW(SweepCases(bar({}), {parse_varied("weather=1,2", false)}), WrongArgument);
   Varied many{"width", true, Texts(2000, "1")};
-  EXPECT_THROW(SweepCases(mesh_of({}), {many, many}), WrongArgument);
+  EXPECT_THROW(SweepCases(bar({}), {many, many}), WrongArgument);
 }
 
 }  // namespace ombre::jobs
