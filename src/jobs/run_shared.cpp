@@ -25,16 +25,16 @@ namespace fs = std::filesystem;
 using stores::PieceRange;
 
 constexpr const char* plan_footer =
-    "JOB is a file that --save-job wrote. The plan says which layers or frames belong to which share, so that each "
-    "takes about "
+    "JOB is a file that --save-job wrote. The plan says which pieces belong to which share, so that each takes about "
     "as\n"
-    "long as the others. Any machine with the plan, the design and its files, and the folder of the layers may run a\n"
-    "share.\n\n"
+    "long as the others. Pieces are layers of slice, frames of render, cases of sweep, and the designs that optimise\n"
+    "measures next. Any machine with the plan, the design and its files, and the folder of the job may run a share.\n\n"
     "Examples:\n"
     "  ombre slice part.vcad --printer j750 -o part/ --save-job job.json\n"
     "  ombre plan job.json --shards 40            plan.json\n"
     "  ombre run plan.json --shard 3              the third share; again after an interruption\n"
     "  seq 40 | parallel ombre run plan.json --shard {}\n"
+    "  mpirun -n 8 --bind-to none ombre run plan.json          each process takes the next share when it is free\n"
     "  ombre submit plan.json --to slurm          all of them, in a job array\n"
     "  ombre status plan.json\n"
     "  ombre gather plan.json                     one finished job of all shares\n";
