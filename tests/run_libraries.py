@@ -82,21 +82,24 @@ def a_library_beside_the_design_comes_first(job):
 def a_library_that_changes_makes_another_job(job):
     """Also a file that only the library uses."""
     job.slice("job", *OPTIONS)
-    expect("--force" in job.slice("job", *OPTIONS, "--seed", "1", status=1).stderr, "a folder of another job was taken")
     job.core("blue")
-    job.slice("job", *OPTIONS, status=1)
+    expect("design_hash" in job.slice("job", *OPTIONS, "--resume", status=2).stderr, "the job was taken for the same")
     job.slice("changed", *OPTIONS)
     expect(not same(job, "job", "changed"), "the changed file was not read")
 
 
 def bundles_carry_libraries(job):
-    made = job.run("bundle", job.design)
+    made = program.run(job.command("bundle", job.design), cwd=job.path)
+    if "OMBRE_3MF" in made.stderr:
+        return "skipped: built without zip archives"
+    expect(made.returncode == 0, made.stderr[-1500:])
     for name in ("own/balls.vcad", "own/parts/core.vcad"):
         expect(name in made.stdout + made.stderr, f"{name} is not told of: {made.stdout}{made.stderr}")
     job.slice("design", *OPTIONS)
     shutil.rmtree(job.user)
     job.slice("bundle", *OPTIONS, design=job.path / "part.ombre")
     expect(same(job, "design", "bundle"), "the bundle makes something else")
+    return ""
 
 
 def folders_that_were_searched_are_named(job):
@@ -138,19 +141,23 @@ def operators_are_listed_and_explained(job):
     expect("value, mm" in job.run("operators", "own_walls").stdout, "the output")
     described, = job.events("operators", "own_ball")
     expect(described["library"] == "own/balls.vcad" and described["parameters"][0]["most"] == 5, json.dumps(described))
-    expect('did you mean "own_ball"' in job.run("nodes", "own_bal", status=2).stderr, "no suggestion")
+    expect('did you mean "own_ball"' in job.run("nodes", "own_bal", status=1).stderr, "no suggestion")
     expect("own_ball" not in job.run("operators", "--markdown").stdout, "the reference tells of the user's library")
 
 
 def openscad_scripts_use_operators(job):
     script = job.write("part.scad", "use <own/balls.vcad>\ntranslate([1, 0, 0]) own_ball(2.5);\n")
     moved = job.write("moved.vcad", "use <own/balls.vcad>\ntranslate(1, 0, 0) own_ball(2.5);\n")
-    job.slice("script", *OPTIONS, design=script)
+    made = program.run(job.slicing("script", *OPTIONS, design=script), cwd=job.path)
+    if "OMBRE_SOLIDS" in made.stderr:
+        return "skipped: built without CGAL"
+    expect(made.returncode == 0, made.stderr[-1500:])
     job.slice("moved", *OPTIONS, design=moved)
     expect(same(job, "script", "moved"), "the script makes something else")
     wrong = job.write("wrong.scad", "use <own/balls.vcad>\nown_ball(7);\n")
     expect("expected a number from 1 to 5 (mm), found 7" in job.slice("wrong", *OPTIONS, design=wrong, status=1).stderr,
            "a wrong argument was taken")
+    return ""
 
 
 CHECKS = [the_users_library_is_found, a_library_beside_the_design_comes_first, a_library_that_changes_makes_another_job,

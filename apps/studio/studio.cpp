@@ -12,6 +12,8 @@
 #include "lang/engine/builtins.h"
 #include "load/find_printer.h"
 #include "load/load.h"
+#include "load/library_folders.h"
+#include "load/library_operators.h"
 #include "load/node_data.h"
 #include "load/node_registry.h"
 #include "load/turned.h"
@@ -65,6 +67,8 @@ DataMembers joined(DataMembers first, const DataMembers& second) {
 DataList describe_nodes() {
   DataList list;
   for (const auto& type : compile::node_registry().types()) list.emplace_back(compile::describe_node(*type));
+  for (const compile::Operator& op : compile::operators_in(compile::library_folders()))
+    list.emplace_back(compile::describe_operator(op));
   return list;
 }
 

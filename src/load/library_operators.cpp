@@ -47,11 +47,14 @@ DataMembers describe_parameter(const lang::DeclaredParameter& parameter) {
   return {{"name", parameter.name},
           {"doc", parameter.sentence},
           {"kind", parameter.type.empty() ? "any value" : parameter.type},
+          {"python", "Any"},
+          {"widget", parameter.choices.empty() ? "script" : "choice"},
           {"unit", parameter.unit},
           {"required", is_required},
           {"default", parameter.value ? *parameter.value : Data()},
           {"written_default", parameter.default_text},
           {"choices", choices_of(parameter)},
+          {"variables", DataList()},
           {"least", limit(parameter.least)},
           {"step", limit(parameter.step)},
           {"most", limit(parameter.most)}};
@@ -74,11 +77,13 @@ DataMembers describe_operator(const Operator& op) {
   for (const lang::DeclaredParameter& parameter : declaration.parameters)
     parameters.emplace_back(describe_parameter(parameter));
   for (const lang::DeclaredOutput& output : declaration.outputs)
-    outputs.emplace_back(DataMembers{{"name", output.name}, {"type", output.type}, {"unit", output.unit}});
+    outputs.emplace_back(DataMembers{
+        {"name", output.name}, {"doc", output.unit}, {"type", output.type}, {"python", "Any"}, {"unit", output.unit}});
   return {{"name", declaration.name},
           {"category", declaration.category},
           {"sentence", declaration.sentence},
           {"parameters", std::move(parameters)},
+          {"inputs", DataMembers{{"least", 0.0}, {"most", declaration.is_module ? Data() : Data(0.0)}}},
           {"gives", declaration.is_module ? "solid" : "values"},
           {"outputs", std::move(outputs)},
           {"example", declaration.example},

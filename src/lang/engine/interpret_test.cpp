@@ -439,7 +439,7 @@ TEST(Interpret, NothingIsEvaluatedAfterASyntaxError) {
             "part.vcad:1:5: error: expected a value, found \";\"\n  1 | a = ; cube(a); cube(1);\n    |     ^\n");
 }
 
-const std::string honeycomb = R"(/// Hexagonal cells.
+const std::string honey_module = R"(/// Hexagonal cells.
 module honey(
   size = 6,     // [1:0.5:20] mm: Width of a cell
   core = "soft",// material: What fills the cells
@@ -463,8 +463,8 @@ TEST(Interpret, DeclaredParametersAreChecked) {
       {"honey(at = [1, true]);", "13:12: error: honey: at: expected a list of numbers (mm), found a list of 2"},
       {"honey(count = 0);", "13:15: error: honey: count: expected a number from 1 to 9, found 0"},
       {"cube(width(true));", "13:12: error: width: of: expected a number (mm), found true"}};
-  for (const auto& [call, message] : cases) expect_message(honeycomb + call, message);
-  expect_nodes(honeycomb + "honey(20, at = [1, 2]); cube(width(3)); honey(undef);",
+  for (const auto& [call, message] : cases) expect_message(honey_module + call, message);
+  expect_nodes(honey_module + "honey(20, at = [1, 2]); cube(width(3)); honey(undef);",
                "show(20,\"soft\",\"flat\",[1,2],3) cube(6) show(undef,\"soft\",\"flat\",[0,0],3)");
 }
 

@@ -39,6 +39,13 @@ bool is_literal(const ast::Expr& expr) {
   }
 }
 
+// True within operators of .vcad files, in which Ombre's words go before OpenSCAD's.
+bool is_of_vcad(const Scope& scope) {
+  const Scope* at = &scope;
+  while (!at->unit() && at->parent()) at = at->parent().get();
+  return at->unit() && at->unit()->path.ends_with(".vcad");
+}
+
 }  // namespace
 
 // Keeps the special variables of a used file for its functions and modules.
@@ -120,9 +127,11 @@ void Evaluator::call_other(const CallStatement& statement, const ScopePtr& scope
         "The assign() module will be removed in future releases. Use a regular assignment instead.", statement.span);
     return run_let(statement, scope, out);
   }
+  const bool is_word = makes_solid(statement.name, *scope);
+  if (is_word && is_of_vcad(*scope)) return add(run_word(statement, scope));
   const auto builtin = modules_.find(name);
   if (builtin != modules_.end()) return add(run_builtin(*builtin->second, statement, scope));
-  if (makes_solid(statement.name, *scope)) return add(run_word(statement, scope));
+  if (is_word) return add(run_word(statement, scope));
   warn("Ignoring unknown module '" + statement.name.text() + '\'', statement.span);
 }
 

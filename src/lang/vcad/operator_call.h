@@ -19,7 +19,7 @@ struct HostCall {
   std::vector<design::NodePtr> children;
 };
 
-// What a call gives: the solids of a module, joined, or the value of a function.
+// The solids of a module, joined, or the value of a function.
 struct HostResult {
   design::NodePtr solid;
   Data value;

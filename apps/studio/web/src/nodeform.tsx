@@ -66,7 +66,7 @@ export function NodeForm({ node }: { node: NodeType }) {
   return (
     <form class="nodeform" onSubmit={(e) => {
       e.preventDefault();
-      insert(callOf(node, texts));
+      insert(callOf(node, texts), node.library);
     }}>
       {node.parameters.map((p) => (
         <label class="option" title={p.doc}>

@@ -16,7 +16,7 @@ function NodePage({ node }: { node: NodeType }) {
       {isOpen && (
         <div>
           <div ref={(element) => element?.replaceChildren(page(node))} />
-          {node.example && <button onClick={() => insert(node.example)}>Add the example to the script</button>}
+          {node.example && <button onClick={() => insert(node.example, node.library)}>Add the example to the script</button>}
           <NodeForm node={node} />
         </div>
       )}

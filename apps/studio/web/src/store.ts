@@ -95,6 +95,7 @@ export interface NodeType {
   gives: string;
   outputs: { name: string; doc: string; type: string }[];
   example: string;
+  library?: string; // of an operator: what to write between < and > after `use`
 }
 
 export interface Hello {

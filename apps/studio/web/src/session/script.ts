@@ -17,7 +17,11 @@ export function setEditor(made: Editor) {
 }
 
 export const reveal = (from: number, to: number) => editor?.reveal(from, to);
-export const insert = (text: string) => {
+
+// Writes a call at the end of the script, and names the library of an operator at its begin.
+export const insert = (text: string, library?: string) => {
+  const use = `use <${library}>`;
+  if (library && !editor!.text().includes(use)) editor!.write(0, 0, `${use}\n`);
   const end = editor!.text().length;
   editor!.write(end, end, `\n${text}\n`);
 };
