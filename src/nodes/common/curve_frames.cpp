@@ -141,9 +141,9 @@ Box CurveFrames::box() const {
 }
 
 int CurveFrames::channel(std::string_view channel_name) const {
-  constexpr std::array<std::string_view, channel_count> names{"along",     "first",     "second",    "stretch",
-                                                              "distance",  "tangent_x", "tangent_y", "tangent_z",
-                                                              "normal_x",  "normal_y",  "normal_z"};
+  constexpr std::array<std::string_view, channel_count> names{"along",    "first",     "second",    "stretch",
+                                                              "distance", "tangent_x", "tangent_y", "tangent_z",
+                                                              "normal_x", "normal_y",  "normal_z"};
   const auto found = std::ranges::find(names, channel_name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
@@ -176,8 +176,7 @@ CurveFrames::Place CurveFrames::place_beyond(Vec3 p, const Node& end) const {
 
 CurveFrames::Place CurveFrames::framed(double s, Vec3 way, Vec3 tangent, Vec3 normal, double stretched, double away) {
   const Vec3 up = cross(tangent, normal);
-  return {s,         dot(way, normal), dot(way, up), stretched, away, tangent.x,
-          tangent.y, tangent.z,        up.x,         up.y,      up.z};
+  return {s, dot(way, normal), dot(way, up), stretched, away, tangent.x, tangent.y, tangent.z, up.x, up.y, up.z};
 }
 
 CurveFrames::Place CurveFrames::place(Vec3 p) const {

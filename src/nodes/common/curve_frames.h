@@ -14,8 +14,8 @@
 
 namespace ombre::nodes {
 
-// A natural cubic spline through points, which may continue straight beyond its ends. Frames are parallel transported (W. Wang
-// and others, "Computation of rotation minimizing frames", ACM Transactions on Graphics 27, 2008).
+// A natural cubic spline through points, which may continue straight beyond its ends. Frames are parallel transported
+// (W. Wang and others, "Computation of rotation minimizing frames", ACM Transactions on Graphics 27, 2008).
 class CurveFrames final : public program::FieldSource {
  public:
   // The curve needs two points at least, each different from the one before. The second normal is `toward` at the

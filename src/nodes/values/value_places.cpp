@@ -233,20 +233,22 @@ struct CurveDistance {
   std::shared_ptr<CurveFrames> curve;  // made with the node
 
   static Spec<CurveDistance> spec() {
-    return {"curve_distance",
-            "The distance to a smooth curve through points, the position of the nearest point along it, and a frame that "
-            "moves along the curve without turning around it.",
-            {{"points", &CurveDistance::points, "Two to 1000 different points", required(unit::points)},
-             {"toward", &CurveDistance::toward,
-              "Direction of the frame's normal at the start, as far as it is perpendicular to the curve"}},
-            no_inputs,
-            "sphere(8, mix(\"red\", \"blue\", curve_distance([[-6, 0, 0], [0, 5, 0], [6, 0, 0]]).along));",
-            {{"distance", &CurveDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
-             {"along", &CurveDistance::share_along, "Position by length, 0 at the first point, 1 at the end",
-              Interval(0, 1)},
-             {"place", &CurveDistance::place, "Length along the curve, and the way from it across and along the normal, mm"},
-             {"tangent", &CurveDistance::tangent, "Direction of the curve at its nearest point, of length 1"},
-             {"normal", &CurveDistance::normal, "Direction of the frame's normal there, of length 1"}}};
+    return {
+        "curve_distance",
+        "The distance to a smooth curve through points, the position of the nearest point along it, and a frame that "
+        "moves along the curve without turning around it.",
+        {{"points", &CurveDistance::points, "Two to 1000 different points", required(unit::points)},
+         {"toward", &CurveDistance::toward,
+          "Direction of the frame's normal at the start, as far as it is perpendicular to the curve"}},
+        no_inputs,
+        "sphere(8, mix(\"red\", \"blue\", curve_distance([[-6, 0, 0], [0, 5, 0], [6, 0, 0]]).along));",
+        {{"distance", &CurveDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
+         {"along", &CurveDistance::share_along, "Position by length, 0 at the first point, 1 at the end",
+          Interval(0, 1)},
+         {"place", &CurveDistance::place,
+          "Length along the curve, and the way from it across and along the normal, mm"},
+         {"tangent", &CurveDistance::tangent, "Direction of the curve at its nearest point, of length 1"},
+         {"normal", &CurveDistance::normal, "Direction of the frame's normal there, of length 1"}}};
   }
 
   bool complete(const Reader& reader) {
