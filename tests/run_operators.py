@@ -2,6 +2,7 @@
 """Calls each operator of tests/data/operators.txt, and compares what it gives with what is written there.
 
     python3 tests/run_operators.py build/release/apps/ombre/ombre [NUMBER...]
+    python3 tests/run_operators.py build/release/apps/ombre/ombre --evaluators    # the same voxels, however they are computed
 """
 import argparse
 import pathlib
@@ -49,13 +50,36 @@ def png_of(rows):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
 
 
-def check(ombre, number, lines):
+def write_design(folder, lines):
+    (folder / "checks.png").write_bytes(png_of([[255, 0], [0, 255]]))
+    design = folder / "operator.vcad"
+    design.write_text(design_of(lines), encoding="utf-8")
+    return design
+
+
+def check(ombre, lines):
     with tempfile.TemporaryDirectory() as scratch:
-        folder = pathlib.Path(scratch)
-        (folder / "checks.png").write_bytes(png_of([[255, 0], [0, 255]]))
-        design = folder / f"operator_{number}.vcad"
-        design.write_text(design_of(lines), encoding="utf-8")
-        return "\n".join(run_cases.Case(ombre, design).problems)
+        return "\n".join(run_cases.Case(ombre, write_design(pathlib.Path(scratch), lines)).problems)
+
+
+def voxels_of(ombre, design, name, *options):
+    """Voxels of each material, and the layers' bytes."""
+    folder = design.parent / name
+    found = run_cases.events([ombre, "slice", design, "-o", folder, "--voxel", "0.71", "--json", *options], design.parent)
+    done = next(event for event in found if event["event"] == "done")
+    return ({material["name"]: material["voxels"] for material in done["materials"]},
+            {path.name: path.read_bytes() for path in folder.glob("*.png")})
+
+
+def check_evaluators(ombre, lines):
+    """Threads change nothing; floats differ from doubles in few voxels, at borders alone."""
+    with tempfile.TemporaryDirectory() as scratch:
+        design = write_design(pathlib.Path(scratch), lines)
+        counts, layers = voxels_of(ombre, design, "one", "--threads", "1")
+        program.expect(voxels_of(ombre, design, "four", "--threads", "4")[1] == layers, "threads change the layers")
+        exact, _ = voxels_of(ombre, design, "exact", "--evaluator", "reference")
+    other = sum(abs(counts.get(name, 0) - exact.get(name, 0)) for name in {*counts, *exact})
+    program.expect(other <= 1e-4 * sum(exact.values()), f"evaluators differ: {counts}, {exact}")
 
 
 def examples():
@@ -85,13 +109,15 @@ def numbers_are_complete(found):
 def main():
     parser = argparse.ArgumentParser(description="Calls each operator.")
     parser.add_argument("ombre", type=pathlib.Path, help="the program")
+    parser.add_argument("--evaluators", action="store_true", help="compare ways to compute the same")
     parser.add_argument("numbers", nargs="*", type=int, help="only these rows")
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
     found = rows()
     ombre = given.ombre.resolve()
-    checks = [(f"{number} {name}", lambda number=number, lines=lines: check(ombre, number, lines))
+    run = check_evaluators if given.evaluators else check
+    checks = [(f"{number} {name}", lambda lines=lines: run(ombre, lines))
               for number, name, lines in found if not given.numbers or number in given.numbers]
-    if not given.numbers:
+    if not given.numbers and not given.evaluators:
         checks += [(f"example of {name}", lambda library=library, example=example: example_works(ombre, library, example))
                    for name, library, example in examples()]
         checks.append(("all rows", lambda: numbers_are_complete(found)))

@@ -73,8 +73,8 @@ TEST(Values, Objects) {
     has_key(object(a = 1), "b") => false
   )");
   expect_errors(R"(
-    object(3) => object() needs members with names, or objects, found a number
-    object(edges = 1, index = 2).edge => this object has no member .edge
+    object(3) => object() needs members with names, or objects, found a number; write for example object(size = 3)
+    object(edges = 1, index = 2).edge => this object has no member .edge; it has .edges, .index
     has_key([1], "a") => has_key() needs an object, found a list of 1
   )");
 }
