@@ -166,8 +166,10 @@ def full_disk(folder):
         running = [subprocess.Popen(folder.command("run", "plan.json", "--shard", n), cwd=folder.path, text=True,
                                     env=program.environment(), stderr=subprocess.PIPE) for n in (1, 3)]
         said = [process.communicate(timeout=120)[1] for process in running]
-        expect([process.returncode for process in running] == [2, 2], f"{said}")
-        expect(all("No space left on device; free some space there and try again" in text for text in said), f"{said}")
+        failed = [text for process, text in zip(running, said) if process.returncode != 0]
+        # One of them may be done before the other fills the disk.
+        expect(failed and all(process.returncode in (0, 2) for process in running), f"{said}")
+        expect(all("No space left on device; free some space there and try again" in text for text in failed), f"{said}")
         missing = sum(event["missing"] for event in folder.events("status", "plan.json") if event["event"] == "share")
         expect(0 < missing < 80, f"{missing} layers are missing")
         expect("are missing" in folder.run("gather", "plan.json", status=2).stderr, "a gap is not named")

@@ -174,13 +174,13 @@ def slow_process_of_mpi(folder):
     slow = ranks_below(process)[-1:]
     for rank in slow:
         os.kill(rank, signal.SIGSTOP)
-    wait_for_journals(folder, 16, process)
+    wait_for_journals(folder, 15, process)  # it may have taken a share without having begun it
     found = len(journals(folder))
     for rank in slow:
         os.kill(rank, signal.SIGCONT)
     said = process.communicate(timeout=120)[0]
     expect(process.returncode == 0, said)
-    expect(slow and found == 16, f"{found} shares were begun beside a process that stood still: {said}")
+    expect(slow and found >= 15, f"{found} shares were begun beside a process that stood still: {said}")
     folder.run("gather", "plan.json")
     expect_same(folder)
 
