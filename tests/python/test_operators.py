@@ -17,8 +17,8 @@ function rings(
   even = "white" // material: Material of the others
 ) = floor(coordinates().rho / width) % 2 == 0 ? odd : even;
 /// The place in a grid.
-/// Returns: rho value mm, count number, names text
-function places(scale = 1) = object(rho = scale * coordinates().rho, count = 3, names = ["a", "b"]);
+/// Returns: vector
+function places(scale = 1) = [scale * coordinates().rho, 3, ["a", "b"]];
 /// A ball in a box that the children cut.
 module cut_ball(
   radius = 3 // [1:5] mm: Radius of the ball
@@ -47,10 +47,10 @@ def test_functions_take_values(own):
     assert float(fractions["red"]) == pytest.approx(0.75)
 
 
-def test_functions_give_objects(own):
-    places = own.places(2)
-    assert places.count == 3 and places.names == ["a", "b"]
-    assert float(ombre.sphere(places.rho).distance([3, 0, 0])) < 0
+def test_functions_give_lists(own):
+    rho, count, names = own.places(2)
+    assert count == 3 and names == ["a", "b"]
+    assert float(ombre.sphere(rho).distance([3, 0, 0])) < 0
 
 
 def test_modules_take_children(own):
