@@ -19,6 +19,10 @@ function rings(
 /// The place in a grid.
 /// Returns: vector
 function places(scale = 1) = [scale * coordinates().rho, 3, ["a", "b"]];
+/// The same as an object.
+/// Returns: rho value mm, count number, names text
+function parts(scale = 1) =
+  object(rho = scale * coordinates().rho, count = 3, names = ["a", "b"], inner = object(depth = 1));
 /// A ball in a box that the children cut.
 module cut_ball(
   radius = 3 // [1:5] mm: Radius of the ball
@@ -53,6 +57,12 @@ def test_functions_give_lists(own):
     assert float(ombre.sphere(rho).distance([3, 0, 0])) < 0
 
 
+def test_functions_give_objects(own):
+    parts = own.parts(2)
+    assert parts.count == 3 and parts.names == ["a", "b"] and parts.inner.depth == 1
+    assert float(ombre.sphere(parts.rho).distance([3, 0, 0])) < 0
+
+
 def test_modules_take_children(own):
     whole, cut = own.cut_ball(2), own.cut_ball(ombre.rectprism((4, 4, 4)).translate(0, 0, 2), radius=2)
     assert whole.inside([0, 0, 1]) and not cut.inside([0, 0, 1]) and cut.inside([0, 0, -1])
@@ -68,7 +78,7 @@ def test_wrong_arguments_raise(own):
         own.rings(odd=3)
     with pytest.raises(ombre.DesignError, match='"rings" has no parameter "wdith"'):
         own.rings(wdith=3)
-    with pytest.raises(AttributeError, match="it has cut_ball, places, rings"):
+    with pytest.raises(AttributeError, match="it has cut_ball, parts, places, rings"):
         own.ring
 
 

@@ -180,7 +180,8 @@ py::object function_result(const Data& data, const FactoryPtr& factory) {
   }
   if (const auto formula = std::dynamic_pointer_cast<const design::FormulaObject>(data.host_object()))
     return parameter(design::write_formula(formula->expression()), factory);
-  if (design::is_value(data)) return parameter(data, factory);
+  const Data* from = data.find("from");
+  if ((from && from->host_object()) || (data.find("formula") && data.find("with"))) return parameter(data, factory);
   if (!data.members()) return to_python(data);
   py::dict members;
   for (const auto& [name, member] : *data.members()) members[py::str(name)] = function_result(member, factory);
