@@ -47,8 +47,7 @@ std::string output_text(const DeclaredOutput& output) {
 std::string use_line(const Operator& op) { return "use <" + op.library + ">"; }
 
 std::string parameter_text(const DeclaredParameter& parameter) {
-  const std::string given =
-      parameter.default_text.empty() ? "; required" : "; default " + parameter.default_text;
+  const std::string given = parameter.default_text.empty() ? "; required" : "; default " + parameter.default_text;
   return "  " + parameter.name + (parameter.sentence.empty() ? "" : ": " + parameter.sentence) + "\n      " +
          kind_text(parameter) + given + '\n';
 }
@@ -101,8 +100,8 @@ void list_operators(const Session& session) {
     }
     if (declared.category != category) session.events.print('\n' + declared.category + '\n');
     category = declared.category;
-    session.events.print("  " + declared.name + std::string(width + 2 - declared.name.size(), ' ') +
-                         declared.sentence + '\n');
+    session.events.print("  " + declared.name + std::string(width + 2 - declared.name.size(), ' ') + declared.sentence +
+                         '\n');
   }
 }
 
@@ -127,8 +126,10 @@ std::vector<std::string> names_with_operators(std::vector<std::string> names) {
 
 std::string operators_reference() {
   std::string text =
-      "# Operators\n\nMade by `ombre operators --markdown`; `ombre operators NAME` shows one. Operators are modules and "
-      "functions of\nlibraries in Ombre's own language ([how to use and write them](../user/operators.md)). Lengths are "
+      "# Operators\n\nMade by `ombre operators --markdown`; `ombre operators NAME` shows one. Operators are modules "
+      "and "
+      "functions of\nlibraries in Ombre's own language ([how to use and write them](../user/operators.md)). Lengths "
+      "are "
       "mm, angles degrees.\nA `value` may vary in space.\n";
   std::string category;
   for (const Operator& op : compile::operators_in(compile::own_library_folders())) {

@@ -56,7 +56,8 @@ bool is_in_range(const DeclaredParameter& parameter, const Value& value) {
   if (const List* list = value.list())
     return std::ranges::all_of(list->items, [&](const Value& item) { return is_in_range(parameter, item); });
   const double* number = value.number();
-  return !number || (!(parameter.least && *number < *parameter.least) && !(parameter.most && *number > *parameter.most));
+  return !number ||
+         (!(parameter.least && *number < *parameter.least) && !(parameter.most && *number > *parameter.most));
 }
 
 std::string range_text(const DeclaredParameter& parameter) {

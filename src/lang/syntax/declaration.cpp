@@ -81,16 +81,15 @@ void read_block(const std::vector<std::string>& lines, Declaration& into) {
   const Key description{"", &into.sentence, ' '};
   const Key* at = &description;
   for (const std::string& line : lines) {
-    const auto key =
-        std::ranges::find_if(keys, [&](const Key& candidate) { return line.starts_with(candidate.sign); });
+    const auto key = std::ranges::find_if(keys, [&](const Key& candidate) { return line.starts_with(candidate.sign); });
     if (key != std::end(keys)) at = &*key;
     append(*at->text, trim(std::string_view(line).substr(key != std::end(keys) ? key->sign.size() : 0)), at->between);
   }
   into.outputs = read_outputs(returns);
 }
 
-// Returns the comment that follows on the line where a parameter ends. Only a comma or the closing parenthesis may stand
-// between, so that the comment belongs to the last parameter of its line.
+// Returns the comment that follows on the line where a parameter ends. Only a comma or the closing parenthesis may
+// stand between, so that the comment belongs to the last parameter of its line.
 ast::Span comment_after(const ast::Span& parameter) {
   const std::string_view text = text_of(*parameter.source);
   const size_t at = std::min(text.find_first_not_of(" \t,)", parameter.end), text.size());
@@ -126,8 +125,7 @@ class CommentReader {
     if (!rest_.starts_with('[') || close == std::string_view::npos) return;
     const std::string_view inside = rest_.substr(1, close - 1);
     const bool is_list = inside.find(',') != std::string_view::npos || (into_.value && into_.value->string());
-    if (is_list || !read_range(inside, into_))
-      read_choices(inside, into_.value && into_.value->string(), into_);
+    if (is_list || !read_range(inside, into_)) read_choices(inside, into_.value && into_.value->string(), into_);
     rest_ = trim(rest_.substr(close + 1));
   }
 
@@ -173,8 +171,7 @@ DeclaredParameter read_parameter(const ast::Parameter& parameter, Diagnostics& d
 
 template <class Definition>
 std::optional<Declaration> read(const Definition& definition, bool is_module, Diagnostics& diagnostics) {
-  const std::vector<std::string> lines =
-      lines_above(text_of(*definition.span.source), definition.span.begin);
+  const std::vector<std::string> lines = lines_above(text_of(*definition.span.source), definition.span.begin);
   if (lines.empty()) return std::nullopt;
   Declaration declaration;
   declaration.name = definition.name.text();
@@ -188,9 +185,9 @@ std::optional<Declaration> read(const Definition& definition, bool is_module, Di
 }  // namespace
 
 const std::vector<std::string>& port_types() {
-  static const std::vector<std::string> types{"number", "value",  "vector", "colour", "mixture", "material",
-                                              "text",   "solid",  "region", "frame",  "curve",   "points",
-                                              "image",  "index",  "truth"};
+  static const std::vector<std::string> types{"number",   "value",  "vector", "colour", "mixture",
+                                              "material", "text",   "solid",  "region", "frame",
+                                              "curve",    "points", "image",  "index",  "truth"};
   return types;
 }
 

@@ -103,7 +103,8 @@ TEST(Declaration, OnlyABlockRightAboveDeclares) {
 
 // A comment belongs to the last parameter of its line.
 TEST(Declaration, CommentsBelongToTheirLine) {
-  const std::vector<Declaration> all = declared("/// f\nfunction f(a = 1, b = 2, // mm: of b\n c = 3) = 1; // mm: no\n");
+  const std::vector<Declaration> all =
+      declared("/// f\nfunction f(a = 1, b = 2, // mm: of b\n c = 3) = 1; // mm: no\n");
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].parameters[0].unit, "");
   EXPECT_EQ(all[0].parameters[1].unit, "mm");
@@ -116,7 +117,8 @@ TEST(Declaration, UnknownTypesAreWarnedOf) {
   const auto all = declared("/// f\nmodule f(a = 1 // nmuber: Width\n) {}", diagnostics);
   EXPECT_EQ(all[0].parameters[0].sentence, "nmuber: Width");
   const std::string expected =
-      "part.vcad:2:18: warning: this comment declares the type or unit \"nmuber\", which is not known; types are number";
+      "part.vcad:2:18: warning: this comment declares the type or unit \"nmuber\", which is not known; types are "
+      "number";
   EXPECT_EQ(to_text(diagnostics).substr(0, expected.size()), expected);
   Diagnostics none;
   declared("/// f\nmodule f(a = 1, // the width of a cell: in all places\n b = 2 // no colon at all\n) {}", none);
