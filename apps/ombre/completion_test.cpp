@@ -46,7 +46,7 @@ TEST(Completion, OfCommandsAndOptionsByTheirBeginning) {
 TEST(Completion, OfValuesThatAreListed) {
   EXPECT_EQ(words_for({"slice", "part.vcad", "--place", ""}), (Words{"center", "design"}));
   EXPECT_EQ(words_for({"mesh", "--flavour", "p"}), Words{"prusa"});
-  EXPECT_EQ(words_for({"nodes", "spher"}), Words{"sphere"});
+  EXPECT_EQ(words_for({"nodes", "rectpr"}), Words{"rectprism"});
   EXPECT_EQ(words_for({"completion", ""}), (Words{"bash", "fish", "zsh"}));
 }
 

@@ -148,8 +148,10 @@ class Loader {
     return places_of(include.path, (*include.span.source)->name());
   }
 
-  // Returns the paths beside the design and in the libraries, which a path cannot leave.
+  // Returns the paths beside the design and in the libraries, which a path cannot leave. Designs only use libraries,
+  // and OpenSCAD scripts may include them.
   std::vector<std::string> library_places(const ast::Include& include) const {
+    if (!include.is_use && dialect_ == Dialect::vcad) return {};
     const fs::path path(include.path);
     if (path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) return {};
     const fs::path main = fs::path(program_.units.front().path).parent_path();
