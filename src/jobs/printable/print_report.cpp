@@ -91,6 +91,7 @@ void tell_findings(const Events& events, const CheckedPart& part, const voxel::L
                                         {"volume_mm3", volume_mm3(finding.pieces.voxels, lattice)},
                                         {"largest", places_data(finding, lattice)}});
     unchecked.assign(part.unchecked.begin(), part.unchecked.end());
+    for (const PrintFinding& finding : part.findings) events.warn(line(finding, lattice) + "; " + finding.remedy);
     return events.event("checked", {{"printer", part.printer},
                                     {"is_printable", std::ranges::none_of(part.findings, &PrintFinding::is_error)},
                                     {"findings", std::move(findings)},

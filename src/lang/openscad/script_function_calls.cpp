@@ -82,7 +82,7 @@ Value Evaluator::call_other(const ast::Call& call, const ScopePtr& scope) {
   bool goes_on = is_count_right;
   for (size_t n = 0; is_count_right && n < count; ++n) {
     arguments.push_back(goes_on ? eval(*call.arguments[n].value, scope) : Value());
-    goes_on = !found->second.wants_numbers || (goes_on && arguments.back().number());
+    goes_on = !found->second.wants_numbers || (goes_on && (arguments.back().number() || arguments.back().object()));
   }
   at_ = call.span;
   if (auto made = result_of_objects(found->second.name, arguments)) return *made;
