@@ -25,8 +25,8 @@ CROSSING_WHERE_TOO_FINE = {"graded_wing": 2000}
 # Without large faces along the layers: their voxels are right within 0.05 %, and meshes are to be within 0.1 %.
 CURVED = {"bcc_ball", "conformal_ring", "graded_wing", "tetrahedron", "unit_cells", "voronoi_foam"}
 # Too many facets for CGAL at the tolerance that is usual for their sizes; mm.
-COARSE = {"bcc_ball": 0.04, "beam_lattice": 0.12, "conformal_ring": 0.08, "grading_strategies": 0.1, "graded_wing": 0.1,
-          "gyroid_block": 0.1, "gyroid_pipe": 0.1, "organic_lattice": 0.1, "part_of_wing": 0.03, "unit_cells": 0.1, "voronoi_foam": 0.05}
+COARSE = {"bcc_ball": 0.04, "beam_lattice": 0.09, "conformal_ring": 0.08, "grading_strategies": 0.1, "graded_wing": 0.1,
+          "gyroid_block": 0.06, "organic_lattice": 0.1, "part_of_wing": 0.03, "unit_cells": 0.1, "voronoi_foam": 0.05}
 # Cells that see waves across the whole wing, 0.1 mm at its tip; mm.
 CELLS = {"graded_wing": 0.05}
 BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'

@@ -211,6 +211,20 @@ TEST(Mesh, OfSeveralMaterialsHasABodyForEach) {
   EXPECT_EQ(mesh_text(speck, request).bodies.size(), 1u);
 }
 
+// Half of the cube is void, and a third of it is mostly void where it is mixed.
+TEST(Mesh, LeavesOutWhatIsMostlyVoid) {
+  MeshRequest whole = cells_of(0.5, 0.05);
+  whole.usual = UsualRegions::as_requested;
+  const std::string half = "cube(10, coordinates().place.x < 0 ? \"void\" : \"red\");";
+  EXPECT_NEAR(volume(mesh_text(half, whole)), 500, 1e-6);
+  EXPECT_NEAR(volume(mesh_text(half, cells_of(0.5, 0.05))), 500, 1e-6);
+  const std::string graded = "cube(12, mix(\"void\", \"red\", 0.5 + (coordinates().place.x + 2) / 12));";
+  const MeshedDesign made = mesh_text(graded, whole);
+  ASSERT_EQ(made.bodies.size(), 1U);
+  EXPECT_NEAR(made.bodies[0].volume_mm3, 8 * 12 * 12, 1e-3);
+}
+
+
 TEST(Mesh, OfMixturesHasBodiesByBands) {
   MeshRequest request = cells_of(0.5, 0.1);
   request.usual = UsualRegions::separate;

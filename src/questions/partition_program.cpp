@@ -72,7 +72,7 @@ class RegionBuilder {
   bool add_scores() {
     switch (rule_.kind) {
       case RegionRule::Kind::whole:
-        made_.regions.push_back({design_.parts.size() == 1 ? design_.parts[0].name : "", {}, {}, {}});
+        add_whole();
         return true;
       case RegionRule::Kind::materials:
         return add_materials();
@@ -92,6 +92,18 @@ class RegionBuilder {
     if (scores_.empty()) return question_.builder().constant(1);
     if (made_.partition.division == surface::Division::greatest) return number_of_greatest(scores_);
     return number_of_band(scores_.front(), made_.partition.borders);
+  }
+
+  // Adds the region of all that is not mostly void, and that of the rest if the composition can have void.
+  void add_whole() {
+    made_.regions.push_back({design_.parts.size() == 1 ? design_.parts[0].name : "", {}, {}, {}});
+    const design::Composition composition = question_.composition();
+    const auto is_void = [](const auto& fraction) { return fraction.first == void_material; };
+    const auto empty = std::ranges::find_if(composition.fractions, is_void);
+    if (empty == composition.fractions.end() || composition.fractions.size() < 2) return;
+    made_.partition.division = surface::Division::greatest;
+    scores_ = {question_.builder().constant(1) - empty->second, empty->second};
+    made_.regions.push_back({design_.materials.all()[void_material].name, void_material, {}, {}});
   }
 
   bool add_materials() {

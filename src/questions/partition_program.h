@@ -12,6 +12,8 @@
 
 namespace ombre::compile {
 
+inline constexpr MaterialId void_material = 0;
+
 struct RegionRule {
   enum class Kind : uint8_t {
     whole,      // one region: everything inside

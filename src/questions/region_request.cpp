@@ -12,7 +12,6 @@ namespace ombre::compile {
 namespace {
 
 constexpr double sides_of_tolerance = 1000;
-constexpr MaterialId void_material = 0;
 // Distance in cells from the first corner to the box. It is not a round number, so that faces of round coordinates do
 // not run through corners.
 constexpr double margin_cells = 1.37;

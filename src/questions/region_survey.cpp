@@ -6,6 +6,7 @@
 #include "base/text/text.h"
 #include "questions/build.h"
 #include "questions/field_program.h"
+#include "questions/partition_program.h"
 #include "questions/question.h"
 #include "voxel/fields.h"
 #include "voxel/layers.h"
@@ -129,7 +130,8 @@ std::optional<MaterialsInside> find_materials(const design::Design& design, cons
   if (!built) return std::nullopt;
   leave_out_impossible(*built, box, threads);
   MaterialsInside found;
-  for (const MaterialId id : built->materials.materials) found.names.push_back(design.materials.all()[id].name);
+  for (const MaterialId id : built->materials.materials)
+    if (id != void_material) found.names.push_back(design.materials.all()[id].name);
   if (found.names.size() < 2) return found;
   std::vector<MaterialId> ids;
   const auto fractions = sample_fractions(design, box, ids, diagnostics);

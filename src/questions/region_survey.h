@@ -20,7 +20,7 @@ std::vector<std::vector<float>> sample_coarsely(const program::Program& program,
 std::optional<MaterialId> most_varying_material(const design::Design& design, const Box& box, Diagnostics& diagnostics);
 
 struct MaterialsInside {
-  std::vector<std::string> names;  // names in the order of the design's materials
+  std::vector<std::string> names;  // names in the order of the design's materials, without void
   bool are_mixed = false;          // true if some sample has more than one material
 };
 
