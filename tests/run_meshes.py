@@ -26,7 +26,9 @@ CROSSING_WHERE_TOO_FINE = {"graded_wing": 2000}
 CURVED = {"bcc_ball", "conformal_ring", "graded_wing", "tetrahedron", "unit_cells", "voronoi_foam"}
 # Too many facets for CGAL at the tolerance that is usual for their sizes; mm.
 COARSE = {"bcc_ball": 0.04, "beam_lattice": 0.09, "conformal_ring": 0.08, "grading_strategies": 0.1, "graded_wing": 0.1,
-          "gyroid_block": 0.06, "organic_lattice": 0.1, "part_of_wing": 0.03, "unit_cells": 0.1, "voronoi_foam": 0.05}
+          "gyroid_block": 0.06, "organic_lattice": 0.1, "part_of_wing": 0.03, "tweel": 0.2, "unit_cells": 0.1, "voronoi_foam": 0.05}
+# Void is one of their materials; the program that compares surfaces looks at the solids without it.
+WITH_VOID = {"bone", "helmet", "paddle", "tweel"}
 # Cells that see waves across the whole wing, 0.1 mm at its tip; mm.
 CELLS = {"graded_wing": 0.05}
 BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'
@@ -85,7 +87,7 @@ def is_closed_and_as_large_as_its_voxels(design, meshes):
         expect(found["manifold"] and found["closed"], str(found))
         near(found["volume"], body["volume_mm3"], 1e-5, "CGAL's volume")
         expect(found["intersections"] <= CROSSING_WHERE_TOO_FINE.get(design.stem, MOST_CROSSING), str(found))
-    if meshes.comparer:
+    if meshes.comparer and design.stem not in WITH_VOID:
         is_as_near_as_requested(design, meshes, bodies["tolerance_mm"])
     pitch = (body["volume_mm3"] / 3e7) ** (1 / 3)
     reported = meshes.events("slice", design, "-o", "slices", "--voxel", f"{pitch:.4f}")

@@ -224,7 +224,6 @@ TEST(Mesh, LeavesOutWhatIsMostlyVoid) {
   EXPECT_NEAR(made.bodies[0].volume_mm3, 8 * 12 * 12, 1e-3);
 }
 
-
 TEST(Mesh, OfMixturesHasBodiesByBands) {
   MeshRequest request = cells_of(0.5, 0.1);
   request.usual = UsualRegions::separate;
