@@ -74,7 +74,7 @@ class Said {
     static const std::set<std::string> not_results{"progress", "checking", "preparing", "plan", "done"};
     if (not_results.contains(name)) return;
     for (const auto& [member, value] : event)
-      if (is_kept(member)) add(name + "." + member, value);
+      if (is_kept(member)) add(joined(name, member), value);
   }
 
   const DataMembers& results() const { return results_; }
@@ -82,6 +82,11 @@ class Said {
   int64_t warnings() const { return warnings_; }
 
  private:
+  static std::string joined(std::string name, const std::string& member) {
+    name += '.';
+    return name += member;
+  }
+
   // Times and memory depend on the machine.
   static bool is_kept(const std::string& member) {
     return member.find("seconds") == std::string::npos && member.find("memory") == std::string::npos;
@@ -96,7 +101,7 @@ class Said {
   void add(const std::string& name, const Data& value) {
     if (value.number()) results_.emplace_back(name, value);
     if (value.members())
-      for (const auto& [member, inner] : *value.members()) add(name + "." + member, inner);
+      for (const auto& [member, inner] : *value.members()) add(joined(name, member), inner);
     if (!value.list()) return;
     for (size_t n = 0; n < value.list()->size(); ++n) add(name + "." + std::to_string(n + 1), (*value.list())[n]);
   }

@@ -27,7 +27,9 @@ std::string choices_text(const DeclaredParameter& parameter) {
   std::vector<std::string> words;
   for (const auto& [value, label] : parameter.choices) {
     const std::string word = value.string() ? *value.string() : format_number(*value.number());
-    words.push_back(word == label ? word : word + " (" + label + ')');
+    std::string text = word;
+    if (word != label) text.append(" (").append(label).append(")");
+    words.push_back(std::move(text));
   }
   return join(words, " or ");
 }
