@@ -73,7 +73,7 @@ class Loader {
         return;
       }
     }
-    if (!may_open(include, dialect_ == Dialect::openscad ? source->name() : path)) return;
+    if (!may_open(include, path)) return;
     if (!include.is_use) return splice(source, into);
     into.uses.push_back(&unit(source));
   }
@@ -99,11 +99,9 @@ class Loader {
     return false;
   }
 
-  // Returns the path by which a file is known while it is being read. OpenSCAD compares paths as they are written, so
-  // "x.scad" and "./x.scad" are two files, and it forgets the first file of a unit.
+  // Returns the path by which a file is known while it is being read. OpenSCAD forgets the first file of a unit.
   std::string opened_as(const std::string& path) const {
-    if (dialect_ != Dialect::openscad) return normal(path);
-    return open_.size() == unit_begin_ ? "" : path;
+    return dialect_ == Dialect::openscad && open_.size() == unit_begin_ ? "" : normal(path);
   }
 
   // Returns the place of the file among those of the unit that are being read.
@@ -148,15 +146,15 @@ class Loader {
     return places_of(include.path, (*include.span.source)->name());
   }
 
-  // Returns the paths beside the design and in the libraries, which a path cannot leave. Designs only use libraries,
-  // and OpenSCAD scripts may include them.
+  // Returns the paths in the libraries, as OpenSCAD finds them; for designs, which only use libraries and whose paths
+  // cannot leave them, also the path beside the design.
   std::vector<std::string> library_places(const ast::Include& include) const {
-    if (!include.is_use && dialect_ == Dialect::vcad) return {};
     const fs::path path(include.path);
-    if (path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end()) return {};
-    const fs::path main = fs::path(program_.units.front().path).parent_path();
+    const bool is_design = dialect_ == Dialect::vcad;
+    const bool stays_inside = path.is_relative() && std::ranges::find(path, fs::path("..")) == path.end();
+    if (is_design && !(include.is_use && stays_inside)) return {};
     std::vector<std::string> places;
-    if (include.is_use) places.push_back((main / path).generic_string());
+    if (is_design) places.push_back((fs::path(program_.units.front().path).parent_path() / path).generic_string());
     for (const std::string& library : libraries_) places.push_back((fs::path(library) / path).generic_string());
     return places;
   }

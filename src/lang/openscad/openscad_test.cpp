@@ -2,6 +2,9 @@
 // compares whole scripts.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <map>
+
 #include "draw/font_search.h"
 #include "lang/openscad/colours.h"
 #include "lang/openscad/csg_text.h"
@@ -149,6 +152,27 @@ TEST(Openscad, ArgumentsAfterOneThatIsNoNumberAreNotEvaluated) {
             unknown("v") + "WARNING: max() parameter could not be converted in file t.scad, line 1\n");
   EXPECT_EQ(run_text("a = atan2(v, w);").lines,
             unknown("v") + unknown("w") + "WARNING: atan2() parameter could not be converted in file t.scad, line 1\n");
+}
+
+// The lines are those of OpenSCAD 2021.01, which forgets the first file, so that it may include itself once.
+TEST(Openscad, FilesThatIncludeThemselvesAreReadOnce) {
+  const std::map<std::string, std::string> files{{"t.scad", "include <t.scad>\necho(\"t\");"},
+                                                 {"a.scad", "include <sub/b.scad>\necho(\"a\");"},
+                                                 {"sub/b.scad", "include <deep/../../a.scad>\necho(\"b\");"},
+                                                 {"c.scad", "include <./c.scad>\necho(\"c\");"}};
+  Options options;
+  options.read_file = [&](const std::string& path) {
+    const auto found = files.find(std::filesystem::path(path).lexically_normal().generic_string());
+    return found == files.end() ? std::nullopt : std::optional(found->second);
+  };
+  const auto cannot = [](const char* path) {
+    return std::string("WARNING: Can't open include file '") + path + "'.\n";
+  };
+  EXPECT_EQ(run_text(files.at("t.scad"), options).lines, cannot("t.scad") + "ECHO: \"t\"\nECHO: \"t\"\n");
+  EXPECT_EQ(run_text("include <a.scad>", options).lines,
+            cannot("deep/../../a.scad") + "ECHO: \"b\"\nECHO: \"a\"\n");
+  // OpenSCAD takes "./c.scad" for another file than "c.scad", and reads it a second time.
+  EXPECT_EQ(run_text("include <c.scad>", options).lines, cannot("./c.scad") + "ECHO: \"c\"\n");
 }
 
 TEST(Openscad, VariablesOfTheViewAreJudged) {
