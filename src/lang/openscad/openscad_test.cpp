@@ -169,8 +169,7 @@ TEST(Openscad, FilesThatIncludeThemselvesAreReadOnce) {
     return std::string("WARNING: Can't open include file '") + path + "'.\n";
   };
   EXPECT_EQ(run_text(files.at("t.scad"), options).lines, cannot("t.scad") + "ECHO: \"t\"\nECHO: \"t\"\n");
-  EXPECT_EQ(run_text("include <a.scad>", options).lines,
-            cannot("deep/../../a.scad") + "ECHO: \"b\"\nECHO: \"a\"\n");
+  EXPECT_EQ(run_text("include <a.scad>", options).lines, cannot("deep/../../a.scad") + "ECHO: \"b\"\nECHO: \"a\"\n");
   // OpenSCAD takes "./c.scad" for another file than "c.scad", and reads it a second time.
   EXPECT_EQ(run_text("include <c.scad>", options).lines, cannot("./c.scad") + "ECHO: \"c\"\n");
 }
