@@ -339,7 +339,7 @@ TEST_P(EveryValue, DerivativesMatchDifferences) {
         high[axis] += step;
         const auto below = at(program, low), above = at(program, high);
         for (size_t v = 0; v < here.size(); v += 4) {
-          // Where cells have no volume, their numbers are quotients by rounding errors, such as 2^60.
+          // Numbers of cells without volume are quotients by rounding errors, such as 2^60.
           if (!(std::abs(here[v]) < 1e12)) continue;
           const double up = (above[v] - here[v]) / step, down = (here[v] - below[v]) / step;
           const double scale = 1 + std::abs(here[v]) + std::abs(up);

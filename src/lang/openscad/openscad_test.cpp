@@ -134,7 +134,7 @@ TEST(Openscad, WrongOriginsAreNamed) {
             warned("linear_extrude(..., origin=\"x\") could not be converted"));
 }
 
-// As in OpenSCAD 2021.01, which reports wrong points when it makes the geometry, and leaves the solid out.
+// OpenSCAD 2021.01 reports wrong points when it makes the geometry, and leaves the solid out.
 TEST(Openscad, SolidsKeepWrongPointsAsTheyAreWritten) {
   const Said said = run_text("polygon([[0, 0], [1, 0], [\"a\", 1], 7]); polyhedron([[0, 0, 0], 5], [[0, 1, 1]]);");
   EXPECT_EQ(said.lines, "");

@@ -200,7 +200,7 @@ TreePtr Evaluator::run_children(const CallStatement& statement, const ScopePtr& 
         {Message::Kind::deprecated, "child() will be removed in future releases. Use children() instead.", "", 0});
   const Children* children = scope->children();
   if (!children) {
-    // As in OpenSCAD, a wrong number is reported outside modules, too, if it is negative.
+    // OpenSCAD reports a wrong number outside modules, too, if it is negative.
     const Value index = is_old && !statement.arguments.empty() ? eval(*statement.arguments[0].value, scope) : Value();
     if (index.number() && *index.number() <= -1) (void)chosen_child(statement, index, 0);
     return nullptr;
