@@ -37,6 +37,12 @@ function(ombre_test_options target)
   set_property(GLOBAL APPEND PROPERTY OMBRE_TEST_PROGRAMS ${target})
   ombre_few_at_once(${target})
   ombre_optimise_less(${target})
+  if(OMBRE_SANITIZE) # a third of the time goes into lines and coverage of tests, which nobody reads
+    target_compile_options(${target} PRIVATE -g0)
+  endif()
+  if(OMBRE_FUZZ)
+    target_compile_options(${target} PRIVATE -fno-sanitize=fuzzer-no-link)
+  endif()
 endfunction()
 
 # The target of a room: formats/mesh is ombre_formats_mesh.
