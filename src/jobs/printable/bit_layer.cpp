@@ -105,6 +105,11 @@ BitLayer& BitLayer::remove(const BitLayer& other) {
   return *this;
 }
 
+BitLayers inverted(BitLayers region) {
+  for (BitLayer& layer : region.layers) layer.invert();
+  return region;
+}
+
 Offsets Offsets::reflected() const {
   Offsets result;
   for (const OffsetSpan& span : spans) result.spans.push_back({-span.j, -span.k, -span.to, -span.from});
@@ -188,10 +193,7 @@ BitLayers dilated(const BitLayers& region, const Offsets& offsets, int64_t begin
 }
 
 BitLayers eroded(BitLayers region, const Offsets& offsets, int64_t begin, int64_t end) {
-  for (BitLayer& layer : region.layers) layer.invert();
-  BitLayers made = dilated(region, offsets.reflected(), begin, end);
-  for (BitLayer& layer : made.layers) layer.invert();
-  return made;
+  return inverted(dilated(inverted(std::move(region)), offsets.reflected(), begin, end));
 }
 
 }  // namespace ombre::compile

@@ -44,6 +44,8 @@ struct BitLayers {
   const BitLayer& at(int64_t k) const { return layers[static_cast<size_t>(k - first)]; }
 };
 
+BitLayers inverted(BitLayers region);
+
 // A set of offsets in voxels, as spans [from, to] along x, which contain 0.
 struct OffsetSpan {
   int64_t j = 0, k = 0, from = 0, to = 0;

@@ -39,9 +39,7 @@ PrintCheck gap_check(double limit_mm, bool fails, Vec3 voxel_mm) {
   check.is_error = fails;
   check.reach = reach_of_thin_places(limit_mm, voxel_mm);
   check.flags = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
-    BitLayers empty = layers.solid;
-    for (BitLayer& layer : empty.layers) layer.invert();
-    return thin_places(empty, limit_mm, voxel_mm, begin, end);
+    return thin_places(inverted(layers.solid), limit_mm, voxel_mm, begin, end);
   };
   return check;
 }
@@ -57,9 +55,7 @@ PrintCheck neighbour_check(const voxel::ForbiddenNeighbour& rule, MaterialId mat
   check.materials = {material};
   if (near != 0) check.materials.push_back(near);
   check.flags = [=](const SolidLayers& layers, int64_t begin, int64_t end) {
-    BitLayers other = near == 0 ? layers.solid : layers.of_material.at(near);
-    if (near == 0)
-      for (BitLayer& layer : other.layers) layer.invert();
+    const BitLayers other = near == 0 ? inverted(layers.solid) : layers.of_material.at(near);
     BitLayers flags = dilated(other, offsets, begin, end);
     for (int64_t k = begin; k < end; ++k)
       flags.layers[static_cast<size_t>(k - begin)] &= layers.of_material.at(material).at(k);
@@ -89,9 +85,7 @@ PrintCheck hollow_check() {
   check.text = "closed hollows, in which support, resin or powder stays";
   check.remedy = "fill them, or give them a drain";
   check.flags = [](const SolidLayers& layers, int64_t begin, int64_t end) {
-    BitLayers empty = part(layers.solid, begin, end);
-    for (BitLayer& layer : empty.layers) layer.invert();
-    return empty;
+    return inverted(part(layers.solid, begin, end));
   };
   return check;
 }
