@@ -2,7 +2,7 @@
 """Measures the efficiency of two processes of MPI that share a job, beside two jobs of one process each, which share
 nothing but the machine.
 
-    python3 bench/ranks.py build/release/apps/ombre/ombre [--turns 5] [--edge 600]
+    python3 bench/ranks.py build/release/apps/ombre/ombre [--turns 3] [--edge 1400]
 """
 import argparse
 import os
@@ -45,8 +45,8 @@ def seconds(ombre, folders, processes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ombre", type=pathlib.Path)
-    parser.add_argument("--turns", type=int, default=5)
-    parser.add_argument("--edge", type=int, default=600, help="voxels along each edge of the cube")
+    parser.add_argument("--turns", type=int, default=3)
+    parser.add_argument("--edge", type=int, default=1400, help="voxels along each edge of the cube")
     args = parser.parse_args()
     ombre = str(args.ombre.resolve())
     with tempfile.TemporaryDirectory() as scratch:

@@ -112,13 +112,7 @@ int open(const char* path, int flags, ...) {
   va_end(list);
   return open_file(path, flags, mode);
 }
-int open64(const char* path, int flags, ...) {
-  va_list list;
-  va_start(list, flags);
-  const mode_t mode = mode_of(flags, list);
-  va_end(list);
-  return open_file(path, flags, mode);
-}
+int open64(const char* path, int flags, ...) __attribute__((alias("open")));
 FILE* fopen(const char* path, const char* mode) {
   static auto* const real = next<FILE*(const char*, const char*)>("fopen");
   note_opened(path);

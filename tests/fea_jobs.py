@@ -14,11 +14,7 @@ PULL = {"materials": {"red": RED, "blue": {"modulus_mpa": 50, "poissons_ratio": 
 
 
 class Folder(program.Folder):
-    def __init__(self, ombre, scratch):
-        super().__init__(ombre, scratch)
-        self.write("cube.vcad", CUBE)
-        self.write("mix.vcad", MIX)
-        self.write("pull.json", PULL)
+    FILES = {"cube.vcad": CUBE, "mix.vcad": MIX, "pull.json": PULL}
 
     def run(self, *arguments, **options):
         return super().run("fea", *arguments, **options)

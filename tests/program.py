@@ -47,11 +47,20 @@ def near(got, wanted, tolerance, what):
     expect(abs(got - wanted) <= tolerance, f"{what} is {got}, not {wanted}")
 
 
+def near_share(got, wanted, share, what):
+    """Fails a check unless the numbers differ by at most a share of the wanted one."""
+    near(got, wanted, share * abs(wanted), what)
+
+
 class Folder:
-    """A folder that one check has for itself, and the program in it."""
+    """A folder that one check has for itself, with some files, and the program in it."""
+
+    FILES: dict = {}  # contents by names, as `write` takes them
 
     def __init__(self, ombre, scratch):
         self.ombre, self.path = ombre, pathlib.Path(scratch)
+        for name, content in self.FILES.items():
+            self.write(name, content)
 
     def write(self, name, content):
         """Writes a text, or what is no text as JSON; returns the file's path."""
@@ -72,6 +81,25 @@ class Folder:
         result = run([self.ombre, *arguments], cwd=self.path, **options)
         expect(result.returncode == status, f"status {result.returncode}, not {status}: {result.stderr[-1500:]}")
         return result
+
+    def describe(self, command, design, *arguments, status=0):
+        """Runs a command that describes a design, which is given as its text."""
+        self.write("design.vcad", design)
+        return self.run(command, "design.vcad", *arguments, status=status)
+
+    def described(self, event, command, design, *arguments):
+        """The event of that name by which a command describes a design."""
+        lines = self.describe(command, design, "--json", *arguments).stdout.splitlines()
+        return next(found for found in map(json.loads, lines) if found["event"] == event)
+
+    def run_three_shares(self, missing):
+        """Runs the shares of plan.json, the second after an attempt to gather, which names its pieces; gathers them."""
+        for share in (3, 1):
+            self.run("run", "plan.json", "--shard", share)
+        wrong = self.run("gather", "plan.json", status=2).stderr
+        expect(f"{missing} are missing, of shares 2" in wrong, wrong)
+        self.run("run", "plan.json", "--shard", 2)
+        self.run("gather", "plan.json")
 
     def events(self, *arguments, **options):
         return [json.loads(line) for line in self.run(*arguments, "--json", **options).stdout.splitlines()]
@@ -115,13 +143,20 @@ def named(functions):
     return {function.__name__: function for function in functions}
 
 
+def arguments(about, name=str, **switches):
+    """What the command line of a test gives: the program, names of checks, and switches, {name: help}."""
+    parser = argparse.ArgumentParser(description=about)
+    parser.add_argument("ombre", type=lambda path: pathlib.Path(path).resolve(), help="the program")
+    parser.add_argument("names", nargs="*", type=name, help="only these")
+    for switch, meaning in switches.items():
+        parser.add_argument(f"--{switch}", action="store_true", help=meaning)
+    return parser.parse_intermixed_args()
+
+
 def main(folder, checks):
     """Runs the checks, {name: function of a folder}, or those that are named on the command line."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("ombre", type=pathlib.Path, help="the program")
-    parser.add_argument("names", nargs="*", help="only these")
-    given = parser.parse_args()
+    given = arguments(None)
     if given.names:
         checks = {name: check for name, check in checks.items()
                   if name in given.names or not set(given.names).isdisjoint(name.split())}
-    return check_in_folders(folder, given.ombre.resolve(), checks)
+    return check_in_folders(folder, given.ombre, checks)

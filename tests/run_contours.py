@@ -24,10 +24,7 @@ RING = "difference() { cylinder(10, 4); cylinder(5, 6); }"
 class Drawing(program.Folder):
     """A folder with designs in it."""
 
-    def __init__(self, ombre, scratch):
-        super().__init__(ombre, scratch)
-        self.write("halves.vcad", HALVES)
-        self.write("ring.vcad", RING)
+    FILES = {"halves.vcad": HALVES, "ring.vcad": RING}
 
     def contours(self, design, out, *arguments, **options):
         return self.run("contours", design, "-o", out, *arguments, **options)

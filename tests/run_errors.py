@@ -14,7 +14,6 @@ errors, warnings and notes are compared.
 
 --update rewrites the .txt files, to be read before they are committed.
 """
-import argparse
 import difflib
 import pathlib
 import re
@@ -74,16 +73,11 @@ def check(ombre, design, update):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Runs the wrong designs of tests/errors.")
-    parser.add_argument("ombre", type=pathlib.Path, help="the program")
-    parser.add_argument("--update", action="store_true", help="rewrite the expected texts")
-    parser.add_argument("names", nargs="*", help="only these")
-    a = parser.parse_intermixed_args()
+    a = program.arguments("Runs the wrong designs of tests/errors.", update="rewrite the expected texts")
     designs = sorted(path for ending in ("vcad", "scad", "json") for path in FOLDER.glob(f"*.{ending}"))
     if a.names:
         designs = [d for d in designs if d.stem in a.names]
-    ombre = a.ombre.resolve()
-    return program.check_all([(d.name, lambda d=d: check(ombre, d, a.update)) for d in designs])
+    return program.check_all([(d.name, lambda d=d: check(a.ombre, d, a.update)) for d in designs])
 
 
 if __name__ == "__main__":

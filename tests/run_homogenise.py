@@ -7,23 +7,17 @@ import json
 import xml.etree.ElementTree as ElementTree
 
 import program
-from program import expect
+from program import expect, near_share as near
 
 STUDY = program.SOURCE / "examples" / "studies" / "polyjet.json"
 
 
-def near(got, wanted, tolerance, what):
-    expect(abs(got - wanted) <= tolerance * abs(wanted), f"{what} is {got}, not {wanted}")
-
-
 def run(folder, design, *arguments, status=0):
-    folder.write("design.vcad", design)
-    return folder.run("homogenise", "design.vcad", *arguments, status=status)
+    return folder.describe("homogenise", design, *arguments, status=status)
 
 
 def homogenised(folder, design, *arguments):
-    lines = run(folder, design, "--study", STUDY, "--json", *arguments).stdout.splitlines()
-    return next(e for e in map(json.loads, lines) if e["event"] == "homogenised")
+    return folder.described("homogenised", "homogenise", design, "--study", STUDY, *arguments)
 
 
 def plain_blocks_are_their_material(folder):

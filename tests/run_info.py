@@ -160,9 +160,21 @@ def choices_of_volumes_are_taken(folder):
     expect(found["least"] == -1 and found["greatest"] == 5, found)
 
 
+def maps_on_surfaces_are_reported(folder):
+    """The upper side of a block, 2 mm by 4 mm, is laid out as it is."""
+    folder.write("block.off", off(BLOCK))
+    folder.write("cells.vcad", 'm = surface_cells("block.off", count=(2, 4, 1), height=3, normal=(0, 0, 1));\n'
+                 'tpms("gyroid", map=m, thickness=0.2);\n')
+    (report,) = folder.info("cells.vcad")["reports"]
+    expect(report["node"] == "surface_cells" and report["line"] == 1, report)
+    expect(report["report"].startswith("2 x 4 x 3 mm, 2 x 4 x 1 cells"), report)
+    expect("volumes of cells are 3 to 3 mm^3" in report["report"], report)
+    expect("stretched by 1 to 1," in folder.run("info", "cells.vcad").stdout, "no report in the text")
+
+
 CHECKS = [meshes_are_described, drawings_are_described, tables_are_described, images_are_described,
           cad_files_are_described, sets_of_decks_are_described, steps_of_results_are_chosen,
-          choices_of_volumes_are_taken]
+          choices_of_volumes_are_taken, maps_on_surfaces_are_reported]
 
 
 if __name__ == "__main__":

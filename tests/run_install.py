@@ -51,6 +51,7 @@ def main():
         ombre = installed / "bin" / "ombre"
 
         assert "j750" in run(ombre, "printers", folder=folder).stdout
+        assert "agilus-vero-modulus" in run(ombre, "calibrations", folder=folder).stdout
         (folder / "part.stl").write_bytes((program.TESTS / "cases/other_programs/fixtures/openscad.stl").read_bytes())
         (folder / "part.vcad").write_text('offset(0.5) { mesh("part.stl", "red"); }', encoding="utf-8")
         modules_come_from(installed, run(ombre, "slice", "part.vcad", "--voxel", "1", folder=folder).stderr)

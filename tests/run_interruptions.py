@@ -266,7 +266,7 @@ def frames_resume(job):
     refused = render(job, "stopped", status=2).stderr
     expect("already holds a set of frames; continue it with --resume" in refused, refused)
     refused = render(job, "stopped", "--resume", "--zoom", "2", status=2).stderr
-    expect("holds other frames, since --zoom differs" in refused, refused)
+    expect("holds another set of frames, since --zoom differs" in refused, refused)
     done = [json.loads(line) for line in render(job, "stopped", "--resume", "--threads", "1", "--json").stdout.splitlines()][-1]
     expect(done["frames_kept"] >= 1 and done["frames_kept"] + done["frames_written"] == 12, f"{done}")
     expect_same(job.path / "whole", folder)
@@ -274,7 +274,7 @@ def frames_resume(job):
     expect(unpacked(job.path / "turn.zip") == files(folder), "the archive has other files or bytes")
     job.write("ball.vcad", BALL.replace("0.5", "0.6"))
     refused = render(job, "stopped", "--resume", status=2).stderr
-    expect("holds other frames, since" in refused and "ball.vcad differs" in refused, refused)
+    expect("holds another set of frames, since" in refused and "ball.vcad differs" in refused, refused)
     refused = render(job, "turn.png", "--resume", status=1).stderr
     expect("goes on with frames in a folder or an archive; write for example -o turn/" in refused, refused)
 

@@ -81,18 +81,24 @@ def prusa_gets_ranges_of_triangles(folder):
         first_vertex += 8
 
 
-def bambu_gets_parts_and_colours(folder):
-    path = folder / "four_fills_bambu.3mf"
-    model = entry(path, "3D/3dmodel.model")
-    (group,) = model.iter(MATERIAL + "colorgroup")
-    expect([c.get("color") for c in group] == ["#FF0000FF", "#0080FF80"], "wrong colours")
-    pids = {o.get("pid") for o in model.iter(CORE + "object") if o.find(CORE + "mesh") is not None}
-    expect(pids == {group.get("id")}, str(pids))
-    (item,) = model.iter(CORE + "item")
-    (config,) = entry(path, "Metadata/model_settings.config")
-    expect(config.get("id") == item.get("objectid"), "the settings are of another object")
-    fills = [{m.get("key"): m.get("value") for m in part} for part in config.iter("part")]
-    expect([f["sparse_infill_density"] for f in fills] == ["10%", "20%", "40%", "80%"], str(fills))
+def bambu_gets_a_project(folder):
+    for flavour in ("bambu", "orca"):
+        path = folder / f"four_fills_{flavour}.3mf"
+        model = entry(path, "3D/3dmodel.model")
+        reported = {m.get("name"): m.text for m in model.iter(CORE + "metadata")}
+        expect(re.fullmatch(r"BambuStudio-\d\d(\.\d\d){3}", reported["Application"]), str(reported))
+        with zipfile.ZipFile(path) as archive:
+            project = json.loads(archive.read("Metadata/project_settings.config"))
+        expect(project["filament_colour"] == ["#FF0000"] and project["filament_settings_id"] == ["hard"], str(project))
+        (item,) = model.iter(CORE + "item")
+        (config,) = entry(path, "Metadata/model_settings.config").iter("object")
+        expect(config.get("id") == item.get("objectid"), "the settings are of another object")
+        parts = {o.get("id"): volume(o) for o in entry(path, "3D/Objects/object_1.model").iter(CORE + "object")}
+        placed = [c.get("objectid") for c in model.iter(CORE + "component")]
+        expect(placed == [part.get("id") for part in config.iter("part")] == list(parts), f"{placed}, {list(parts)}")
+        expect(all(abs(mm3 - 4000) < 1e-6 for mm3 in parts.values()), str(parts))
+        fills = [{m.get("key"): m.get("value") for m in part} for part in config.iter("part")]
+        expect([f["sparse_infill_density"] for f in fills] == ["10%", "20%", "40%", "80%"], str(fills))
 
 
 def vertices_have_colours(folder):
@@ -193,7 +199,7 @@ def slicers_fill_less(folder):
 
 
 CHECKS = [archives_are_packages, regions_are_objects_of_one_part, prusa_gets_ranges_of_triangles,
-          bambu_gets_parts_and_colours, vertices_have_colours, amf_is_one_object, glb_is_in_metres,
+          bambu_gets_a_project, vertices_have_colours, amf_is_one_object, glb_is_in_metres,
           slicers_change_tools, slicers_fill_less]
 
 

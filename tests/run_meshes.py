@@ -28,7 +28,7 @@ CURVED = {"bcc_ball", "conformal_ring", "graded_wing", "tetrahedron", "unit_cell
 COARSE = {"bcc_ball": 0.04, "beam_lattice": 0.09, "conformal_ring": 0.08, "grading_strategies": 0.1, "graded_wing": 0.1,
           "gyroid_block": 0.06, "organic_lattice": 0.1, "part_of_wing": 0.03, "tweel": 0.2, "unit_cells": 0.1, "voronoi_foam": 0.05}
 # Void is one of their materials; the program that compares surfaces looks at the solids without it.
-WITH_VOID = {"bone", "helmet", "paddle", "tweel"}
+WITH_VOID = {"bone", "helmet", "paddle", "ski", "tweel"}
 # Cells that see waves across the whole wing, 0.1 mm at its tip; mm.
 CELLS = {"graded_wing": 0.05}
 BAR = 'fgrade(["x/20 + 0.5", "0.5 - x/20"], ["red", "blue"]) { rectprism(20, 10, 5); }'
@@ -184,11 +184,13 @@ def materials_come_back(meshes):
     materials = [["red"], ["red"], ["blue"], ["red"], ["blue"], []]
     for name, rule in [("ball.3mf", "names"), ("ball.amf", "names"), ("ball.obj", "names"), ("ball.3mf", "colours"),
                        ("prusa.3mf", "names"), ("bambu.3mf", "colours")]:
-        flavour = ["--flavour", name[:5]] if name in ("prusa.3mf", "bambu.3mf") else []
+        # Projects stand in the middle of a bed, on z=0; the box of the ball and the block is centred on (0, 0.5).
+        flavour, back = {"prusa.3mf": (["--flavour", "prusa"], "translate(-100, -99.5, -4) "),
+                         "bambu.3mf": (["--flavour", "bambu"], "translate(-128, -127.5, -4) ")}.get(name, ([], ""))
         reported = meshes.bodies("-o", name, "--by", "materials", "--force", "--tolerance", "0.05", *flavour,
                              design="ball.vcad")
         again = meshes.path / "again.vcad"
-        again.write_text(f'mesh("{name}", "gray", materials="{rule}");', encoding="utf-8")
+        again.write_text(f'{back}mesh("{name}", "gray", materials="{rule}");', encoding="utf-8")
         found = meshes.events("probe", again, *points)
         expect([list(point["composition"]) for point in found] == materials, f"{name}: {found}")
         (done,) = [event for event in meshes.events("slice", again, "-o", "again", "--voxel", "0.1", "--force")

@@ -8,7 +8,6 @@ The test does not need it: only those scripts that use its libraries are skipped
 
 --update asks an installed openscad for the .echo and .csg files again.
 """
-import argparse
 import difflib
 import pathlib
 import re
@@ -238,12 +237,8 @@ def check_bytes(ombre):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("ombre")
-    parser.add_argument("--update", action="store_true")
-    parser.add_argument("names", nargs="*")
-    arguments = parser.parse_args()
-    ombre = pathlib.Path(arguments.ombre).resolve()
+    arguments = program.arguments(__doc__.splitlines()[0], update="ask an installed openscad for the expected files again")
+    ombre = arguments.ombre
     scripts = [s for s in sorted(FOLDER.glob("*.scad")) if not arguments.names or s.stem in arguments.names]
     if arguments.update:
         for script in scripts:

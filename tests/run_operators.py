@@ -4,7 +4,6 @@
     python3 tests/run_operators.py build/release/apps/ombre/ombre [NUMBER...]
     python3 tests/run_operators.py build/release/apps/ombre/ombre --evaluators    # the same voxels, however they are computed
 """
-import argparse
 import pathlib
 import re
 import struct
@@ -107,17 +106,13 @@ def numbers_are_complete(found):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Calls each operator.")
-    parser.add_argument("ombre", type=pathlib.Path, help="the program")
-    parser.add_argument("--evaluators", action="store_true", help="compare ways to compute the same")
-    parser.add_argument("numbers", nargs="*", type=int, help="only these rows")
-    given = parser.parse_intermixed_args()
-    found = rows()
-    ombre = given.ombre.resolve()
+    given = program.arguments("Calls each operator: those of the given rows.", int,
+                              evaluators="compare ways to compute the same")
+    found, ombre = rows(), given.ombre
     run = check_evaluators if given.evaluators else check
     checks = [(f"{number} {name}", lambda lines=lines: run(ombre, lines))
-              for number, name, lines in found if not given.numbers or number in given.numbers]
-    if not given.numbers and not given.evaluators:
+              for number, name, lines in found if not given.names or number in given.names]
+    if not given.names and not given.evaluators:
         checks += [(f"example of {name}", lambda library=library, example=example: example_works(ombre, library, example))
                    for name, library, example in examples()]
         checks.append(("all rows", lambda: numbers_are_complete(found)))

@@ -34,12 +34,7 @@ FRONT = {"variables": {"x": {"from": -10, "to": 10, "start": 5}},
 
 
 class Folder(program.Folder):
-    def __init__(self, ombre, scratch):
-        super().__init__(ombre, scratch)
-        self.write("bars.vcad", BARS)
-        self.write("light.json", LIGHT)
-        self.write("schaffer.vcad", SCHAFFER)
-        self.write("front.json", FRONT)
+    FILES = {"bars.vcad": BARS, "light.json": LIGHT, "schaffer.vcad": SCHAFFER, "front.json": FRONT}
 
     def table(self, name):
         return list(csv.DictReader(self.read(name).splitlines()))

@@ -4,7 +4,6 @@
     python3 tests/run_pictures.py build/dev/apps/ombre/ombre [NAME...]
     python3 tests/run_pictures.py build/dev/apps/ombre/ombre --renew [NAME...]
 """
-import argparse
 import pathlib
 import tempfile
 
@@ -101,6 +100,16 @@ def mistakes_are_explained(ombre):
         return "it wrote all the same" if any(pathlib.Path(scratch).iterdir()) else ""
 
 
+def attributes_are_said(ombre):
+    """What a design has besides materials is said, unless the picture shows it."""
+    with tempfile.TemporaryDirectory() as scratch:
+        design = pathlib.Path(scratch, "ball.vcad")
+        design.write_text('attribute("dose", "3 + x") sphere(5, "red");', encoding="utf-8")
+        plain = program.run([ombre, "render", design, "-o", "a.png", "--size", "40x30"], cwd=scratch).stderr
+        coloured = program.run([ombre, "render", design, "-o", "b.png", "--size", "40x30", "--by", "dose"], cwd=scratch).stderr
+    return "" if "attributes dose; --by dose" in plain and "attributes" not in coloured else plain + coloured
+
+
 # ---- what the comparison must see
 
 
@@ -136,17 +145,14 @@ def renew(ombre, names):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Compares pictures of the examples with golden ones.")
-    parser.add_argument("ombre", type=pathlib.Path, help="the program")
-    parser.add_argument("names", nargs="*", help="only these")
-    parser.add_argument("--renew", action="store_true", help="make the golden pictures anew")
-    a = parser.parse_intermixed_args()
-    ombre, names = a.ombre.resolve(), a.names or list(CASES)
+    a = program.arguments("Compares pictures of the examples with golden ones.", renew="make the golden pictures anew")
+    ombre, names = a.ombre, a.names or list(CASES)
     if a.renew:
         return renew(ombre, names)
     checks = [(name, lambda n=name: check(ombre, n)) for name in names]
     if not a.names:
-        checks += [("mistakes are explained", lambda: mistakes_are_explained(ombre))]
+        checks += [("mistakes are explained", lambda: mistakes_are_explained(ombre)),
+                   ("attributes are said", lambda: attributes_are_said(ombre))]
         checks += [(f"changes of {n} are seen", lambda n=n: changes_are_seen(n)) for n in ("gear", "knob", "mug")]
     return program.check_all(checks)
 

@@ -25,14 +25,10 @@ TWO = """color("red") cube([20, 20, 2]);
 color("#1234ab") translate([20, 0, 0]) cube([20, 20, 2]);
 """
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
-MATERIAL = "{http://schemas.microsoft.com/3dmanufacturing/material/2015/02}"
 
 
 class Scripts(program.Folder):
-    def __init__(self, ombre, scratch):
-        super().__init__(ombre, scratch)
-        self.write("inlay.scad", INLAY)
-        self.write("two.scad", TWO)
+    FILES = {"inlay.scad": INLAY, "two.scad": TWO}
 
     def run(self, *arguments, status=0):
         result = program.run([self.ombre, *arguments], cwd=self.path)
@@ -60,21 +56,25 @@ class Package:
     def __init__(self, path):
         with zipfile.ZipFile(path) as package:
             self.files = {name: package.read(name).decode("utf-8") for name in package.namelist()}
-        model = ElementTree.fromstring(self.files["3D/3dmodel.model"])
-        self.colours = {}
-        for group in model.iter(CORE + "basematerials"):
-            self.colours[group.get("id")] = [base.get("displaycolor") for base in group]
-        for group in model.iter(MATERIAL + "colorgroup"):
-            self.colours[group.get("id")] = [colour.get("color") for colour in group]
-        self.materials = [base.get("name") for base in model.iter(CORE + "base")]
-        self.meshes = []
-        for item in model.iter(CORE + "object"):
-            corners = [tuple(float(v.get(axis)) for axis in "xyz") for v in item.iter(CORE + "vertex")]
-            triangles = [tuple(int(t.get(key)) for key in ("v1", "v2", "v3")) for t in item.iter(CORE + "triangle")]
-            colour = self.colours[item.get("pid")][int(item.get("pindex"))] if item.get("pid") else None
-            if triangles:
-                self.meshes.append((item.get("name"), colour, corners, triangles))
-        self.items = len(list(model.iter(CORE + "item")))
+        models = [ElementTree.fromstring(text) for name, text in self.files.items() if name.endswith(".model")]
+        self.colours, self.materials, self.meshes, self.items = {}, [], [], 0
+        for model in models:
+            for group in model.iter(CORE + "basematerials"):
+                self.colours[group.get("id")] = [base.get("displaycolor") for base in group]
+            self.materials += [base.get("name") for base in model.iter(CORE + "base")]
+            self.items += len(list(model.iter(CORE + "item")))
+            for item in model.iter(CORE + "object"):
+                corners = [tuple(float(v.get(axis)) for axis in "xyz") for v in item.iter(CORE + "vertex")]
+                triangles = [tuple(int(t.get(key)) for key in ("v1", "v2", "v3")) for t in item.iter(CORE + "triangle")]
+                colour = self.colours[item.get("pid")][int(item.get("pindex"))] if item.get("pid") else None
+                if triangles:
+                    self.meshes.append((item.get("name"), colour or self.filament(len(self.meshes)), corners, triangles))
+
+    def filament(self, body):
+        """The colour of the filament of a body, in projects of Bambu Studio."""
+        project = self.files.get("Metadata/project_settings.config")
+        extruders = self.settings("extruder")
+        return json.loads(project)["filament_colour"][int(extruders[body]) - 1] + "FF" if project and extruders else None
 
     def bodies(self):
         return [(name, colour, len(triangles), round(volume(corners, triangles), 6))
@@ -96,10 +96,10 @@ FEW = 36  # triangles of a box with a pocket
 
 
 def each_slicer_gets_one_object_of_two_volumes(scripts):
-    for flavour in ("generic", "prusa", "bambu"):
+    for flavour in ("generic", "prusa", "bambu", "orca"):
         reported = scripts.run("scad", "inlay.scad", "-o", f"{flavour}.3mf", "--flavour", flavour)
         expect("warning" not in reported, reported)
-    for flavour in ("generic", "bambu"):
+    for flavour in ("generic", "bambu", "orca"):
         package = Package(scripts.path / f"{flavour}.3mf")
         body, inset = package.bodies()
         expect(body[:2] == ("body", "#FFFFFFFF") and inset[:2] == ("inlay", "#FF0000FF"), f"{flavour}: {body} {inset}")
@@ -115,7 +115,7 @@ def each_slicer_gets_one_object_of_two_volumes(scripts):
 
 
 def bodies_with_a_colour_alone_are_named_by_it(scripts):
-    for flavour in ("generic", "bambu"):
+    for flavour in ("generic", "bambu", "orca"):
         scripts.run("scad", "two.scad", "-o", "two.3mf", "--flavour", flavour)
         bodies = Package(scripts.path / "two.3mf").bodies()
         expect(bodies == [("red", "#FF0000FF", 12, 800), ("#1234ab", "#1234ABFF", 12, 800)], f"{flavour}: {bodies}")

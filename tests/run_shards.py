@@ -99,12 +99,7 @@ def frames(folder):
     wrong = folder.run("plan", "job.json", "--minutes", 5, status=1).stderr
     expect("how long this job takes is not known; write for example --shards 40" in wrong, wrong)
     folder.run("plan", "job.json", "--shards", 3)
-    for n in (3, 1):
-        folder.run("run", "plan.json", "--shard", n)
-    wrong = folder.run("gather", "plan.json", status=2).stderr
-    expect("frames 4:7 are missing, of shares 2" in wrong, wrong)
-    folder.run("run", "plan.json", "--shard", 2)
-    gather(folder)
+    folder.run_three_shares("frames 4:7")
     for unknown, option in (("how long the shares take", "--minutes 30"), ("how much memory they take", "--memory 4096")):
         known = ("--minutes", 30) if option != "--minutes 30" else ()
         wrong = folder.run("submit", "plan.json", "--to", "slurm", "--print", *known, status=1).stderr
@@ -115,6 +110,28 @@ def frames(folder):
     folder.run("render", "part.vcad", "-o", "one.png", "--save-job", "one.json")
     wrong = folder.run("plan", "one.json", "--shards", 3, "-o", "one_plan.json", status=1).stderr
     expect("of pictures the frames in a folder or an archive are shared out" in wrong, wrong)
+
+
+def grids(folder):
+    """Processes share the slabs of grids, which become the files of one process."""
+    folder.write("part.vcad", DESIGN)
+    whole = ("voxels", "part.vcad", *OPTIONS, "--what", "materials,distance,fractions")
+    folder.run(*whole, "-o", "alone.nrrd")
+    folder.run(*whole, "-o", "part.nrrd", "--save-job", "job.json")
+    folder.run("plan", "job.json", "--shards", 3)
+    folder.run_three_shares("slabs 3:7")
+    names = [f"_{name}.nrrd" for name in ("material", "distance", "red", "blue")]
+    for name in names:
+        expect((folder.path / ("part" + name)).read_bytes() == (folder.path / ("alone" + name)).read_bytes(), name)
+    expect(not (folder.path / "part.nrrd.slabs").exists(), "the slabs are left")
+    wrong = folder.run("run", "plan.json", "--shard", 1, status=2).stderr
+    expect("part_material.nrrd exists already; remove it" in wrong, wrong)
+    folder.write("part.vcad", DESIGN.replace("height = 4", "height = 3"))
+    wrong = folder.run("run", "plan.json", "--shard", 2, status=2).stderr
+    expect("plan.json is the plan of another job: part.vcad" in wrong, wrong)
+    folder.run("voxels", "part.vcad", "-o", "part.vdb", "--voxel", "0.2", "--save-job", "sparse.json")
+    wrong = folder.run("plan", "sparse.json", "--shards", 3, "-o", "sparse_plan.json", status=1).stderr
+    expect("of grids those in .npy, .nrrd and .raw files are shared out" in wrong, wrong)
 
 
 def values_of_all_shares(folder):
@@ -164,10 +181,10 @@ def full_disk(folder):
     try:
         begin(folder, 4, output="small/shared")
         running = [subprocess.Popen(folder.command("run", "plan.json", "--shard", n), cwd=folder.path, text=True,
-                                    env=program.environment(), stderr=subprocess.PIPE) for n in (1, 3)]
+                                    env=program.environment(), stderr=subprocess.PIPE) for n in (1, 2, 3, 4)]
         said = [process.communicate(timeout=120)[1] for process in running]
         failed = [text for process, text in zip(running, said) if process.returncode != 0]
-        # One of them may be done before the other fills the disk.
+        # Some may be done before the others fill the disk. How many layers a share has depends on what the plan measured.
         expect(failed and all(process.returncode in (0, 2) for process in running), f"{said}")
         expect(all("No space left on device; free some space there and try again" in text for text in failed), f"{said}")
         missing = sum(event["missing"] for event in folder.events("status", "plan.json") if event["event"] == "share")
@@ -263,6 +280,7 @@ CHECKS = program.named((
     seven_shares_in_any_order,
     more_shares_than_layers,
     frames,
+    grids,
     values_of_all_shares,
     archive,
     killed_processes,

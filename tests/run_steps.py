@@ -33,6 +33,7 @@ OUTPUTS = {
     "fea with numbers": (["--study", "study.json", "--cell", "1"], "out.xdmf", "out.h5"),
     "fea in rounds": (["--study", "study.json", "--cell", "1", "--rounds", "3", "--follow", "r"], "out.vtu", "out_2.vtu"),
     "homogenise": (["--cell", "1"], "out.svg"),
+    "characterise": (["--voxel", "1"], "out.json"),
     "bundle": ([], "out.ombre"),
     "sheet": ([], "out.png"),
 }

@@ -72,12 +72,7 @@ def shares_make_the_same(folder):
     folder.run(*vary, "-o", "shared", "--save-job", "sweep.json")
     said = folder.run("plan", "sweep.json", "--shards", 3).stderr
     expect("3 shares of 10 cases" in said, said)
-    for n in (3, 1):
-        folder.run("run", "plan.json", "--shard", n)
-    wrong = folder.run("gather", "plan.json", status=2).stderr
-    expect("cases 3:7 are missing, of shares 2" in wrong, wrong)
-    folder.run("run", "plan.json", "--shard", 2)
-    folder.run("gather", "plan.json")
+    folder.run_three_shares("cases 3:7")
     expect(contents(folder.path / "shared") == contents(folder.path / "alone"), "the shares have other bytes")
 
 

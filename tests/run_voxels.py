@@ -27,9 +27,7 @@ BALL = 'fgrade(["0.5 + z/10", "0.5 - z/10"], ["red", "blue"]) { sphere(5); }'
 class Grid(program.Folder):
     """A folder with a design in it."""
 
-    def __init__(self, ombre, scratch):
-        super().__init__(ombre, scratch)
-        self.write("ball.vcad", BALL)
+    FILES = {"ball.vcad": BALL}
 
     def voxels(self, out, *arguments, **options):
         return self.run("voxels", "ball.vcad", "-o", out, *arguments, **options)

@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 """Writes the sample meshes of examples/models/. Same bytes on every machine.
-beam_lattice.3mf is made by ombre, as beam_lattice.vcad beside it says.
+beam_lattice.3mf is made by ombre, as beam_lattice.vcad beside it says; made_up_inks.json and .icc by
+ombre calibrations --measured made_up_patches.csv -o made_up_inks.json.
 
     tools/make_models.py [FOLDER]
 """
 
+import colorsys
+import itertools
+import json
 import math
 import struct
 import sys
@@ -269,6 +273,86 @@ def two_shells(outer=10.0, inner=5.0):
     return mesh
 
 
+def linear_of_srgb(value):
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+# X, Y and Z relative to the white of D50, from linear light of sRGB.
+D50_FROM_LIGHT = [[0.4360747 / 0.96422, 0.3850649 / 0.96422, 0.1430804 / 0.96422], [0.2225045, 0.7168786, 0.0606169],
+                  [0.0139322 / 0.82521, 0.0971045 / 0.82521, 0.7141733 / 0.82521]]
+
+
+def lab_of_light(light):
+    def curve(t):
+        return t ** (1 / 3) if t > (6 / 29) ** 3 else t / (3 * (6 / 29) ** 2) + 4 / 29
+
+    x, y, z = (curve(sum(a * b for a, b in zip(row, light))) for row in D50_FROM_LIGHT)
+    return 116 * y - 16, 500 * (x - y), 200 * (y - z)
+
+
+def write_made_up_patches(path, steps=4):
+    """Patches of cyan, magenta, yellow and white of the usual materials, as if the light of droplets added up."""
+    table = json.loads((Path(__file__).parent.parent / "materials/default.json").read_text())["materials"]
+    names = ["cyan", "magenta", "yellow", "white"]
+    lights = [[linear_of_srgb(next(m for m in table if m["name"] == name)[part] / 255) for part in "rgb"]
+              for name in names]
+    lines = ["# Made up: the mean light of droplets in the colours of materials/default.json. Measure your own.",
+             "patch," + ",".join(names) + ",L,a,b"]
+    for shares in mixtures(len(names), steps):
+        light = [sum(share * own[part] for share, own in zip(shares, lights)) for part in range(3)]
+        numbers = [number(share) for share in shares] + [f"{value:.3f}" for value in lab_of_light(light)]
+        lines.append(f"{len(lines) - 1}," + ",".join(numbers))
+    write_lines(path, lines)
+
+
+def mixtures(materials, steps):
+    """All shares in steps of 1/steps; the last material takes what the others leave."""
+    for counts in itertools.product(range(steps + 1), repeat=materials - 1):
+        if sum(counts) <= steps:
+            yield [count / steps for count in (*counts, steps - sum(counts))]
+
+
+def write_target(path, steps=4):
+    """The shares of the patches of ink_target.vcad, with places for what is measured."""
+    lines = ["# Write L*, a* and b* under D50 behind the last comma of each line, separated by commas.",
+             "patch,cyan,magenta,yellow,black,white,L,a,b"]
+    for n, shares in enumerate(mixtures(5, steps), 1):
+        lines.append(",".join([str(n), *map(number, shares), ""]))
+    write_lines(path, lines)
+
+
+def write_painted_ball(path, radius=15.0, rings=24, spokes=48):
+    """A ball whose vertices have the hue of their longitude, white at the upper pole and gray at the lower one."""
+    mesh, colours = Mesh(), []
+    poles = mesh.add([(0, 0, -radius), (0, 0, radius)])
+    colours += [(150, 150, 150), (255, 255, 255)]
+    circles = []
+    for ring in range(1, rings):
+        polar = math.pi * ring / rings
+        circles.append(mesh.add([(radius * math.sin(polar) * math.cos(2 * math.pi * n / spokes),
+                                  radius * math.sin(polar) * math.sin(2 * math.pi * n / spokes),
+                                  -radius * math.cos(polar)) for n in range(spokes)]))
+        height = ring / rings
+        for n in range(spokes):
+            hue = colorsys.hsv_to_rgb(n / spokes, min(0.75, 4 * height, 1.5 - 1.5 * height), min(1.0, 0.6 + 0.8 * height))
+            colours.append(tuple(round(255 * part) for part in hue))
+    for n in range(spokes):
+        after = (n + 1) % spokes
+        mesh.triangle(poles[0], circles[0][after], circles[0][n])
+        mesh.triangle(poles[1], circles[-1][n], circles[-1][after])
+        for low, high in zip(circles, circles[1:]):
+            mesh.triangle(low[n], low[after], high[after])
+            mesh.triangle(low[n], high[after], high[n])
+    lines = ["ply", "format ascii 1.0", "comment a ball with colours at its vertices"]
+    lines += [f"element vertex {len(mesh.vertices)}"] + [f"property double {axis}" for axis in "xyz"]
+    lines += [f"property uchar {part}" for part in ("red", "green", "blue")]
+    lines += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header"]
+    lines += [" ".join([f"{value:.3f}" for value in p] + [str(part) for part in colour])
+              for p, colour in zip(mesh.vertices, colours)]
+    lines += [" ".join(map(str, (len(face), *face))) for face in mesh.faces]
+    write_lines(path, lines)
+
+
 def write_textured_cube(path, half=10.0):
     """Each face is a group with a sixth of the picture, three across and two up."""
     lines = ["# a cube with a group and a part of a picture for each face", "o cube"]
@@ -283,6 +367,54 @@ def write_textured_cube(path, half=10.0):
     write_lines(path, lines)
 
 
+def sheet(columns, rows, at):
+    """An open surface over columns x rows rectangles, seen from outside where x runs right and y up."""
+    mesh = Mesh()
+    numbers = [mesh.add([at(i / columns, j / rows) for i in range(columns + 1)]) for j in range(rows + 1)]
+    for low, high in zip(numbers, numbers[1:]):
+        for i in range(columns):
+            mesh.triangle(low[i], low[i + 1], high[i + 1])
+            mesh.triangle(low[i], high[i + 1], high[i])
+    return mesh
+
+
+def insole():
+    """The top of a small insole, heel at x = 0: a cup around the heel and an arch on one side."""
+
+    def at(along, across):
+        x, t = 120 * along, 2 * across - 1
+        width = 15 + 7 * math.sin(math.pi * min(1, along / 0.75 * 0.5)) ** 2
+        ends = min(1, math.sqrt(0.25 + 9 * along), math.sqrt(0.25 + 7 * (1 - along)))
+        y = width * ends * t
+        cup = 5 * t**2 * max(0, 1 - along / 0.4) ** 2
+        arch = 7 * max(0, t) ** 2 * math.exp(-(((along - 0.42) / 0.16) ** 2))
+        return (x, y, cup + arch + 2 * along**3)
+
+    return sheet(48, 16, at)
+
+
+def cap(radii, steep, rings=14, spokes=40, dent=0):
+    """The upper part of an ellipsoid, down to an angle from the top, in degrees; perhaps with a dent at the sides."""
+    mesh = Mesh()
+
+    def ring(angle):
+        points = []
+        for k in range(spokes):
+            turn = 2 * math.pi * k / spokes
+            side = 1 - dent * math.sin(turn) ** 2 * math.sin(angle) ** 2
+            flat = math.sin(angle) * side
+            points.append((radii[0] * flat * math.cos(turn), radii[1] * flat * math.sin(turn), radii[2] * math.cos(angle)))
+        return mesh.add(points)
+
+    rows = [ring(math.radians(steep) * n / rings) for n in range(rings, 0, -1)]
+    for lower, upper in zip(rows, rows[1:]):
+        mesh.band(lower, upper)
+    (top,) = mesh.add([(0, 0, radii[2])])
+    for k in range(spokes):
+        mesh.triangle(rows[-1][k], rows[-1][(k + 1) % spokes], top)
+    return mesh
+
+
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else DEFAULT_FOLDER
     folder.mkdir(parents=True, exist_ok=True)
@@ -290,7 +422,12 @@ def main():
     write_binary_stl(folder / "gear.stl", gear(), "a spur gear of 18 teeth, module 1.5")
     write_binary_stl(folder / "tensile_bar.stl", tensile_bar(), "a tensile bar, ASTM D412 die C")
     write_off(folder / "tetrahedron.off", tetrahedron())
+    write_off(folder / "insole.off", insole())
+    write_off(folder / "head.off", cap((38, 30, 34), 75, dent=0.06))
     write_textured_cube(folder / "textured_cube.obj")
+    write_painted_ball(folder / "painted_ball.ply")
+    write_made_up_patches(folder / "made_up_patches.csv")
+    write_target(folder / "ink_target.csv")
     write_ply(folder / "two_shells.ply", two_shells(), "a cube with a cavity")
 
 

@@ -17,9 +17,13 @@ trap 'rm -rf "$scratch"' EXIT
 
 # Options of `ombre render`.
 declare -A options=(
+  [auxetic_insole]="--from -50,35"
   [beam_lattice]="--from -30,25"
+  [changing_cells]="--from -25,25"
   [calibration_sheet]="--from -20,55"
   [graded_wing]="--from -20,35"
+  [ink_target]="--from -15,60"
+  [painted_ball]="--from -45,25"
   [keychain]="--from -20,50"
   [knob]="--cut x=0 --from -50,20"
   [sharpened_scan]="--view top"
@@ -27,6 +31,7 @@ declare -A options=(
   [seat]="--from -35,30"
   [unit_cells]="--from -15,50"
   [orthosis]="--by modulus --legend --palette plasma --from 30,30"
+  [soft_hinge]="--by modulus --legend --palette plasma --from -25,50"
   [shoe_sole]="--by color_rgb --from -20,50"
   [value_nodes]="--from 0,90"
   [wood]="--from -20,35"

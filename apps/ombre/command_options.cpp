@@ -15,7 +15,7 @@ CLI::Option* add_one(CLI::App& app, const options::Option& option, void* job) {
   };
   CLI::Option* made = app.add_option(option.names, take, option.help);
   if (option.takes == options::Takes::several)
-    made->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args(false);
+    made->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args(!option.names.starts_with('-'));
   return made->type_name(option.placeholder);
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/text/error.h"
 #include "base/text/text.h"
+#include "load/find_calibration.h"
 #include "load/find_printer.h"
 #include "load/library_folders.h"
 #include "load/library_operators.h"
@@ -10,11 +11,11 @@
 namespace ombre::cli {
 namespace {
 
-// Returns nothing if the printers and materials that come with Ombre are not found.
-std::vector<Completion> printers() {
+// Returns the names of files that come with Ombre; nothing if its data are not found.
+std::vector<Completion> shipped(std::vector<std::string> (&names)()) {
   std::vector<Completion> found;
   try {
-    for (const std::string& name : compile::printer_names()) found.push_back({name, ""});
+    for (const std::string& name : names()) found.push_back({name, ""});
   } catch (const Error&) {
     return {};
   }
@@ -36,7 +37,8 @@ std::vector<Completion> nodes() {
 // Returns the values that an option accepts, from its type, such as "MODE:{blue,white}" (checks.h).
 std::vector<Completion> choices(const CLI::Option& option) {
   const std::string name = option.get_name(), type = option.get_type_name();
-  if (name == "printer" || name == "--printer") return printers();
+  if (name == "printer" || name == "--printer") return shipped(compile::printer_names);
+  if (name == "calibration" || name == "--calibration") return shipped(compile::calibration_names);
   if (name == "node" || name == "operator") return nodes();
   const size_t begin = type.find(":{"), end = type.rfind('}');
   std::vector<Completion> found;

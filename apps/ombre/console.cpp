@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include <cstdio>
-#include <cstdlib>
 
+#include "base/system/environment.h"
 #include "base/text/error.h"
 #include "base/text/json.h"
 #include "ombre/progress_line.h"
@@ -28,10 +28,7 @@ void put_data(const std::string& text) {
     throw Error(Code::cannot_write, "cannot write to standard output: " + std::generic_category().message(errno));
 }
 
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe)
-  return value && *value;
-}
+bool is_set(const char* variable) { return !environment(variable).empty(); }
 
 std::string labelled(const std::string& severity, const char* colour, bool has_colour) {
   return "ombre: " + (has_colour ? colour + severity + "\033[0m" : severity) + ": ";

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 
+#include "base/system/not_copied.h"
 #include "jobs/common/pace.h"
 
 namespace ombre::cli {
@@ -12,13 +13,11 @@ namespace ombre::cli {
 std::string progress_bar(const jobs::Pace& pace);
 std::string progress_text(const jobs::Pace& pace);  // returns the text without the bar
 
-class ProgressLine final : public jobs::ShownProgress {
+class ProgressLine final : public jobs::ShownProgress, NotCopied {
  public:
   // Prints lines, unless stderr is a terminal on which a bar can be redrawn.
   ProgressLine(bool is_terminal, jobs::Counted counted);
   ~ProgressLine() override { clear(); }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
 
   void update(const HowFar& how_far) override { show(meter_.update(how_far)); }
   void checking(const HowFar& how_far) override { show(meter_.checking(how_far)); }

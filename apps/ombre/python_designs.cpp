@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "base/system/environment.h"
 #include "ombre/command_line.h"
 #include "ombre/console.h"
 
@@ -18,11 +18,6 @@ namespace ombre::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return value ? value : "";
-}
 
 // True if the folder has the package with its compiled part; a build folder links the Python files before that is
 // built.

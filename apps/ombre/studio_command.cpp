@@ -1,11 +1,11 @@
 // `ombre studio` opens the page in the browser.
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
+#include "base/system/environment.h"
 #include "base/text/error.h"
 #include "formats/containers/file.h"
 #include "load/bundle.h"
@@ -13,6 +13,7 @@
 #include "ombre/command_line.h"
 #include "ombre/commands.h"
 #ifdef OMBRE_WITH_STUDIO
+#include "base/system/not_copied.h"
 #include "studio/page.h"
 #include "studio/server.h"
 #include "studio/workspace/child_process.h"
@@ -40,11 +41,6 @@ constexpr const char* studio_footer =
 
 #ifdef OMBRE_WITH_STUDIO
 
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return value ? value : "";
-}
-
 // Returns the token that the environment sets, so that a page finds a restarted server again; empty for a random one.
 // Throws options::WrongValue.
 std::string chosen_token() {
@@ -69,7 +65,7 @@ std::vector<std::string> own_command() {
 
 // A file that leads the browser to the page. The address has the token, which other users of this machine would see in
 // the arguments of a program; only this user can read the file.
-class Signpost {
+class Signpost : NotCopied {
  public:
   explicit Signpost(const std::string& url) {
     const std::string runtime = environment("XDG_RUNTIME_DIR");
@@ -89,8 +85,6 @@ class Signpost {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
   }
-  Signpost(const Signpost&) = delete;
-  Signpost& operator=(const Signpost&) = delete;
 
   const std::string& path() const { return path_; }
 

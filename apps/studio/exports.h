@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "base/system/not_copied.h"
 #include "base/system/progress.h"
 #include "base/system/temporary_folder.h"
 #include "jobs/common/job_kind.h"
@@ -35,7 +36,7 @@ struct ExportRequest {
 // Runs jobs, which write the same files as the command of their kind. Slice stacks and searches keep finished work when
 // they are paused, end, or the program is killed, and the same request continues from there; other jobs start again.
 // The list of jobs can be kept between starts of the program. Thread-safe.
-class Exports {
+class Exports : NotCopied {
  public:
   // Called with a job's state when it changes, and regularly while it works, from any thread.
   using Report = std::function<void(const DataMembers& job)>;
@@ -47,8 +48,6 @@ class Exports {
   Exports(Report report, Keep keep, sources::SourceCache& cache, std::string program);
   // Pauses the running job and waits for it.
   ~Exports();
-  Exports(const Exports&) = delete;
-  Exports& operator=(const Exports&) = delete;
 
   bool is_at_work() const;  // true if a job is running or waiting
 

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <filesystem>
 
+#include "base/system/not_copied.h"
 #include "base/text/json.h"
 #include "formats/containers/zip_archive.h"
 #include "formats/images/png.h"
@@ -19,7 +20,7 @@ constexpr const char* gyroid =
     "function(\"sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x)\", red); }";
 
 // Limits the size of files that this process writes, like a full disk.
-class FullDisk {
+class FullDisk : NotCopied {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
     getrlimit(RLIMIT_FSIZE, &usual_);
@@ -30,8 +31,6 @@ class FullDisk {
     setrlimit(RLIMIT_FSIZE, &usual_);
     std::signal(SIGXFSZ, handler_);
   }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
 
  private:
   rlimit usual_{};

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "base/system/stopwatch.h"
 #include "studio/workspace/test_folder.h"
 
@@ -21,7 +22,7 @@ const std::string page_token = "fedcba9876543210fedcba9876543210";
 constexpr Asset page[] = {{"/index.html", "text/html", "<p>hello</p>"}, {"/app.js", "text/javascript", "1"}};
 
 // A connection that sends and receives bytes.
-class Caller {
+class Caller : NotCopied {
  public:
   explicit Caller(uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
@@ -33,8 +34,6 @@ class Caller {
     is_open_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   }
   ~Caller() { ::close(socket_); }
-  Caller(const Caller&) = delete;
-  Caller& operator=(const Caller&) = delete;
 
   bool is_open() const { return is_open_; }
   void say(const std::string& bytes) const {

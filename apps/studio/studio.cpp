@@ -27,6 +27,7 @@
 #include "studio/kind_request.h"
 #include "studio/python_design.h"
 #include "studio/scad_design.h"
+#include "studio/script_edits.h"
 #include "studio/views.h"
 #include "studio/workspace/data_files.h"
 #include "studio/workspace/echo_log.h"
@@ -90,6 +91,14 @@ DataList read_endings() {
 
 bool has_ending(const std::string& file, std::string_view ending) { return ending_of(file) == ending; }
 
+// Returns a script with the example of a node or an operator; empty if there is none.
+std::string example_script(const std::string& name) {
+  if (const design::NodeType* type = compile::node_registry().find(name)) return type->example;
+  for (const compile::Operator& op : compile::operators_in(compile::library_folders()))
+    if (op.declaration.name == name) return "use <" + op.library + ">\n" + op.declaration.example;
+  return "";
+}
+
 }  // namespace
 
 struct Studio::Kind {
@@ -108,8 +117,11 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"save_preset", &Studio::save_preset},
                                       {"delete_preset", &Studio::delete_preset},
                                       {"load", &Studio::load},
+                                      {"script_graph", &Studio::of_folder<script_graph_answer>},
+                                      {"edit_graph", &Studio::of_folder<edit_graph_answer>},
                                       {"render", &Studio::show<picture_answer>},
                                       {"thumbnail", &Studio::show<thumbnail_answer>},
+                                      {"node_picture", &Studio::node_picture},
                                       {"plan", &Studio::show<plan_answer>},
                                       {"tile", &Studio::show<tile_answer>},
                                       {"probe", &Studio::show<probe_answer>},
@@ -448,6 +460,21 @@ Answer Studio::load(const Request& request, const StopFlag& stop) {
   }
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));
   return answer;
+}
+
+Answer Studio::node_picture(const Request& request, const StopFlag& stop) {
+  const std::string& name = request.text("name");
+  const std::string script = example_script(name);
+  if (script.empty()) throw RequestError("gone", "there is no example of " + name);
+  compile::LoadOptions options;
+  options.cache = &cache_;
+  options.stop = &stop;
+  Diagnostics diagnostics;
+  const compile::LoadedPtr loaded = compile::load_text(script, name + ".vcad", options, diagnostics);
+  const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
+  if (!bounds || diagnostics.has_errors()) throw design_error(diagnostics);
+  OpenDesign design("", {}, loaded, *bounds, options_.program, memory_);
+  return thumbnail_answer(design, request, stop);
 }
 
 Answer Studio::compare(const Request& request, const StopFlag& stop) {

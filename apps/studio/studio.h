@@ -72,7 +72,7 @@ class Studio {
   OpenDesignPtr design_of(const Request& request) { return designs_.find(request.text("design")); }
 
   using Handler = Answer(const Request& request, const StopFlag& stop);
-  Handler hello, list, open, save, files_ending_in, presets, save_preset, delete_preset, load;
+  Handler hello, list, open, save, files_ending_in, presets, save_preset, delete_preset, load, node_picture;
   Handler compare, estimate, start_export, start_kind, change_export, open_folder, jobs;
   Handler keep_draft, drop_draft, rename, duplicate, remove_file, make_folder, upload, import, download, zip, is_there;
   Answer presets_answer(const std::string& file, DataList presets);

@@ -11,21 +11,20 @@
 #include <thread>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "base/system/progress.h"
 
 namespace ombre::studio {
 
 // Runs work in the order in which it was added. Work cancelled before it starts is run too, with its flag set, so that
 // it can report that. The destructor cancels all work and waits for it. Thread-safe.
-class WorkQueue {
+class WorkQueue : NotCopied {
  public:
   using Work = std::function<void(const StopFlag& stop)>;
   static constexpr size_t most_waiting = 256;  // per owner
 
   explicit WorkQueue(int workers);
   ~WorkQueue();
-  WorkQueue(const WorkQueue&) = delete;
-  WorkQueue& operator=(const WorkQueue&) = delete;
 
   // Adds work. It cancels the owner's other work in the same lane, unless the lane has no name. Returns false and adds
   // nothing if the owner has too much waiting work.

@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 #include "cad/occt_shapes.h"
 
@@ -40,13 +41,11 @@ using Colour = std::array<uint8_t, 4>;
 using OptionalColour = std::optional<Colour>;
 
 // A document of the library; its application keeps it until it is closed.
-class Document {
+class Document : NotCopied {
  public:
   Document() : application_(XCAFApp_Application::GetApplication()) {
     application_->NewDocument("MDTV-XCAF", document_);
   }
-  Document(const Document&) = delete;
-  Document& operator=(const Document&) = delete;
   ~Document() { application_->Close(document_); }
 
   opencascade::handle<TDocStd_Document>& handle() { return document_; }

@@ -14,6 +14,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <cmath>
+#include <functional>
 #include <mutex>
 
 #include "base/system/byte_pack.h"
@@ -27,7 +28,7 @@ namespace ombre::cad {
 namespace {
 
 // Greatest angle in radians between neighbouring facets along a curve, which preserves small fillets.
-constexpr double facet_angle = 0.5;
+constexpr double facet_angle = 0.5, fine_facet_angle = 0.1;
 // Distance in mm below which a point lies on the surface.
 constexpr double surface_tolerance = 1e-9;
 // Time limits for the triangulation of a solid.
@@ -123,19 +124,72 @@ class OcctSolid final : public Solid {
     bounds = shape.bounds;
   }
 
-  // Triangulates a copy, because an existing mesh would be kept if it is fine enough.
   Triangles triangulate(double deflection_mm) const override {
+    const std::string bytes = meshed(deflection_mm, facet_angle, [&](const TopoDS_Shape& shape) {
+      const Triangles made = triangles_of(shape, what());
+      BytePacker packer;
+      packer.add_list(made.vertices);
+      packer.add_list(made.triangles);
+      packer.add_list(made.faces);
+      return packer.take();
+    });
+    ByteUnpacker unpacker(bytes);
+    Triangles triangles;
+    triangles.vertices = unpacker.get_list<Vec3>();
+    triangles.triangles = unpacker.get_list<std::array<uint32_t, 3>>();
+    triangles.faces = unpacker.get_list<uint32_t>();
+    return triangles;
+  }
+
+  std::vector<FaceMesh> face_meshes(double deflection_mm) const override {
+    const std::string bytes = meshed(deflection_mm, fine_facet_angle, [&](const TopoDS_Shape& shape) {
+      const std::vector<FaceMesh> made = face_meshes_of(shape, what());
+      BytePacker packer;
+      packer.add(uint64_t{made.size()});
+      for (const FaceMesh& face : made) {
+        packer.add_text(face.kind);
+        packer.add(face.area_mm2);
+        packer.add(face.center);
+        packer.add(face.normal);
+        packer.add_list(face.points);
+        packer.add_list(face.normals);
+        packer.add_list(face.places);
+        packer.add_list(face.triangles);
+      }
+      return packer.take();
+    });
+    ByteUnpacker unpacker(bytes);
+    std::vector<FaceMesh> all(unpacker.get<uint64_t>());
+    for (FaceMesh& face : all) {
+      face.kind = unpacker.get_text();
+      face.area_mm2 = unpacker.get<double>();
+      face.center = unpacker.get<Vec3>();
+      face.normal = unpacker.get<Vec3>();
+      face.points = unpacker.get_list<Vec3>();
+      face.normals = unpacker.get_list<Vec3>();
+      face.places = unpacker.get_list<Vec2>();
+      face.triangles = unpacker.get_list<std::array<uint32_t, 3>>();
+    }
+    return all;
+  }
+
+  // Copies the geometry, because the library's surfaces cache their last query.
+  std::unique_ptr<Query> query() const override {
+    const std::lock_guard lock(mutex_);
+    return guarded(what(), [&] { return std::make_unique<OcctQuery>(copy_of(shape_, true), what()); });
+  }
+
+ private:
+  // Returns the bytes that `pack` makes of the meshed solid, in a helper process. Triangulates a copy, because an
+  // existing mesh would be kept if it is fine enough.
+  std::string meshed(double deflection_mm, double angle,
+                     const std::function<std::string(const TopoDS_Shape&)>& pack) const {
     const std::lock_guard lock(mutex_);
     const auto cut = [&] {
       return guarded(what(), [&] {
         const TopoDS_Shape copy = copy_of(shape_, false);
-        const BRepMesh_IncrementalMesh mesh(copy, deflection_mm, false, facet_angle, false);
-        const Triangles made = triangles_of(copy, what());
-        BytePacker packer;
-        packer.add_list(made.vertices);
-        packer.add_list(made.triangles);
-        packer.add_list(made.faces);
-        return packer.take();
+        const BRepMesh_IncrementalMesh mesh(copy, deflection_mm, false, angle, false);
+        return pack(copy);
       });
     };
     const HelperLimits limits{seconds_to_cut + seconds_to_cut_a_face * static_cast<double>(face_count(shape_))};
@@ -147,22 +201,9 @@ class OcctSolid final : public Solid {
                                        " s of processor time to cut into triangles; give cad a larger tolerance, or "
                                        "repair it where it was drawn"));
     };
-    const std::string bytes = run_in_helper(cut, limits, explain, nullptr);
-    ByteUnpacker unpacker(bytes);
-    Triangles triangles;
-    triangles.vertices = unpacker.get_list<Vec3>();
-    triangles.triangles = unpacker.get_list<std::array<uint32_t, 3>>();
-    triangles.faces = unpacker.get_list<uint32_t>();
-    return triangles;
+    return run_in_helper(cut, limits, explain, nullptr);
   }
 
-  // Copies the geometry, because the library's surfaces cache their last query.
-  std::unique_ptr<Query> query() const override {
-    const std::lock_guard lock(mutex_);
-    return guarded(what(), [&] { return std::make_unique<OcctQuery>(copy_of(shape_, true), what()); });
-  }
-
- private:
   std::string what() const { return name.empty() ? "the CAD solid" : "the CAD solid \"" + name + '"'; }
 
   TopoDS_Shape shape_;

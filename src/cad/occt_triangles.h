@@ -11,4 +11,7 @@ namespace ombre::cad {
 // `what` names the shape in messages.
 Triangles triangles_of(const TopoDS_Shape& shape, const std::string& what);
 
+// Returns the meshed faces with the coordinates of their surfaces. Throws as triangles_of().
+std::vector<FaceMesh> face_meshes_of(const TopoDS_Shape& shape, const std::string& what);
+
 }  // namespace ombre::cad

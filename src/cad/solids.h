@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/math/box.h"
@@ -18,6 +19,20 @@ struct Triangles {
   std::vector<Vec3> vertices;                      // without duplicates
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
   std::vector<uint32_t> faces;                     // by triangle: the face of the solid that it approximates
+};
+
+// Kinds of surfaces as Open CASCADE tells them apart.
+inline constexpr std::array<std::string_view, 11> face_kinds{
+    "plane", "cylinder", "cone", "sphere", "torus", "bezier", "bspline", "revolution", "extrusion", "offset", "other"};
+
+// A face with the coordinates of its surface.
+struct FaceMesh {
+  std::string kind;  // one of face_kinds
+  double area_mm2 = 0;
+  Vec3 center, normal;                // mean of its triangles; the normal points out of the solid
+  std::vector<Vec3> points, normals;  // normals have the length 1, or 0 where the surface has none
+  std::vector<Vec2> places;           // u and v of the surface, in mm where they are stretched as on average
+  std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside, and in u and v
 };
 
 // The position of a point relative to a surface.
@@ -52,6 +67,8 @@ class Solid {
   // Returns triangles that deviate by at most about `deflection_mm` from the surface. Faces share the vertices of their
   // edges.
   virtual Triangles triangulate(double deflection_mm) const = 0;
+  // Returns the faces in the order of Triangles::faces, with triangles that deviate by at most about `deflection_mm`.
+  virtual std::vector<FaceMesh> face_meshes(double deflection_mm) const = 0;
   virtual std::unique_ptr<Query> query() const = 0;
 };
 using SolidPtr = std::shared_ptr<const Solid>;

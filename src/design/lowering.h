@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "design/node.h"
 #include "design/stage.h"
 #include "design/sub_design_memory.h"
@@ -105,14 +106,12 @@ std::vector<MaterialId> materials_of(const MaterialName& name, const MaterialTab
 
 // Lowers nodes into one builder. A node that is used more than once becomes a body, a sub-program that is called at
 // each point where it is needed.
-class Lowering : public OutputFields {
+class Lowering : public OutputFields, NotCopied {
  public:
   Lowering(LoweringContext& context, program::Builder& builder) : context_(context), builder_(builder) {
     builder.set_user(this);
   }
   ~Lowering() override { builder_.set_user(nullptr); }
-  Lowering(const Lowering&) = delete;
-  Lowering& operator=(const Lowering&) = delete;
 
   Field distance(const Node& node, const Point& p);
   Field membership(const Node& node, const Point& p, Border border);  // a truth value

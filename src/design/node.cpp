@@ -46,9 +46,9 @@ Box BoundsMemory::of(const Node& node, const Box& where, double margin) {
   return box;
 }
 
-Box Node::bounds(const Box& where) const {
+Box Node::bounds(const Box& where, double margin) const {
   BoundsMemory memory;
-  return memory.of(*this, where, 0);
+  return memory.of(*this, where, margin);
 }
 
 Node::~Node() {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "design/job_scale.h"
 #include "design/lowered.h"
 #include "design/outputs.h"
@@ -137,11 +138,9 @@ struct Traits {
 
 // A node of a design. Its type, which is made from a plain struct (spec.h), describes its parameters. Except for lists
 // a node occupies a single block of memory, since designs may have millions.
-class Node {
+class Node : NotCopied {
  public:
   Node() = default;
-  Node(const Node&) = delete;
-  Node& operator=(const Node&) = delete;
   virtual ~Node();  // not recursive, since chains may be long
   // Completes a node after its parameters are set. It is immutable from then on.
   void finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& values, SourceRange where);
@@ -190,8 +189,8 @@ class Node {
 
   bool is_nothing() const;  // true for a solid without points
 
-  // Returns the smallest known box around the inside within `where`.
-  Box bounds(const Box& where) const;
+  // Returns the smallest known box around the points of `where` at which g is at most `margin`: by default the inside.
+  Box bounds(const Box& where, double margin = 0) const;
   Metric metric() const { return {static_cast<Metric::Kind>(kind_), lipschitz_}; }
   int depth() const { return depth_; }  // 1 for a leaf
   // True if its numbers, or those of its inputs, depend on the cell of a repeating node above.

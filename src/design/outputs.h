@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/system/not_copied.h"
 #include "base/text/data.h"
 #include "design/lowered.h"
 #include "expr/expression.h"
@@ -75,15 +76,13 @@ class OutputFields : public program::BuilderUser {
 };
 
 // Computes fields of outputs without a lowering. It must live as long as the builder uses it.
-class OutputsAlone : public OutputFields {
+class OutputsAlone : public OutputFields, NotCopied {
  public:
   // With `by_ranges`, a number with a declared range may have any value within it.
   OutputsAlone(program::Builder& builder, bool by_ranges) : builder_(builder), by_ranges_(by_ranges) {
     builder.set_user(this);
   }
   ~OutputsAlone() override { builder_.set_user(nullptr); }
-  OutputsAlone(const OutputsAlone&) = delete;
-  OutputsAlone& operator=(const OutputsAlone&) = delete;
 
   Field number(const NodeOutput& output, const Point& p) override;
 

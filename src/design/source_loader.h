@@ -155,13 +155,18 @@ struct PolygonsRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
-// The polyline through the points, with the channels "distance" in mm and "along", the share (0 to 1) of the whole
-// length up to the nearest position. For separate points the channels are "distance" and "index", the number of the
-// nearest point.
+// Distances to what points give.
+// - path: the polyline through them, with the channels "distance" in mm and "along", the share (0 to 1) of the whole
+//   length up to the nearest position.
+// - separate: the points, with the channels "distance" and "index", the number of the nearest point.
+// - pairs: a segment from each even point to the next one, with the channel "distance".
+// - triples: a triangle of each three points, with the channel "distance".
+// - cells: the Voronoi cells of at least two points, with the channel "distance" from the nearest wall between cells.
+enum class PathKind : uint8_t { path, separate, pairs, triples, cells };
 struct PathRequest {
   using Result = program::FieldSource;
   std::vector<Vec3> points;
-  bool are_separate = false;
+  PathKind kind = PathKind::path;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -187,6 +192,30 @@ struct PixelsRequest {
 struct TableRequest {
   using Result = std::vector<std::vector<double>>;
   FilePath file;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// Shares of a machine's inks for colours in sRGB, and what comes of them, as ink::InkTable describes them.
+struct InkShares {
+  size_t inks = 0;
+  std::string space;                        // colour space of the profile: "CMYK"
+  std::vector<std::vector<double>> values;  // of each ink, then the visible difference
+  double most_ink = 0, mean_error = 0, worst_error = 0;
+};
+// An ICC output profile, used with a rendering intent.
+struct InkRequest {
+  using Result = InkShares;
+  FilePath profile;
+  Choice intent = "relative";
+  bool black_point = true;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// The colours of a mesh's surface, with the channels "red", "green", "blue" and "alpha" from 0 to 1 in sRGB: of its
+// vertices, or of an image at its texture coordinates.
+struct SurfaceColoursRequest {
+  using Result = program::FieldSource;
+  FilePath file, image;  // an empty path for colours of the vertices
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -273,10 +302,46 @@ struct ResultsRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
+// The space above a part of a surface. The source has the channels "u" and "v" in mm from 0 on, "height", their
+// derivatives "u_x" to "height_z" by position, and "outside", g of that space.
+struct SurfaceSpace {
+  program::SourceField source;
+  Vec2 lengths;             // greatest u and v
+  Interval heights;         // of the lower and the upper side; 0 and 1 between two surfaces
+  double thickness_mm = 0;  // mean way from the lower side to the upper one
+  // Least and greatest volume per unit of u, v and height, and stretch of lengths along the surface; greatest ratio of
+  // the stretches at a place.
+  Interval volumes, stretches;
+  double aspect = 1;
+  std::vector<std::array<Vec2, 2>> border;  // lines around the part in u and v, mm
+};
+
+// A part of the surface of a mesh or CAD file. Conditions are combined; without any, all of the surface is taken. A
+// single face of a CAD file keeps its own u and v; several are joined and laid out as a mesh is.
+struct SurfaceRequest {
+  using Result = SurfaceSpace;
+  FilePath file;
+  FilePath to;                 // another mesh, up to which the space reaches; an empty path if there is none
+  std::optional<Vec3> at;      // triangles linked to the one nearest to this point ...
+  double angle_deg = 180;      // ... over edges that bend by at most this angle
+  std::optional<Box> box;      // triangles whose centres lie in it
+  std::optional<Vec3> normal;  // triangles that face this direction ...
+  double within_deg = 60;      // ... up to this angle
+  std::string kind = {};       // of CAD files: the kind of a face, one of cad::face_kinds; empty for any
+  Interval area_mm2 = Interval::everything();  // of CAD files: the area of a face
+  Choice method = "lscm";                      // the way to lay the surface out: "lscm", "arap" or "authalic"
+  Vec3 toward{1, 0, 0};                        // direction of u, as far as possible
+  double standoff_mm = 0, height_mm = 5;  // without another mesh: the space's distance from the surface, and its height
+  bool is_inward = false;                 // the space lies on the inner side
+  double tolerance_mm = 0.05;             // greatest distance of the upper side from the other mesh
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
 // All kinds of requests.
 using SourceRequest =
     std::variant<MeshRequest*, SolidsRequest*, ScadRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
-                 PixelsRequest*, TableRequest*, TextRequest*, VolumeRequest*, ImageStackRequest*, ResultsRequest*>;
+                 PixelsRequest*, TableRequest*, InkRequest*, SurfaceColoursRequest*, TextRequest*, VolumeRequest*,
+                 ImageStackRequest*, ResultsRequest*, SurfaceRequest*>;
 
 // The selection of surfaces that need support, and the grid on which supports are computed.
 struct SupportUse {

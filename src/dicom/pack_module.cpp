@@ -32,17 +32,23 @@ void take_list(std::string_view& bytes, std::vector<T>& list) {
   take(bytes, list.data(), list.size());
 }
 
+// Calls `each` with the address and the count of all numbers that every series has.
+template <class AnySeries, class Each>
+void each_number(AnySeries& series, const Each& each) {
+  each(series.count.data(), series.count.size());
+  each(series.lps_from_index.rows.data(), 3);
+  each(&series.lps_from_index.offset, 1);
+  each(&series.slope, 1);
+  each(&series.intercept, 1);
+  each(&series.has_lengths, 1);
+  each(&series.padding, 1);
+}
+
 }  // namespace
 
 std::string pack(const Series& series) {
   std::string bytes, warnings;
-  put(bytes, series.count.data(), series.count.size());
-  put(bytes, series.lps_from_index.rows.data(), 3);
-  put(bytes, &series.lps_from_index.offset, 1);
-  put(bytes, &series.slope, 1);
-  put(bytes, &series.intercept, 1);
-  put(bytes, &series.has_lengths, 1);
-  put(bytes, &series.padding, 1);
+  each_number(series, [&](const auto* values, size_t count) { put(bytes, values, count); });
   for (const std::string& warning : series.warnings) warnings += warning + '\n';
   put_list(bytes, std::vector<char>(warnings.begin(), warnings.end()));
   put_list(bytes, series.whole);
@@ -52,13 +58,7 @@ std::string pack(const Series& series) {
 
 Series unpack(std::string_view bytes) {
   Series series;
-  take(bytes, series.count.data(), series.count.size());
-  take(bytes, series.lps_from_index.rows.data(), 3);
-  take(bytes, &series.lps_from_index.offset, 1);
-  take(bytes, &series.slope, 1);
-  take(bytes, &series.intercept, 1);
-  take(bytes, &series.has_lengths, 1);
-  take(bytes, &series.padding, 1);
+  each_number(series, [&](auto* values, size_t count) { take(bytes, values, count); });
   std::vector<char> warnings;
   take_list(bytes, warnings);
   std::string line;

@@ -35,6 +35,7 @@ TextLevel level_called(std::string_view word) {
 #include <utility>
 
 #include "base/math/curves.h"
+#include "base/system/not_copied.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
 
@@ -61,7 +62,7 @@ enum class Letters { as_drawn, hinted };
 
 // A font opened by both libraries. Lengths are in its own units for letters as drawn, or in 1/64 pixel of the size for
 // which letters are hinted.
-class Face {
+class Face : NotCopied {
  public:
   Face(const std::string& bytes, int index, Letters letters = Letters::as_drawn) : letters_(letters) {
     if (FT_Init_FreeType(&library_) != 0) return;
@@ -83,8 +84,6 @@ class Face {
     if (face_) FT_Done_Face(face_);
     if (library_) FT_Done_FreeType(library_);
   }
-  Face(const Face&) = delete;
-  Face& operator=(const Face&) = delete;
 
   bool has_outlines() const { return face_ && shaper_ && FT_IS_SCALABLE(face_) && face_->units_per_EM > 0; }
   double em() const {

@@ -7,6 +7,7 @@
 #include <deque>
 #include <filesystem>
 
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 #include "base/text/file_ending.h"
 #include "base/text/text.h"
@@ -85,7 +86,7 @@ class CliFile : public OutlineFiles {
 };
 
 // A folder; if it did not exist before, it is removed again unless it contains something.
-class NewFolder {
+class NewFolder : NotCopied {
  public:
   explicit NewFolder(const std::string& path) : path_(path) {
     std::error_code error;
@@ -95,8 +96,6 @@ class NewFolder {
   ~NewFolder() {
     if (is_new_) ::rmdir(path_.c_str());  // succeeds only if it is empty
   }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
 
  private:
   std::string path_;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 
 namespace ombre::exporting {
@@ -20,12 +21,10 @@ enum class Durability { closed, flushed };
 void write_file(const std::string& path, std::string_view bytes, Durability durability = Durability::closed);
 
 // A temporary name beside `path` for a file that other code writes; the file is removed unless it is committed.
-class PendingFile {
+class PendingFile : NotCopied {
  public:
   explicit PendingFile(std::string path) : path_(std::move(path)), part_(path_ + std::string(part_suffix)) {}
   ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
 
   const std::string& path() const { return path_; }
   const std::string& part() const { return part_; }
@@ -38,13 +37,11 @@ class PendingFile {
 };
 
 // A file that is written piece by piece.
-class NewFile {
+class NewFile : NotCopied {
  public:
   // Creates the temporary file. Throws Error, as do the other functions.
   explicit NewFile(std::string path);
   ~NewFile();
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
 
   void append(std::string_view bytes);
   // Writes at any offset; unwritten bytes before it are 0.
@@ -61,13 +58,11 @@ class NewFile {
 };
 
 // Adds lines to the end of a file, each in one write call.
-class AppendFile {
+class AppendFile : NotCopied {
  public:
   // Opens the file, or creates it. Throws Error.
   explicit AppendFile(std::string path);
   ~AppendFile();
-  AppendFile(const AppendFile&) = delete;
-  AppendFile& operator=(const AppendFile&) = delete;
 
   void append(std::string_view bytes);
 

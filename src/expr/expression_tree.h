@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "program/field.h"
 
 namespace ombre::expr {
@@ -41,7 +42,7 @@ class Input {
 };
 using InputPtr = std::shared_ptr<const Input>;
 
-struct Node {
+struct Node : NotCopied {
   Kind kind = Kind::number;
   Binary binary = Binary::add;
   double number = 0;
@@ -52,8 +53,6 @@ struct Node {
   uint32_t begin = 0, end = 0;  // range of bytes in the expression's text
 
   Node() = default;
-  Node(const Node&) = delete;
-  Node& operator=(const Node&) = delete;
   ~Node();  // not recursive, since sums may be long
 };
 

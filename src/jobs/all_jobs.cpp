@@ -13,6 +13,7 @@ JobKind mesh_kind();
 JobKind contours_kind();
 JobKind fea_kind();
 JobKind homogenise_kind();
+JobKind characterise_kind();
 JobKind sheet_kind();
 JobKind probe_kind();
 JobKind info_kind();
@@ -34,14 +35,18 @@ JobKind verify_kind();
 JobKind diff_kind();
 JobKind check_kind();
 JobKind sweep_kind();
+JobKind resolve_kind();
+JobKind calibrations_kind();
+JobKind tray_kind();
 
 const std::vector<JobKind>& all_jobs() {
   static const std::vector<JobKind> all{
-      slice_kind(),     layer_kind(),      render_kind(), voxels_kind(), mesh_kind(),     contours_kind(),
-      fea_kind(),       homogenise_kind(), sheet_kind(),  probe_kind(),  info_kind(),     nodes_kind(),
-      printers_kind(),  materials_kind(),  scad_kind(),   bundle_kind(), optimise_kind(), codes_kind(),
-      operators_kind(), formats_kind(),    sweep_kind(),  plan_kind(),   run_kind(),      status_kind(),
-      gather_kind(),    submit_kind(),     verify_kind(), diff_kind(),   check_kind()};
+      slice_kind(),   layer_kind(),        render_kind(),       voxels_kind(), mesh_kind(),   contours_kind(),
+      fea_kind(),     homogenise_kind(),   characterise_kind(), sheet_kind(),  probe_kind(),  info_kind(),
+      nodes_kind(),   printers_kind(),     materials_kind(),    scad_kind(),   bundle_kind(), optimise_kind(),
+      codes_kind(),   operators_kind(),    formats_kind(),      sweep_kind(),  plan_kind(),   run_kind(),
+      status_kind(),  gather_kind(),       submit_kind(),       verify_kind(), diff_kind(),   check_kind(),
+      resolve_kind(), calibrations_kind(), tray_kind()};
   return all;
 }
 

@@ -10,21 +10,20 @@
 #include <random>
 #include <thread>
 
+#include "base/system/not_copied.h"
 #include "base/system/test_progress.h"
 
 namespace ombre::compile {
 namespace {
 
 // A small disk that is mounted on a folder, if this is allowed.
-class SmallDisk {
+class SmallDisk : NotCopied {
  public:
   explicit SmallDisk(const std::string& folder)
       : folder_(folder), mounted_(::mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=80k") == 0) {}
   ~SmallDisk() {
     if (mounted_) ::umount(folder_.c_str());
   }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
 
   bool is_mounted() const { return mounted_; }
   bool grow() const { return ::mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT, "size=10m") == 0; }

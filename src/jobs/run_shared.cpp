@@ -21,14 +21,15 @@
 namespace ombre::jobs {
 namespace {
 
-namespace fs = std::filesystem;
 using stores::PieceRange;
 
 constexpr const char* plan_footer =
     "JOB is a file that --save-job wrote. The plan says which pieces belong to which share, so that each takes about "
     "as\n"
-    "long as the others. Pieces are layers of slice, frames of render, cases of sweep, and the designs that optimise\n"
-    "measures next. Any machine with the plan, the design and its files, and the folder of the job may run a share.\n\n"
+    "long as the others. Pieces are layers of slice, slabs of voxels, frames of render, cases of sweep, and the "
+    "designs\n"
+    "that optimise measures next. Any machine with the plan, the design and its files, and the folder of the job may "
+    "run a share.\n\n"
     "Examples:\n"
     "  ombre slice part.vcad --printer j750 -o part/ --save-job job.json\n"
     "  ombre plan job.json --shards 40            plan.json\n"
@@ -209,7 +210,7 @@ int status(const StatusChoices& a, Session& session) {
   const auto opened = open_plan(a.plan, session);
   if (!opened) return wrong_input;
   stores::Gathered all;
-  if (fs::exists(opened->job->folder()))
+  if (std::filesystem::exists(opened->job->folder()))
     all = gathered(*opened, session);
   else
     all.gaps = {opened->pieces()};
@@ -235,7 +236,7 @@ int gather(const StatusChoices& a, Session& session) {
   const auto opened = open_plan(a.plan, session);
   if (!opened) return wrong_input;
   const std::string& pieces = opened->job->stored().words().pieces;
-  if (!fs::exists(opened->job->folder()))
+  if (!std::filesystem::exists(opened->job->folder()))
     throw Error(Code::cannot_read, "there is no folder " + opened->job->folder() + "; no share has begun",
                 {{"file", opened->job->folder()}});
   const stores::Gathered all = gathered(*opened, session);

@@ -20,8 +20,6 @@
 namespace ombre::jobs {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* submit_footer =
     "Writes a script beside the plan, such as plan.slurm.sh, and runs it. The script begins the shares in the current\n"
     "folder, again if their machine fails, and joins them at the end. It may be changed, and run again by hand.\n"
@@ -88,7 +86,7 @@ Submission submission_of(const SubmitChoices& a, const SharedPlan& plan) {
                         spelled::option("--memory", "4096"));
   Submission made;
   made.plan = a.plan;
-  made.folder = fs::current_path().string();
+  made.folder = std::filesystem::current_path().string();
   made.shares = static_cast<int64_t>(plan.shards.size());
   made.has_stages = plan.has_stages;
   made.cores = a.cores;
@@ -132,7 +130,7 @@ int submit(const SubmitChoices& a, Session& session) {
     return done;
   }
   const std::string output =
-      a.output.empty() ? fs::path(a.plan).replace_extension().string() + engine.ending : a.output;
+      a.output.empty() ? std::filesystem::path(a.plan).replace_extension().string() + engine.ending : a.output;
   refuse_to_overwrite(output, a.force);
   exporting::write_file(output, script);
   session.events.say("the script is " + output);

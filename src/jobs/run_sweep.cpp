@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/system/not_copied.h"
 #include "base/system/temporary_folder.h"
 #include "base/text/error.h"
 #include "base/text/json.h"
@@ -22,7 +23,6 @@ namespace ombre::jobs {
 namespace {
 
 namespace fs = std::filesystem;
-using stores::PieceRange;
 
 constexpr const char* sweep_footer =
     "JOB is a file that --save-job wrote. It runs once for each choice of values: a case. FOLDER gets sweep.csv, a "
@@ -117,12 +117,10 @@ bool is_of_case(Code code) {
   return codes.contains(code);
 }
 
-class Sweep {
+class Sweep : NotCopied {
  public:
   Sweep(const SweepChoices& choices, SweepCases cases, stores::JobKey key)
       : folder_(choices.folder), cases_(std::move(cases)), key_(std::move(key)), stored_(cases_, key_) {}
-  Sweep(const Sweep&) = delete;
-  Sweep& operator=(const Sweep&) = delete;
 
   const std::string& folder() const { return folder_; }
   const SweepCases& cases() const { return cases_; }
@@ -130,7 +128,7 @@ class Sweep {
   const StoredSweep& stored() const { return stored_; }
 
   // Runs the cases of a range that the store lacks.
-  void run(PieceRange range, stores::Store& store, Session& session) const {
+  void run(stores::PieceRange range, stores::Store& store, Session& session) const {
     JobProgress progress(session.events, Counted::steps);
     const auto count = static_cast<uint64_t>(range.end - range.begin);
     int64_t failures = 0, warnings = 0;
@@ -306,7 +304,7 @@ class SharedSweep final : public SharedJob {
 
   std::string folder() const override { return sweep_->folder(); }
   const stores::StoredJob& stored() const override { return sweep_->stored(); }
-  PieceRange pieces() const override { return {0, sweep_->cases().count()}; }
+  stores::PieceRange pieces() const override { return {0, sweep_->cases().count()}; }
   DataMembers description() const override { return {{"key", sweep_->key().data()}}; }
   std::string difference(const DataMembers& earlier) const override {
     return sweep_->key().difference(Data(earlier).find("key"));
@@ -316,7 +314,7 @@ class SharedSweep final : public SharedJob {
     return {std::vector<double>(static_cast<size_t>(sweep_->cases().count())), 0};
   }
 
-  int make(PieceRange range, const stores::Shard& shard, Session& session) const override {
+  int make(stores::PieceRange range, const stores::Shard& shard, Session& session) const override {
     stores::ShardStore store(folder(), stored(), shard, {0, nullptr, &session.stop});
     sweep_->run(range, store, session);
     store.close();

@@ -1,9 +1,9 @@
 #include "jobs/shared_plan.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 
+#include "base/system/environment.h"
 #include "base/text/json.h"
 #include "base/text/record.h"
 #include "base/text/text.h"
@@ -71,8 +71,7 @@ constexpr EngineVariable engines[] = {
 };
 
 std::optional<int64_t> environment_number(const char* name) {
-  const char* text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing changes the environment
-  const auto number = text ? parse_number(text) : std::nullopt;
+  const auto number = parse_number(environment(name));
   return number ? std::optional(static_cast<int64_t>(*number)) : std::nullopt;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/text/error.h"
 #include "base/text/json.h"
 #include "base/text/text.h"
 #include "stores/shard.h"
@@ -11,14 +10,10 @@
 namespace ombre::jobs {
 namespace {
 
-constexpr std::string_view sweep_format = "ombre sweep";
 constexpr std::string_view case_prefix = "case_";
 
 std::string prefix_of(int64_t number, int64_t count) {
-  const size_t digits = std::to_string(count - 1).size();
-  std::string text = std::to_string(number);
-  text.insert(0, digits - text.size(), '0');
-  return std::string(case_prefix).append(text).append("_");
+  return std::string(case_prefix).append(stores::piece_number(number, count)).append("_");
 }
 
 bool is_case_file(std::string_view name, int64_t count) {
@@ -59,7 +54,7 @@ std::vector<std::string> result_names(const stores::Entries& finished) {
 }  // namespace
 
 const stores::JobWords& sweep_words() {
-  static const stores::JobWords words{"sweep", "cases", "sweep.json", "case", ""};
+  static const stores::JobWords words{"sweep", "ombre sweep", "cases", "sweep.json", "case", ""};
   return words;
 }
 
@@ -87,21 +82,10 @@ std::string StoredSweep::table(const stores::Entries& finished) const {
 std::string StoredSweep::description(const stores::Entries& finished) const {
   DataMembers varied;
   for (const Varied& one : cases_.varied()) varied.emplace_back(one.name, texts(one.values));
-  return print_json(DataMembers{{"format", std::string(sweep_format) + ", version 1"},
-                                {"kind", cases_.job().kind->name},
-                                {"varied", std::move(varied)},
-                                {"cases", number(cases_.count())},
-                                {"status", is_complete(finished) ? "complete" : "unfinished"},
-                                {"key", key_.data()}});
-}
-
-void StoredSweep::check_same(const std::string& folder, const DataMembers& there) const {
-  const std::string difference = key_.difference(Data(there).find("key"));
-  if (difference.empty()) return;
-  throw Error(Code::other_job,
-              folder + " holds another sweep, since " + difference + "; replace it with " + spelled::option("--force") +
-                  ", or choose another folder",
-              {{"file", folder}});
+  return described({{"kind", cases_.job().kind->name},
+                    {"varied", std::move(varied)},
+                    {"cases", number(cases_.count())},
+                    {"status", is_complete(finished) ? "complete" : "unfinished"}});
 }
 
 bool StoredSweep::accepts(const stores::Entry& entry) const {
@@ -117,11 +101,6 @@ bool StoredSweep::accepts(const stores::Entry& entry) const {
 }
 
 bool StoredSweep::owns(std::string_view name) const { return is_case_file(name, cases_.count()); }
-
-bool StoredSweep::is_kind(const Data& description) const {
-  const Data* format = description.find("format");
-  return format && format->string() && format->string()->starts_with(sweep_format);
-}
 
 std::optional<stores::NameTest> StoredSweep::files_of(const Data& description) const {
   const auto count = stores::whole_number(description.find("cases"));

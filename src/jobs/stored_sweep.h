@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "jobs/sweep_cases.h"
-#include "stores/job_key.h"
 #include "stores/store.h"
 #include "stores/stored_job.h"
 
@@ -13,10 +12,10 @@ namespace ombre::jobs {
 
 const stores::JobWords& sweep_words();
 
-class StoredSweep : public stores::StoredJob {
+class StoredSweep : public stores::KeyedJob {
  public:
   // The key has all that the cases depend on.
-  StoredSweep(const SweepCases& cases, stores::JobKey key) : cases_(cases), key_(std::move(key)) {}
+  StoredSweep(const SweepCases& cases, stores::JobKey key) : KeyedJob(std::move(key)), cases_(cases) {}
 
   // Returns the beginning of the names of a case's files, case_07_, with as many digits as the last case needs.
   std::string file_prefix(int64_t number) const;
@@ -28,15 +27,12 @@ class StoredSweep : public stores::StoredJob {
   bool is_complete(const stores::Entries& finished) const override {
     return static_cast<int64_t>(finished.size()) == cases_.count();
   }
-  void check_same(const std::string& folder, const DataMembers& there) const override;
   bool accepts(const stores::Entry& entry) const override;
   bool owns(std::string_view name) const override;
-  bool is_kind(const Data& description) const override;
   std::optional<stores::NameTest> files_of(const Data& description) const override;
 
  private:
   const SweepCases& cases_;
-  stores::JobKey key_;
 };
 
 }  // namespace ombre::jobs

@@ -1,9 +1,9 @@
 // Finds the printer profiles and materials that come with Ombre.
 #include "load/data_folder.h"
 
-#include <cstdlib>
 #include <filesystem>
 
+#include "base/system/environment.h"
 #include "base/system/own_folders.h"
 #include "base/text/error.h"
 
@@ -20,12 +20,11 @@ bool holds_data(const fs::path& folder) {
 }  // namespace
 
 std::string data_folder() {
-  if (const char* given = std::getenv("OMBRE_DATA"); given && *given) {  // NOLINT(concurrency-mt-unsafe)
+  if (const std::string given = environment("OMBRE_DATA"); !given.empty()) {
     if (holds_data(given)) return given;
-    throw Error(
-        Code::file_missing,
-        std::string("OMBRE_DATA names ") + given + ", which has no folders printers and materials; correct or unset it",
-        {{"file", given}});
+    throw Error(Code::file_missing,
+                "OMBRE_DATA names " + given + ", which has no folders printers and materials; correct or unset it",
+                {{"file", given}});
   }
   for (const fs::path& folder : own_folders())
     for (const fs::path& data : {folder / "share/ombre", folder})

@@ -1,7 +1,6 @@
 #include "load/library_folders.h"
 
-#include <cstdlib>
-
+#include "base/system/environment.h"
 #include "load/data_folder.h"
 
 namespace ombre::compile {
@@ -9,11 +8,6 @@ namespace ombre::compile {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return value ? value : "";
-}
 
 // Relative folders are ignored, as the base directory specification of freedesktop.org asks.
 fs::path user_data() {

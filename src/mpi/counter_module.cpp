@@ -6,12 +6,13 @@
 #include <chrono>
 #include <thread>
 
+#include "base/system/not_copied.h"
 #include "mpi/counter_calls.h"
 
 namespace {
 
 // Lets MPI answer the other processes while this one computes. Some networks need the owner of the memory for that.
-class Answering {
+class Answering : ombre::NotCopied {
  public:
   explicit Answering(bool answers) {
     if (answers) thread_ = std::thread([this] { run(); });
@@ -20,8 +21,6 @@ class Answering {
     is_over_ = true;
     if (thread_.joinable()) thread_.join();
   }
-  Answering(const Answering&) = delete;
-  Answering& operator=(const Answering&) = delete;
 
  private:
   void run() const {

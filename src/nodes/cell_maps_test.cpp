@@ -283,7 +283,7 @@ TEST_F(CellMaps, ReentrantWallsAreSegmentsThatRepeat) {
 }
 
 TEST_F(CellMaps, StrutsOnBoxesAreThoseOfTiles) {
-  for (const std::string cell : {"bcc", "octet", "kelvin"}) {
+  for (const std::string cell : {"bcc", "octet", "kelvin", "diamond"}) {
     const NodePtr on_map =
         make("lattice", {{"cell", Data(cell)}, {"radius", Data(0.3)}, {"map", object(box({4, 5, 6}))}});
     const NodePtr unit = make("lattice", {{"cell", Data(cell)}, {"radius", Data(0.3)}, {"size", list({4, 5, 6})}});
@@ -293,6 +293,46 @@ TEST_F(CellMaps, StrutsOnBoxesAreThoseOfTiles) {
       EXPECT_NEAR(distance(on_map, p), distance(tiles, p - Vec3{2, 2.5, 3}), 1e-9) << cell;
     }
   }
+}
+
+// One diagonal in each cell makes lines through all of space, at equal distances from each other.
+TEST_F(CellMaps, StrutsOfAGraphReachIntoTheNeighbours) {
+  const Data edge(DataList{Data(DataList{list({0, 0, 0}), list({1, 1, 1})})});
+  const NodePtr lines = make("lattice", {{"edges", edge}, {"radius", Data(0.3)}, {"map", object(box({4, 4, 4}))}});
+  for (int n = 0; n < 200; ++n) {
+    const Vec3 p = random_point(15);
+    double best = 1e9;
+    for (int i = -10; i <= 10; ++i)
+      for (int j = -10; j <= 10; ++j) {
+        const Vec3 off = p - Vec3{4.0 * i, 4.0 * j, 0}, along = (1 / std::sqrt(3.0)) * Vec3{1, 1, 1};
+        best = std::min(best, length(off - dot(off, along) * along));
+      }
+    EXPECT_NEAR(distance(lines, p), best - 0.3, 1e-9);
+  }
+}
+
+TEST_F(CellMaps, JointsAreBallsAtTheEndsOfStruts) {
+  const NodePtr lattice =
+      make("lattice",
+           {{"cell", Data("cubic")}, {"radius", Data(0.3)}, {"joint", Data(0.8)}, {"map", object(box({4, 5, 6}))}});
+  EXPECT_NEAR(distance(lattice, {4.4, 5.4, 6.4}), std::sqrt(3 * 0.4 * 0.4) - 0.8, 1e-9);
+  EXPECT_NEAR(distance(lattice, {4, 5, 9}), -0.3, 1e-9);
+  EXPECT_NE(error_of("lattice", {{"cell", Data("bcc")}, {"joint", Data(1.0)}}).find("no map of cells"),
+            std::string::npos);
+  const Data far(DataList{Data(DataList{list({0, 0, 0}), list({2, 1, 1})})});
+  EXPECT_NE(error_of("lattice", {{"edges", far}, {"map", object(pipe())}}).find("leaves the cell"), std::string::npos);
+}
+
+// The function of Schwarz' P surface as a formula makes the walls that the named surface has.
+TEST_F(CellMaps, FormulasAreSurfaces) {
+  const Data formula("cos(2*pi*u) + cos(2*pi*v) + cos(2*pi*w)");
+  const NodePtr known = make("tpms", {{"surface", Data("schwarz_p")}, {"map", object(pipe())}});
+  const NodePtr own = make("tpms", {{"equation", formula}, {"map", object(pipe())}});
+  for (int n = 0; n < 50; ++n) {
+    const Vec3 p = around_z(8.2 + 0.03 * n, 7.1 * n, 0.3 * n - 7);
+    EXPECT_NEAR(distance(own, p), distance(known, p), 1e-9);
+  }
+  EXPECT_NE(error_of("tpms", {{"equation", formula}, {"density", Data(0.3)}}).find("is not known"), std::string::npos);
 }
 
 // The edges of cells along the axis of a pipe are straight lines.

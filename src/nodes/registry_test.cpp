@@ -126,6 +126,13 @@ class EveryNode : public testing::TestWithParam<std::string> {
 class EverySolid : public EveryNode {};
 class EveryValue : public EveryNode {};
 
+// Expects the bounds of a node to hold a point that is inside of it.
+void expect_bounds(const Box& bounds, const program::Program& inside, const Vec3& p, const NodePtr& node,
+                   RandomDesign& random) {
+  if (at(inside, p)[0] == 0) return;
+  EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " " << p.z;
+}
+
 }  // namespace
 
 TEST_P(EveryNode, IsDocumented) {
@@ -143,9 +150,7 @@ TEST_P(EverySolid, BoundsHoldWhatIsInside) {
     const auto lowered = lower(node, random.materials, Demand::inside);
     for (int i = 0; i < 300; ++i) {
       const Vec3 p{random.number(-40, 40), random.number(-40, 40), random.number(-40, 40)};
-      if (at(lowered.program, p)[0] == 0) continue;
-      EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " "
-                                      << p.z;
+      expect_bounds(bounds, lowered.program, p, node, random);
     }
   });
 }
@@ -160,9 +165,7 @@ TEST_P(EverySolid, BoundsWithinABoxHoldWhatIsInsideOfBoth) {
       for (int j = 0; j < 20; ++j) {
         const Vec3 p{lo.x + size.x * random.number(0, 1), lo.y + size.y * random.number(0, 1),
                      lo.z + size.z * random.number(0, 1)};
-        if (at(lowered.program, p)[0] == 0) continue;
-        EXPECT_TRUE(bounds.contains(p)) << print_json(round_trip(node, random.materials)) << p.x << " " << p.y << " "
-                                        << p.z;
+        expect_bounds(bounds, lowered.program, p, node, random);
       }
     }
   });

@@ -58,7 +58,8 @@ class RandomDesign {
     const auto& types = registry().types();
     for (;;) {
       const NodeType& type = *types[index(types.size())];
-      if (type.is_solid()) continue;
+      // Points of a large solid take long to scatter, and give no number that varies.
+      if (type.is_solid() || type.name == "scattered_points") continue;
       const NodePtr made = node(type, depth);
       if (!made) continue;
       const OutputType& output = type.outputs[made->first_output()].type;
@@ -157,6 +158,7 @@ class RandomDesign {
       return Data(DataList{Data(DataList{Data("density"), Data(domain.choices[index(domain.choices.size())])})});
     if (kind == "number, field, vector, colour or mixture") return attribute_value(domain);
     if (kind == "solid" && type.name == "output_of") return object(lattice_node());
+    if (kind == "solid" && type.name == "scattered_points") return object(node(*registry().find("ellipsoid"), 0));
     if (kind == "solid") return object(type.name == "attribute_of" ? dense_node() : any_node(0));
     if (parameter.takes_other_names) return Data(DataMembers{{"width", Data(number(1, 9))}, {"name", Data("lid")}});
     if (kind == "rows of numbers, or a CSV file") return Data("table.csv");
@@ -169,6 +171,9 @@ class RandomDesign {
       return Data("x^2 + 2*y^2 + z^2 - " + format_rounded(number(4, 30)));
     if (kind == "number or field") return one_number(domain, true);
     if (kind == "3 numbers or fields" || kind == "number or 3 numbers, or fields") return vector(domain, true);
+    if (type.name == "scattered_points" && parameter.name == "distance")  // avoids very many points
+      return Data(number(4, 9));
+    if (type.name == "scattered_points" && parameter.name == "density") return Data(number(0.001, 0.01));
     if (kind == "3 numbers" && type.name == "function")
       return Data(DataList(3, Data(parameter.name == "min" ? number(-6, -1) : number(1, 6))));
     if (kind == "3 numbers" && type.name == "tile" && parameter.name != "size") {

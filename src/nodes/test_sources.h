@@ -178,6 +178,26 @@ class PendingBall : public design::PendingSource {
   program::SourceField source_ = std::make_shared<BallSource>();
 };
 
+// The space above a square of 20 mm in the plane z = 0.
+class SlabSource : public program::FieldSource {
+ public:
+  std::string name() const override { return "slab"; }
+  Hash content() const override { return {13, 14}; }
+  Box bounds() const override { return {{0, 0, 0}, {20, 20, 5}}; }
+  int channel(std::string_view channel_name) const override {
+    constexpr std::array<std::string_view, 13> names{"u",   "v",   "height",   "u_x",      "u_y",      "u_z",    "v_x",
+                                                     "v_y", "v_z", "height_x", "height_y", "height_z", "outside"};
+    const auto found = std::find(names.begin(), names.end(), channel_name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+  }
+  double sample(int channel, Vec3 p) const override {
+    constexpr int first_slope = 3, outside = 12;
+    if (channel < first_slope) return p[channel];
+    if (channel < outside) return (channel - first_slope) % 4 == 0 ? 1 : 0;
+    return std::max({-p.x, p.x - 20, -p.y, p.y - 20, -p.z, p.z - 5});
+  }
+};
+
 // A stage of a ball, which is empty without a host of stages.
 class BallStage : public design::SweepStage {
  public:
@@ -231,7 +251,7 @@ class BallLoader : public design::SourceLoader {
     return std::make_shared<EdgeSource>(request.polygons, request.turns);
   }
   static program::SourceField make(const design::PathRequest& request) {
-    if (request.are_separate) return std::make_shared<PointsSource>(request.points);
+    if (request.kind != design::PathKind::path) return std::make_shared<PointsSource>(request.points);
     return std::make_shared<PathSource>(request.points);
   }
   static std::shared_ptr<const design::ImagePixels> make(const design::PixelsRequest&) {
@@ -243,6 +263,26 @@ class BallLoader : public design::SourceLoader {
   static std::shared_ptr<const std::vector<std::vector<double>>> make(const design::TableRequest&) {
     return std::make_shared<std::vector<std::vector<double>>>(
         std::vector<std::vector<double>>{{-5, 1}, {0, 2}, {5, 1.5}});
+  }
+  static program::SourceField make(const design::SurfaceColoursRequest&) {
+    class Colours final : public PixelSource {
+      int channel(std::string_view channel_name) const override {
+        constexpr std::array<std::string_view, 4> names{"red", "green", "blue", "alpha"};
+        const auto* const found = std::ranges::find(names, channel_name);
+        return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+      }
+    };
+    return std::make_shared<Colours>();
+  }
+  // Random designs name two materials, which is one ink and the rest. The example of a profile has three inks.
+  static std::shared_ptr<const design::InkShares> make(const design::InkRequest& request) {
+    const size_t inks = request.profile.path.ends_with(".icc") ? 3 : 1;
+    design::InkShares shares{inks, "CMY", std::vector<std::vector<double>>(inks + 1), 1, 0, 0};
+    for (size_t corner = 0; corner < 8; ++corner) {
+      for (size_t ink = 0; ink < inks; ++ink) shares.values[ink].push_back((corner >> (2 - ink)) % 2 == 0 ? 0.25 : 0);
+      shares.values[inks].push_back(2);
+    }
+    return std::make_shared<design::InkShares>(std::move(shares));
   }
   static std::shared_ptr<const HeightImage> make(const design::ImageRequest&) {
     return std::make_shared<HeightImage>(HeightImage{std::make_shared<WaveSource>(), 20, 10, 0.25 / 8, 0.25 / 4});
@@ -265,6 +305,13 @@ class BallLoader : public design::SourceLoader {
   static std::shared_ptr<const design::ResultNumbers> make(const design::ResultsRequest&) {
     return std::make_shared<design::ResultNumbers>(
         design::ResultNumbers{std::make_shared<BallSource>(), "distance", "mm", {1}});
+  }
+  static std::vector<std::array<Vec2, 2>> slab_border() {
+    return {{{{0, 0}, {20, 0}}}, {{{20, 0}, {20, 20}}}, {{{20, 20}, {0, 20}}}, {{{0, 20}, {0, 0}}}};
+  }
+  static std::shared_ptr<const design::SurfaceSpace> make(const design::SurfaceRequest&) {
+    return std::make_shared<design::SurfaceSpace>(
+        design::SurfaceSpace{std::make_shared<SlabSource>(), {20, 20}, {0, 5}, 5, {1, 1}, {1, 1}, 1, slab_border()});
   }
   static program::SourceField make(const design::TextRequest& request) {
     const double h = request.height_mm;

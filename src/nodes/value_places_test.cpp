@@ -49,6 +49,54 @@ TEST_F(ValuePlaces, DistancesToASolidAreItsOwn) {
   }
 }
 
+// Along a trefoil, whose frames would not meet if they were only transported.
+TEST_F(ValuePlaces, FramesOfClosedCurvesMeetAtTheStart) {
+  const auto trefoil = [](double turns) {
+    const double t = 2 * pi * turns, rho = 4 * (2 + std::cos(3 * t));
+    return Vec3{rho * std::cos(2 * t), rho * std::sin(2 * t), 4 * std::sin(3 * t)};
+  };
+  DataList points;
+  constexpr int count = 90, steps = 2000;
+  for (int n = 0; n < count; ++n) {
+    const Vec3 p = trefoil(static_cast<double>(n) / count);
+    points.emplace_back(list({p.x, p.y, p.z}));
+  }
+  const NodePtr curve = make("curve_distance", {{"points", Data(points)}, {"closed", Data(true)}});
+  Vec3 before = vector_at(curve, "normal", trefoil(-0.5 / steps));
+  for (int n = 0; n < steps; ++n) {
+    const Vec3 p = trefoil((n + 0.5) / steps), normal = vector_at(curve, "normal", p);
+    EXPECT_NEAR(length(normal), 1, 1e-9);
+    EXPECT_NEAR(dot(normal, vector_at(curve, "tangent", p)), 0, 1e-9);
+    EXPECT_LT(length(normal - before), 0.02) << n;
+    EXPECT_LT(number_at(curve, "distance", p), 1e-3);
+    EXPECT_NEAR(number_at(curve, "along", p), (n + 0.5) / steps, 0.04);  // its speed varies
+    before = normal;
+  }
+}
+
+// The principal normal of a helix points to its axis.
+TEST_F(ValuePlaces, NormalsOfFrenetPointToTheCentreOfCurvature) {
+  const auto helix = [](double t) { return Vec3{6 * std::cos(t), 6 * std::sin(t), 2 * t}; };
+  DataList points;
+  for (int n = 0; n <= 80; ++n) {
+    const Vec3 p = helix(0.1 * n);
+    points.emplace_back(list({p.x, p.y, p.z}));
+  }
+  const NodePtr curve = make("curve_distance", {{"points", Data(points)}, {"frame", Data("frenet")}});
+  for (int n = 0; n < 50; ++n) {
+    const double t = 2 + 0.08 * n;
+    expect_near(vector_at(curve, "normal", helix(t)), {-std::cos(t), -std::sin(t), 0}, 0.01);
+  }
+  const NodePtr line = make("curve_distance", {{"points", rows({{0, 0, 0}, {5, 0, 0}})}, {"frame", Data("frenet")}});
+  expect_near(vector_at(line, "normal", {2, 1, 1}), {0, 0, 1}, 1e-12);  // no curvature: that of `toward`
+}
+
+TEST_F(ValuePlaces, ClosedCurvesNeedThreePoints) {
+  EXPECT_NE(error_of("curve_distance", {{"points", rows({{0, 0, 0}, {5, 0, 0}, {0, 0, 0}})}, {"closed", Data(true)}})
+                .find("curve_distance needs 3 to 1000 different points"),
+            std::string::npos);
+}
+
 // Compares with the nearest centre, corners and sides among all hexagons around the point.
 TEST_F(ValuePlaces, HexagonsAreThoseOfTheNearestMiddle) {
   constexpr double width = 3;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/text/data.h"
+#include "base/text/plain.h"
 #include "options/option_values.h"
 
 namespace ombre::options {
@@ -149,21 +150,12 @@ Row<Job> flag(std::string names, bool Job::*member, std::string help) {
   return {{made}};
 }
 
-template <class T>
-struct ChosenType {
-  using type = T;
-};
-template <class T>
-struct ChosenType<std::optional<T>> {
-  using type = T;
-};
-
 // Returns an option that takes one of the words. A string member gets the word; an enumeration, whose values are in the
 // order of the words, gets the corresponding value.
 template <class Job, class Member>
 Row<Job> choice(std::string names, Member Job::*member, const std::vector<std::string>& words, std::string help,
                 std::string placeholder) {
-  using Chosen = typename ChosenType<Member>::type;
+  using Chosen = Plain<Member>;
   Option made{std::move(names), std::move(help), std::move(placeholder), "word", Takes::one, words};
   made.set = [member, words](void* job, const std::vector<std::string>& texts) {
     Member& chosen = static_cast<Job*>(job)->*member;

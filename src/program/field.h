@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "program/program.h"
 
 namespace ombre::program {
@@ -31,11 +32,9 @@ class BuilderUser {
 };
 
 // Builds programs. Shares equal subexpressions and folds constants.
-class Builder {
+class Builder : NotCopied {
  public:
   Builder();
-  Builder(const Builder&) = delete;
-  Builder& operator=(const Builder&) = delete;
 
   Field input(int axis) { return {this, static_cast<ValueId>(axis)}; }
   Field constant(double value);

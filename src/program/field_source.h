@@ -89,6 +89,20 @@ class FieldSource : public HostObject {
   }
 };
 
+// A source that is named and hashed when it is made.
+class NamedSource : public FieldSource {
+ public:
+  std::string name() const final { return name_; }
+  Hash content() const final { return content_; }
+
+ protected:
+  NamedSource(std::string name, const Hash& content) : name_(std::move(name)), content_(content) {}
+
+ private:
+  std::string name_;
+  Hash content_;
+};
+
 using SourceField = std::shared_ptr<const FieldSource>;
 
 }  // namespace ombre::program

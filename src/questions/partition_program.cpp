@@ -167,14 +167,17 @@ class RegionBuilder {
     for (size_t n = 0; n < bands; ++n) made_.regions.push_back(band(rule_, n, subject, scale, unit));
   }
 
-  static Region band(const RegionRule& rule, size_t n, const std::string& subject, double scale,
-                     const std::string& unit) {
+  Region band(const RegionRule& rule, size_t n, const std::string& subject, double scale,
+              const std::string& unit) const {
     Region region;
     if (n > 0) region.least = rule.borders[n - 1];
     if (n < rule.borders.size()) region.greatest = rule.borders[n];
     region.name = std::string(subject).append(range_text(region, scale)).append(unit);
-    if (rule.kind == RegionRule::Kind::attribute && !rule.borders.empty())
+    if (rule.kind == RegionRule::Kind::attribute && (rule.range || !rule.borders.empty()))
       region.attributes.emplace_back(rule.of, middle(rule, region));
+    const design::Material* material =
+        rule.kind == RegionRule::Kind::fraction ? design_.materials.find(rule.of) : nullptr;
+    if (material) region.fractions.emplace_back(material->id, middle(rule, region));
     return region;
   }
 
@@ -225,6 +228,7 @@ class RegionBuilder {
         const Field margin = margin_of(value, region);
         region.name = regions[r].name.empty() ? region.name : regions[r].name + ", " + region.name;
         region.attributes.insert(region.attributes.begin(), regions[r].attributes.begin(), regions[r].attributes.end());
+        region.fractions.insert(region.fractions.begin(), regions[r].fractions.begin(), regions[r].fractions.end());
         crossed.push_back(std::move(region));
         margins.push_back(scores[r] ? min(scores[r], margin) : margin);
       }

@@ -37,6 +37,8 @@ struct Region {
   std::optional<double> least, greatest;  // only for bands: values are at least `least` and less than `greatest`
   // Attributes of a body made by bands, each with the value in the middle of its band.
   std::vector<std::pair<std::string, double>> attributes = {};
+  // Bands of fractions have the material, and the fraction in the middle.
+  std::vector<std::pair<MaterialId, double>> fractions = {};
 };
 // Limit of combinations, since each has a body of its own.
 inline constexpr size_t most_crossed_regions = 256;

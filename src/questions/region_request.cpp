@@ -28,10 +28,20 @@ double longest(const Box& box) {
   return std::max({size.x, size.y, size.z});
 }
 
+// Returns the range that bands of a material's fraction cover.
+std::optional<Interval> fraction_range(const design::Design& design, const Box& box, const RegionRule& rule,
+                                       const BandRequest& bands, Diagnostics& diagnostics) {
+  return bands.within > 0 ? value_range(design, box, rule.of, diagnostics) : Interval(0, 1);
+}
+
 std::vector<double> equal_borders(Interval range, int bands) {
   std::vector<double> borders;
   for (int n = 1; n < bands; ++n) borders.push_back(range.lo + (range.hi - range.lo) * n / bands);
   return borders;
+}
+
+int count_of(const BandRequest& bands, Interval range) {
+  return bands.within > 0 ? fewest_bands(range, bands.within) : bands.count;
 }
 
 // Makes the rule for bands of a material's fraction, of an attribute, or of the fraction that varies most. Names of
@@ -46,14 +56,18 @@ std::optional<RegionRule> band_rule(const design::Design& design, const Box& box
   } else if (!design.materials.find(bands.of)) {
     rule.kind = RegionRule::Kind::attribute;
   }
+  if (rule.kind == RegionRule::Kind::fraction) rule.range = Interval(0, 1);
   if (!rule.borders.empty()) return rule;
   if (rule.kind == RegionRule::Kind::fraction) {
-    rule.borders = equal_borders({0, 1}, bands.count);
+    const auto range = fraction_range(design, box, rule, bands, diagnostics);
+    if (!range) return std::nullopt;
+    rule.range = range;
+    rule.borders = equal_borders(*range, count_of(bands, *range));
     return rule;
   }
   const auto whole = build_region_program(design, box, rule, diagnostics);
   const auto range = whole ? score_range(whole->partition, box) : std::nullopt;
-  if (range) rule.borders = equal_borders(*range, bands.count);
+  if (range) rule.borders = equal_borders(*range, count_of(bands, *range));
   rule.range = range;
   return whole ? std::optional(rule) : std::nullopt;
 }
@@ -80,6 +94,11 @@ std::optional<RegionRule> region_rule(const design::Design& design, const Box& b
 }
 
 }  // namespace
+
+int fewest_bands(Interval range, double within) {
+  constexpr double rounding = 1e-9, most = 1000;
+  return static_cast<int>(std::clamp(std::ceil((range.hi - range.lo) / (2 * within) - rounding), 1.0, most));
+}
 
 std::optional<Fineness> choose_fineness(const design::Design& design, const Box& box, const RegionRequest& request,
                                         Diagnostics& diagnostics) {

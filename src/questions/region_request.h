@@ -16,7 +16,11 @@ struct BandRequest {
   int count = 4;  // bands of equal width: fractions go from 0 to 1, attributes from least to greatest
   std::vector<double> borders = {};  // used instead of `count` if not empty
   std::string of = {};               // material or attribute; empty: the fraction that varies most
+  double within = 0;                 // if not 0, used instead of `count`: as few bands as have their middle this near
 };
+
+// Returns the least number of bands of equal width over a range whose values are within a distance of their middles.
+int fewest_bands(Interval range, double within);
 
 struct RegionRequest {
   bool by_material = false;            // make a region for each material

@@ -60,13 +60,14 @@ class Applier {
   Pieces operator()(const Group&) { return soft_union(of_any_dimension()); }
   Pieces operator()(const Union& by) {
     if (by.render) return soft_union(of_any_dimension());
+    warn_of_colours("union", "leave union() out");
     return for_groups([&](const PieceGroup& group) { return united(group); });
   }
   Pieces operator()(const Intersection&) {
     return combined([&](const Piece& a, const Piece& b) { return intersected(a, b); });
   }
   Pieces operator()(const Hull&) {
-    warn_of_colours("hull");
+    warn_of_colours("hull", "write hull() for each colour");
     return for_groups([&](const PieceGroup& group) { return hulled(group); });
   }
   Pieces operator()(const Minkowski&) {
@@ -75,11 +76,11 @@ class Applier {
   Pieces operator()(const Difference&);
 
   Pieces operator()(const Fill&) {
-    warn_of_colours("fill");
+    warn_of_colours("fill", "write fill() for each colour");
     return for_regions(matching(), [&](const Region& region) { return fill(region); });
   }
   Pieces operator()(const Offset& by) {
-    warn_of_colours("offset");
+    warn_of_colours("offset", "write offset() for each colour");
     return for_regions(matching(), [&](const Region& region) { return offset(region, by); });
   }
   Pieces operator()(const LinearExtrude& by) {
@@ -305,15 +306,15 @@ class Applier {
   }
 
   // Says so if pieces of several colours become one piece, which has the colour of the first.
-  void warn_of_colours(const std::string& name) const {
+  void warn_of_colours(const std::string& name, const std::string& advice) const {
     const auto joins_colours = [](const PieceGroup& group) {
       return std::ranges::any_of(group.members, [&](const Piece& piece) {
         return piece.dimension() != 0 && piece.attributes.colour && piece.attributes.colour != group.attributes.colour;
       });
     };
     if (std::ranges::any_of(grouped(all(), matching()), joins_colours))
-      warn(name + "() joins shapes of several colours, and the result has the colour of the first; write " + name +
-           "() for each colour, or semantics = \"strict\"");
+      warn(name + "() joins shapes of several colours, and the result has the colour of the first; " + advice +
+           ", or write semantics = \"strict\"");
   }
 
   const Tree& tree_;

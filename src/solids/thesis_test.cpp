@@ -166,11 +166,14 @@ TEST_F(Thesis, OperationsThatJoinColoursSaySo) {
   const auto said = [](const TreePtr& tree) {
     Diagnostics messages;
     const std::string made = described(evaluate(tree, {}, messages));
-    return made + (messages.list().empty() ? "" : " " + messages.list()[0].message.substr(0, 38));
+    const std::string message = messages.list().empty() ? "" : ' ' + messages.list()[0].message;
+    return made + message.substr(0, message.find(','));
   };
   EXPECT_EQ(said(hull({two})), "20 red hull() joins shapes of several colours");
   EXPECT_EQ(said(with(hull({two}), Semantics::strict)), "8 red; 8 blue");
   EXPECT_EQ(said(hull({colour(red, {cube(2), moved(3, 0, 0, {cube(2)})})})), "20 red");
+  EXPECT_EQ(said(node(Union{}, {two})), "16 red union() joins shapes of several colours");
+  EXPECT_EQ(said(with(node(Union{}, {two}), Semantics::strict)), "8 red; 8 blue");
 }
 
 // OpenSCAD 2021.01 gives these results.

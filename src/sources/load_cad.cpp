@@ -10,12 +10,36 @@
 #include "base/text/file_ending.h"
 #include "base/text/text.h"
 #include "import/surfaces/cad_source.h"
+#include "sources/cad_file.h"
 #include "sources/cad_remarks.h"
 #include "sources/loading.h"
 #include "sources/mesh_materials.h"
 
+namespace ombre::sources {
+
+constexpr size_t bytes_of_file_byte = 20;  // estimate for shapes and triangles, per byte of the file
+
+std::shared_ptr<const CadFile> read_cad(const design::FilePath& file, Loading& loading) {
+  if (!cad::is_cad_file(file.path)) {
+    loading.reader().diagnostics.error(Code::file_kind, loading.reader().where,
+                                       "\"" + file.path + "\" is no CAD file that can be read here",
+                                       "cad reads STEP (.step, .stp) and IGES (.iges, .igs); write mesh for triangles");
+    return nullptr;
+  }
+  using Made = Loading::Made<CadFile>;
+  const Hash key = Key("cad file").add(file.content).add(ending_of(file.path)).hash();
+  return loading.cached<CadFile>(key, file.path, [&](const design::Reader&) {
+    const size_t bytes = bytes_of_file_byte * loading.bytes(file)->size();
+    return Made{std::make_shared<CadFile>(CadFile{cad::read_solids(file.path, loading.stop()), bytes}), bytes};
+  });
+}
+
+}  // namespace ombre::sources
+
 namespace ombre::design {
 namespace {
+
+using sources::CadFile, sources::read_cad;
 
 // Duration from which a job gets a remark, and the tolerance in voxels of the triangles that it recommends.
 constexpr double least_reported_seconds = 20, fast_voxels = 0.02;
@@ -154,29 +178,6 @@ std::optional<std::vector<MaterialSolids>> solids_by_material(const std::string&
     part->solids.push_back(solids[n]);
   }
   return parts;
-}
-
-// The contents of a CAD file, read once for all parts made of it.
-struct CadFile {
-  std::vector<cad::SolidPtr> solids;
-  size_t bytes = 0;  // memory used
-};
-
-constexpr size_t bytes_of_file_byte = 20;  // estimate for shapes and triangles, per byte of the file
-
-std::shared_ptr<const CadFile> read_cad(const FilePath& file, sources::Loading& loading) {
-  if (!cad::is_cad_file(file.path)) {
-    loading.reader().diagnostics.error(Code::file_kind, loading.reader().where,
-                                       "\"" + file.path + "\" is no CAD file that can be read here",
-                                       "cad reads STEP (.step, .stp) and IGES (.iges, .igs); write mesh for triangles");
-    return nullptr;
-  }
-  using Made = sources::Loading::Made<CadFile>;
-  const Hash key = sources::Key("cad file").add(file.content).add(ending_of(file.path)).hash();
-  return loading.cached<CadFile>(key, file.path, [&](const Reader&) {
-    const size_t bytes = bytes_of_file_byte * loading.bytes(file)->size();
-    return Made{std::make_shared<CadFile>(CadFile{cad::read_solids(file.path, loading.stop()), bytes}), bytes};
-  });
 }
 
 std::vector<CadPart> parts_of(const CadFile& file, const CadRequest& request, const Reader& reader) {

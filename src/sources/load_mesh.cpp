@@ -1,4 +1,6 @@
 // Loads mesh files for designs.
+#include <set>
+
 #include "cad/solids.h"
 
 #include "base/text/file_ending.h"
@@ -58,6 +60,25 @@ MeshPart part_of(const std::string& path, const std::string& material, formats::
   for (size_t n = 0; n < lattices.size(); ++n)
     sources.push_back(source_of(path, lattices[n], hash_bytes(content.hex() + " lattice " + std::to_string(n)), rule));
   return {material, importing::make_union_source(std::move(sources)), lattices.empty()};
+}
+
+// Tells of colours that a mesh file loses: those of its vertices, and those of its bodies if no material is named.
+void warn_of_colours(const std::string& path, const formats::Mesh& mesh, const MeshUse& use, const Reader& reader) {
+  if (!mesh.vertex_colours.empty())
+    reader.diagnostics.warning(reader.where,
+                               "the vertices of the mesh \"" + path + "\" have colours, which do not become materials",
+                               "surface_colour(\"" + path + "\").colour gives them as a value that varies in space");
+  const bool is_named = use.material.material != &reader.materials.first();
+  if (use.materials != "one" || !use.object.empty() || is_named) return;
+  std::set<Rgba> colours;
+  for (const formats::MeshGroup& group : formats::all_groups(mesh))
+    if (group.colour) colours.insert(*group.colour);
+  if (colours.size() > 1)
+    reader.diagnostics.warning(
+        reader.where,
+        "the mesh \"" + path + "\" has bodies of " + std::to_string(colours.size()) +
+            " colours, which become one material",
+        "write " + spelled::parameter("materials", "\"colours\"") + " to take the materials of the nearest colours");
 }
 
 std::optional<std::vector<sources::MaterialMesh>> cut_by_use(const std::string& path, formats::Mesh mesh,
@@ -123,7 +144,10 @@ MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const R
   const Hash content = is_plain
                            ? files.content
                            : sources::Key("deformed").add(files.content).add(request.deform).add(request.step).hash();
-  if (mesh) return parts_of(path, std::move(*mesh), content, request.use, reader);
+  if (mesh) {
+    warn_of_colours(path, *mesh, request.use, reader);
+    return parts_of(path, std::move(*mesh), content, request.use, reader);
+  }
   reader.diagnostics.note(reader.where, "the file is used here");
   return {};
 }

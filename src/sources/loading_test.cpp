@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "base/system/not_copied.h"
 #include "formats/containers/hdf5.h"
 
 namespace ombre::sources {
@@ -17,15 +18,13 @@ using design::MeshRequest;
 using design::PolygonsRequest;
 
 // A folder that is removed with its files at the end.
-class Folder {
+class Folder : NotCopied {
  public:
   explicit Folder(const std::string& name) : path_(fs::path(testing::TempDir()) / name) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }
   ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
 
   // Writes a file whose modification time is this many seconds ago.
   std::string write(const std::string& name, const std::string& text, int seconds_ago = 100) const {

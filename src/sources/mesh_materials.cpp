@@ -192,6 +192,7 @@ std::optional<std::vector<MaterialMesh>> by_material(const std::string& path, co
 
 void add_use(Key& key, const design::MeshUse& use, const design::Reader& reader) {
   key.add(use.object).add(use.materials.text());
+  key.add(use.material.material == &reader.materials.first() ? "usual" : "named");  // for what is said of colours
   if (use.materials == "one") return;
   key.add(print_json_line(reader.materials.to_data())).add(use.material.material->name);
   for (const auto& [name, material] : use.material_map) key.add(name).add(material.material->name);

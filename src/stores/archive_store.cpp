@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/text/error.h"
+#include "base/text/file_ending.h"
 #include "formats/containers/file.h"
 #include "formats/containers/zip_archive.h"
 
@@ -25,8 +26,15 @@ std::vector<std::string> names_of(const StoredJob& job, const Entries& finished)
   return names;
 }
 
-void write_archive(const std::string& path, const fs::path& folder, const std::vector<std::string>& names) {
+using FurtherFiles = std::vector<std::pair<std::string, std::string>>;
+
+void write_archive(const std::string& path, const fs::path& folder, const std::vector<std::string>& names,
+                   const FurtherFiles& further) {
   std::vector<formats::ZipEntry> entries;
+  for (const auto& file : further) {
+    entries.push_back({file.first, {}, false});
+    entries.back().bytes.add_rows(1, [&file](std::string& bytes, size_t) { bytes += file.second; });
+  }
   for (const std::string& name : names) {
     entries.push_back({name, {}, name.ends_with(".png")});
     entries.back().bytes.add_rows(
@@ -62,7 +70,7 @@ void ArchiveStore::close() {
   if (!job_.is_complete(finished())) return;
   const std::vector<std::string> names = names_of(job_, finished());
   const std::string folder = folder_of(path_);
-  write_archive(path_, folder, names);
+  write_archive(path_, folder, names, job_.further_files(ending_of(path_), finished()));
   // Files of others stay, and the folder with them.
   std::error_code ignored;
   for (const std::string& name : names) fs::remove(fs::path(folder) / name, ignored);

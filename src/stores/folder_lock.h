@@ -3,10 +3,12 @@
 
 #include <string>
 
+#include "base/system/not_copied.h"
+
 namespace ombre::stores {
 
 // A lock of a folder that is held until the object is destroyed, or the program ends in any way.
-class FolderLock {
+class FolderLock : NotCopied {
  public:
   // Runs that share a folder exclude only one that wants it alone.
   enum class Kind { alone, shared };
@@ -14,21 +16,17 @@ class FolderLock {
   // Throws Error when another run holds it or the folder cannot be opened.
   explicit FolderLock(const std::string& folder, Kind kind = Kind::alone);
   ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
  private:
   int descriptor_ = -1;
 };
 
 // A lock that is a file, which is removed when the lock ends. A file that a killed program leaves locks nothing.
-class FileLock {
+class FileLock : NotCopied {
  public:
   // Throws Error when another run holds it or the file cannot be made.
   explicit FileLock(std::string path);
   ~FileLock();
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
 
  private:
   bool is_current() const;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/system/named_files.h"
 #include "base/system/tasks.h"
 #include "base/text/error.h"
 #include "stores/shard.h"

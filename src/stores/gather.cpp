@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "base/system/named_files.h"
 #include "stores/shard.h"
 
 namespace ombre::stores {

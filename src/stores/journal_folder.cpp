@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <memory>
+#include <system_error>
 
 #include "base/system/hash.h"
 #include "base/system/steady_pace.h"
@@ -26,17 +28,6 @@ bool holds_file(const fs::path& folder, const StoredFile& file) {
 }
 
 }  // namespace
-
-std::vector<std::string> names_in(const std::string& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    names.push_back(entry->path().filename().string());
-  if (error)
-    throw Error(Code::cannot_read, "cannot read the folder " + folder + ": " + error.message(), {{"file", folder}});
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 std::string_view without_part(std::string_view name) {
   if (name.ends_with(exporting::part_suffix)) name.remove_suffix(exporting::part_suffix.size());

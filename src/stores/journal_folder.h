@@ -28,8 +28,6 @@ struct Checking {
   const StopFlag* stop = nullptr;
 };
 
-// Returns the names in a folder, sorted. Throws Error if it cannot be read.
-std::vector<std::string> names_in(const std::string& folder);
 // Returns the name of the file that `name` is an unfinished part of, else `name`.
 std::string_view without_part(std::string_view name);
 // Makes the folder, or throws Error.

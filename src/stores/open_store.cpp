@@ -8,7 +8,10 @@
 
 namespace ombre::stores {
 
-bool is_archive(const std::string& path) { return ending_of(path) == ".zip"; }
+bool is_archive(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".zip" || ending == ".sl1";
+}
 
 std::string pieces_folder(const std::string& path) { return is_archive(path) ? ArchiveStore::folder_of(path) : path; }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "base/system/named_files.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "formats/containers/file.h"

@@ -28,7 +28,7 @@ class PieceJob : public StoredJob {
   explicit PieceJob(int64_t count, std::string design = "a") : count_(count), design_(std::move(design)) {}
 
   const JobWords& words() const override {
-    static const JobWords words{"text job", "pieces", "text.json", "piece", ".txt"};
+    static const JobWords words{"text job", "text job", "pieces", "text.json", "piece", ".txt"};
     return words;
   }
   std::string description(const Entries& finished) const override {
@@ -48,10 +48,6 @@ class PieceJob : public StoredJob {
     return entry.files.empty() || entry.files[0].name == piece_file(entry.id);
   }
   bool owns(std::string_view name) const override { return is_below(name, count_); }
-  bool is_kind(const Data& description) const override {
-    const Data* format = description.find("format");
-    return format && format->string() && format->string()->starts_with("text job");
-  }
   std::optional<NameTest> files_of(const Data& description) const override {
     const auto count = whole_number(description.find("pieces"));
     if (!count) return std::nullopt;

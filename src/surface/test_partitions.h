@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/system/not_copied.h"
 #include "program/field.h"
 #include "surface/cells/cell_tree.h"
 #include "surface/cells/crossings.h"
@@ -48,7 +49,7 @@ inline Partition half_space(Vec3 normal, double offset) {
 }
 
 // The surface of a partition in cells that are not subdivided, with the steps that lead to it.
-struct PlainSurface {
+struct PlainSurface : NotCopied {
   PlainSurface(Partition of, const voxel::Lattice& corners, double tolerance_mm)
       : partition(std::move(of)),
         options{corners, tolerance_mm, tolerance_mm > 0, {1}, 0},
@@ -58,8 +59,6 @@ struct PlainSurface {
         surface(tree, crossings, mesh, options) {
     surface.refresh();
   }
-  PlainSurface(const PlainSurface&) = delete;
-  PlainSurface& operator=(const PlainSurface&) = delete;
 
   Partition partition;
   ContourOptions options;

@@ -52,6 +52,15 @@ PlainPage grey(uint32_t width, uint32_t height, uint32_t bits, const std::string
           {strip}};
 }
 
+// A page of one strip with a red, a green and a blue sample for each pixel.
+PlainPage rgb(uint32_t width, uint32_t height, const std::string& strip) {
+  PlainPage page = grey(width, height, 8, strip);
+  page.tags[bits_per_sample] = {8, 8, 8};
+  page.tags[samples_per_pixel] = {3};
+  page.tags[photometric] = {2};
+  return page;
+}
+
 class TiffWriter {
  public:
   explicit TiffWriter(bool is_big_endian = false) : is_big_endian_(is_big_endian) {
@@ -210,11 +219,7 @@ TEST_F(Tiff, GreyIsDarkAtZeroWhateverTheFileSays) {
 }
 
 TEST_F(Tiff, ChannelsAreInterleavedWhateverTheFileHas) {
-  PlainPage page = grey(2, 2, 8, "");
-  page.tags[bits_per_sample] = {8, 8, 8};
-  page.tags[samples_per_pixel] = {3};
-  page.tags[photometric] = {2};
-  page.pieces = {"rgbRGB123456"};
+  PlainPage page = rgb(2, 2, "rgbRGB123456");
   EXPECT_EQ(read(file_of(page)).at(0).channels, 3U);
   EXPECT_EQ(read(file_of(page)).at(0).bytes, "rgbRGB123456");
   page.tags[planar_configuration] = {2};  // a strip of each channel
@@ -274,11 +279,7 @@ TEST_F(Tiff, PagesComeInTheirOrder) {
 }
 
 TEST_F(Tiff, ColoursAreEightBitsWithOpacity) {
-  PlainPage page = grey(2, 1, 8, "");
-  page.tags[bits_per_sample] = {8, 8, 8};
-  page.tags[samples_per_pixel] = {3};
-  page.tags[photometric] = {2};
-  page.pieces = {"rgbRGB"};
+  PlainPage page = rgb(2, 1, "rgbRGB");
   const std::vector<Page> pages = read(file_of(page), Wanted::colours);
   EXPECT_EQ(pages.at(0).channels, 4U);
   EXPECT_EQ(pages.at(0).bytes, "rgb\xffRGB\xff");

@@ -39,6 +39,7 @@ struct Channel {
   ChannelType type = ChannelType::material;
   std::string unit;         // of numbers
   Interval range = {0, 1};  // numbers up to range.lo have the shade 0, from range.hi on the last one
+  int samples = 0;          // points along x and y of a voxel whose share inside the shade shows; 0: a value's shade
   bool operator==(const Channel&) const = default;
 };
 

@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::string_view material_place = "{material}";
 
-std::optional<std::string> read_name(const Data& data, const MemberReader& reader) {
-  const auto name = reader.text(data, "name");
-  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
-  if (!name || std::ranges::all_of(*name, is_plain)) return name;
-  reader.fail(data, "a printer's name is made of lower-case letters, digits and '-'");
-  return std::nullopt;
-}
-
 void read_dpi(std::optional<Pitch>& pitch, const Data& data, const MemberReader&) {
   if (const double* dpi = data.number()) pitch = Pitch::from_dpi(format_number(*dpi));
 }
@@ -89,14 +81,30 @@ Record<ForbiddenNeighbour> neighbour_record() {
                     field::number("within_mm", &N::within_mm, above_zero).required()});
 }
 
+void read_texts(std::vector<std::string>& texts, const std::string& name, const Data& data,
+                const MemberReader& reader) {
+  const DataList* const list = reader.list(data, name);
+  if (!list) return;
+  texts.clear();
+  for (const Data& item : *list)
+    if (auto text = reader.text(item, name)) texts.push_back(std::move(*text));
+}
+
+void read_calibrations(Printer& printer, const Data& data, const MemberReader& reader) {
+  read_texts(printer.calibrations, "calibrations", data, reader);
+}
+
+void read_needs(Printer& printer, const Data& data, const MemberReader& reader) {
+  read_texts(printer.needs, "needs", data, reader);
+  if (data.list() && data.list()->empty()) reader.fail(data, "a printer needs something", R"(write ["fractions"])");
+}
+
 const Record<Printer>& printer_record() {
   using P = Printer;
   static const Record<P> record =
       Record<P>(
           "a printer profile",
-          {field::value("name", &P::name, read_name)
-               .required()
-               .means("lower-case letters, digits and `-`; the same as the file's name"),
+          {field::plain_name("a printer", &P::name),
            field::text("title", &P::title).required().means("the machine"),
            field::text("source", &P::source).required().means("where the figures come from"),
            field::object("pitch", &P::pitch, pitch_record())
@@ -133,13 +141,31 @@ const Record<Printer>& printer_record() {
                .means(
                    R"(`"keep"` (default) or `"drop"`. Dropped layers leave their numbers unused; `job.json` says which )"
                    R"(layer is the first with material)"),
+           field::object("exposure", &P::exposure, exposure_record())
+               .means(
+                   R"(`{"seconds": 8, "first_seconds": 35, "fade_layers": 10}`: light for a layer and for the first )"
+                   R"(one, and how many layers lie between them, for `.sl1` archives)"),
            field::whole("max_materials", &P::max_materials, 1, 255)
                .means("the most materials in one job, 1 to 255, void not counted"),
            field::object("smallest_feature", &P::smallest_feature, feature_record())
                .means(R"(`{"distorts_mm": 0.42, "fails_mm": 0.21}`: details thinner than this distort, or fail)"),
            field::objects("forbidden_neighbours", &P::forbidden_neighbours, neighbour_record())
                .means(R"(`[{"material": "liquid", "near": "surface", "within_mm": 0.3}]`: the material must keep this )"
-                      R"(distance from the surface, or from the material named in `near`)")})
+                      R"(distance from the surface, or from the material named in `near`)"),
+           field::number("overhang_degrees", &P::overhang_degrees, {1, 89})
+               .means("for a process that builds each layer on the one below: how far layers may hang over, in degrees "
+                      "from the vertical; `ombre check` finds what hangs over more, and islands"),
+           field::number("gap_mm", &P::gap_mm, {0, 1000})
+               .means("the distance that `ombre tray` keeps between parts (default 2)"),
+           field::flag("vat", &P::is_vat)
+               .means("`true` if layers are made in a bath of resin: `ombre check` finds cups that hold it"),
+           field::special("calibrations", read_calibrations)
+               .means(R"(names or paths of [calibrations](../user/properties.md) that hold for the machine)"),
+           field::special("needs", read_needs)
+               .means(
+                   R"(what the machine must know at each point of a part, into which [properties](../user/properties.md) )"
+                   R"(are resolved: `["fractions"]` of materials (default), or names of attributes, such as )"
+                   R"(`["temperature", "flow_rate"]`)")})
           .checked([](P& printer, const Data& data, const MemberReader& reader) {
             if (printer.origin == Placement::center && !printer.build_mm)
               reader.fail(data, R"("origin": "center" needs "build_mm", the plate to centre on)");
@@ -148,6 +174,13 @@ const Record<Printer>& printer_record() {
 }
 
 }  // namespace
+
+Record<Exposure> exposure_record() {
+  using E = Exposure;
+  return Record<E>("\"exposure\"", {field::number("seconds", &E::seconds, above_zero).required(),
+                                    field::number("first_seconds", &E::first_seconds, above_zero).required(),
+                                    field::whole("fade_layers", &E::fade_layers, 0, 1000)});
+}
 
 const std::vector<std::string>& placement_names() {
   static const std::vector<std::string> names{"design", "center"};

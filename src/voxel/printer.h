@@ -16,7 +16,9 @@
 
 namespace ombre {
 struct MemberInfo;
-}
+template <class T>
+class Record;
+}  // namespace ombre
 
 namespace ombre::voxel {
 
@@ -63,12 +65,20 @@ struct ForbiddenNeighbour {
   double within_mm = 0;
 };
 
+// Light for the layers of a vat printer.
+struct Exposure {
+  double seconds = 0, first_seconds = 0;  // for a layer, for the first layer
+  int fade_layers = 0;                    // layers after the first one whose times fall to the usual one
+  bool operator==(const Exposure&) const = default;
+};
+
 // Everything that determines the images of layers, except the voxels and the materials' colours.
 struct Images : ImageLayout {
   std::array<uint8_t, 4> background{};  // colour of void
   NamePattern files;                    // names of the files; with {material} there is one file for each material
   int64_t first_index = 0;              // number of the lowest layer
   bool drop_empty_layers = false;
+  std::optional<Exposure> exposure;  // in .sl1 archives
 };
 
 struct Printer : Images {
@@ -79,7 +89,15 @@ struct Printer : Images {
   int max_materials = 255;
   std::optional<SmallestFeature> smallest_feature;
   std::vector<ForbiddenNeighbour> forbidden_neighbours;
+  std::optional<double> overhang_degrees;       // from the vertical, if layers are built on those below
+  double gap_mm = 2;                            // between parts on a tray
+  bool is_vat = false;                          // layers are made in a bath of resin
+  std::vector<std::string> calibrations;        // names or paths of those that hold for the machine
+  std::vector<std::string> needs{"fractions"};  // what it must know of a part: fractions of materials, attributes
 };
+
+// Reads the light of layers from a profile or a job.json.
+Record<Exposure> exposure_record();
 
 // Returns the members of a profile, for its reference.
 const std::vector<MemberInfo>& printer_members();

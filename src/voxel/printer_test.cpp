@@ -47,6 +47,14 @@ void expect_message(const std::string& member, const std::string& part) {
 
 }  // namespace
 
+TEST(Printer, SaysWhatItNeeds) {
+  EXPECT_EQ(shipped("j750").needs, std::vector<std::string>{"fractions"});
+  EXPECT_EQ(shipped("fff-foaming-pla").needs, (std::vector<std::string>{"temperature", "flow_rate"}));
+  EXPECT_EQ(shipped("fff-foaming-pla").calibrations, std::vector<std::string>{"foaming-pla-flow"});
+  expect_message(R"("needs": [])", "a printer needs something");
+  expect_message(R"("calibrations": [3])", "expected a text");
+}
+
 TEST(Printer, AllShippedProfilesLoadUnderTheirFileNames) {
   size_t count = 0;
   for (const auto& entry : fs::directory_iterator(profiles)) {

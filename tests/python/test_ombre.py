@@ -404,7 +404,7 @@ def test_nodes_do_not_leak():
 
 def test_import_needs_no_display():
     without = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    subprocess.run([sys.executable, "-W", "error", "-c", "import ombre, pyvcad, pyvcadviz, pyvcad_compilers"],
+    subprocess.run([sys.executable, "-W", "error", "-c", "import ombre, pyvcad, pyvcadviz, pyvcad_compilers, pyvcad_metamaterials"],
                    env=without, check=True, timeout=60)
 
 

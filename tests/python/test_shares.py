@@ -72,3 +72,37 @@ def test_threads_may_read_a_file_of_code_at_once(monkeypatch):
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for future in [pool.submit(exec, code, {"ombre": ombre}) for _ in range(2)]:
             future.result()
+
+
+STUDY = {"variables": {"x": {"from": -10, "to": 10, "start": 5}},
+         "objectives": [{"minimise": "echo", "name": "near"}, {"minimise": "echo", "name": "far"}],
+         "evaluations": 96}
+
+
+@pytest.fixture
+def schaffer(tmp_path):
+    path = tmp_path / "schaffer.vcad"
+    path.write_text("x = 5;\necho(near = x * x, far = (x - 2) * (x - 2));\nsphere(1);\n")
+    return path
+
+
+def test_searches_are_shared(tmp_path, schaffer):
+    ombre.optimise(schaffer, tmp_path / "alone", STUDY)
+    with processes(2) as pool:
+        report = ombre.optimise(schaffer, tmp_path / "shared", STUDY, client=pool, shares=3)
+    assert (tmp_path / "shared/history.csv").read_text() == (tmp_path / "alone/history.csv").read_text()
+    assert (tmp_path / "shared/front.csv").read_bytes() == (tmp_path / "alone/front.csv").read_bytes()
+    best = [event for event in report.events if event["event"] == "best"]
+    assert best and all(-0.1 <= event["variables"]["x"] <= 2.1 for event in best)  # Schaffer's front is 0 to 2
+    assert not list(tmp_path.glob("shared.*.json"))
+
+
+def test_wrong_calls_of_searches(tmp_path, schaffer):
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        with pytest.raises(TypeError, match="resume does not go with client"):
+            ombre.optimise(schaffer, tmp_path / "shared", STUDY, client=pool, resume=True)
+        with pytest.raises(ombre.DesignError, match="topology"):
+            ombre.optimise(schaffer, tmp_path / "shared", {"topology": {}}, client=pool)
+    with pytest.raises(TypeError, match="shares are for a client"):
+        ombre.optimise(schaffer, tmp_path / "shared", STUDY, shares=3)
+    assert not list(tmp_path.glob("shared.*.json"))

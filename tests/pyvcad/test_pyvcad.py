@@ -297,9 +297,9 @@ def test_newer_nodes():
 
 
 @pytest.mark.parametrize("make", [
-    lambda: pv.ColorMap(), lambda: pv.FloatGrid(), lambda: pv.CellMap.rectangular(0, 1, 2),
+    lambda: pv.ColorMap(), lambda: pv.FloatGrid(), lambda: pv.CellMap.from_cad_face(None),
     lambda: pyvcad_compilers.GCVFCompiler(pv.Sphere()),
-    lambda: pyvcad_rendering.Render_Image(pv.Sphere(), "a.png")])
+    lambda: pyvcad_rendering.select_mesh_patch(pv.Sphere())])
 def test_what_is_missing_says_so(make):
     with pytest.raises(pv.MissingFeature, match="Ombre does not have this yet"):
         make()

@@ -61,9 +61,10 @@ def test_errors_say_what_to_write(code, error, text):
 
 
 def test_errors_name_the_line():
-    node = pv.FGrade(["1 +"], [1], True, ball())
-    with pytest.raises(ombre.DesignError, match=r"test_pyvcad_errors\.py:\d+: FGrade: "):
-        node.prepare(1)
+    with pytest.raises(ombre.DesignError, match=r"test_pyvcad_errors\.py:\d+: the formula '1 \+' is wrong"):
+        pv.FGrade(["1 +"], [1], True, ball())
+    with pytest.raises(ombre.DesignError, match=r"test_pyvcad_errors\.py:\d+: Union: "):
+        pv.Union().prepare(1)
 
 
 def test_solids_name_the_line_of_their_node():

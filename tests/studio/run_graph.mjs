@@ -1,11 +1,16 @@
 // Opacity by an attribute, and the graph of nodes.
 import assert from "node:assert/strict";
-import { ball, isReady, open, page, picture, selected, small, test, until, untilOnPage, violations } from "./studio_page.mjs";
+import { ball, isReady, open, page, picture, read, selected, small, status, test, text, until, untilOnPage, untilThere, violations } from "./studio_page.mjs";
 
 // From -10 on the left to 10 on the right.
 const warm = 'attribute("heat", "x", unit="K") cube(20, red);\n';
 
-await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": warm } }, {
+// A module, which becomes a library.
+const discs = "module disc(radius = 5) {\n  cylinder(radius, 2);\n}\ndisc();\n";
+
+const loop = "// Three cubes.\nfor (i = [0 : 2]) cube(3 + i);\n";
+
+await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": warm, "loop.vcad": loop, "ball.scad": "sphere(5);\n", "discs.vcad": discs } }, {
   async "opacity by an attribute shows what has a value"() {
     await open("warm.vcad");
     await page.click("#tab-volume");
@@ -48,16 +53,55 @@ await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": war
     await isReady("volume", "[data-by='']");
   },
 
+  async "a module becomes a library beside the script"() {
+    await open("discs.vcad");
+    await page.click("#tab-graph");
+    await page.locator(".card:has-text('module disc')").locator(".title").click();
+    await page.click("text=Save as library…");
+    await until(async () => (await page.inputValue("dialog input")) === "disc.vcad", "the name of the module");
+    await page.click("dialog button.main");
+    await untilThere("disc.vcad");
+    await until(async () => (await text()) === "use <disc.vcad>\ndisc();\n", "the script uses the library");
+    assert.equal(read("disc.vcad"), "/// Disc, from discs.vcad.\nmodule disc(radius = 5) {\n  cylinder(radius, 2);\n}\n");
+    await page.waitForSelector(".card[aria-label^='disc,']");
+    await status("[data-old=false][data-busy=false]");
+    assert.deepEqual(await violations(), []);
+    await page.click("#tab-surface");
+    await page.selectOption("select.file", "ball.vcad");
+    await isReady();
+  },
+
   async "the graph leads to the script"() {
     await page.click("#tab-graph");
-    await page.waitForSelector(".graph img[alt='What sphere makes']");
-    await untilOnPage(() => [...document.querySelectorAll(".graph img")].every((image) => image.naturalWidth >= 48));
-    assert.equal(await page.innerText(".graph .node:has-text('fgrade') .outputs"), "→ solid");
-    assert.equal(await page.innerText(".graph li:has(> .port) > .port >> nth=0"), "solid: solid");
-    assert.match(await page.innerText(".graph li:has(> .node:has-text('sphere')) > ul .free >> nth=-1"), /radius: number or field/);
+    await page.waitForSelector(".card img[alt='What sphere makes']");
+    await untilOnPage(() => [...document.querySelectorAll(".card img")].every((image) => image.naturalWidth >= 48));
+    assert.equal(await page.inputValue("[aria-label='radius of sphere']"), "radius");
+    assert.equal(await page.locator(".wire.type-solid").count(), 1);
+    assert.equal(await page.locator(".wire.type-number").count(), 1);
     await picture("graph");
     assert.deepEqual(await violations(), []);
-    await page.click(".graph .node:has-text('sphere')");
+    await page.click(".card:has-text('sphere') .line");
     assert.equal(await selected(6), "sphere");
+  },
+
+  async "what a loop makes is a group, which leads to its line"() {
+    await open("loop.vcad");
+    const group = page.locator(".card:has-text('for')");
+    await page.waitForSelector(".card:has-text('1 inside')");
+    await group.locator(".fold").click();
+    const cube = page.locator(".card:has-text('cube')");
+    assert.match(await cube.getAttribute("aria-label"), /made by a loop/);
+    assert.ok(await cube.locator("[aria-label='side of cube']").isDisabled());
+    await cube.focus();
+    await page.keyboard.press("Delete");
+    await page.waitForSelector(".graphproblem:has-text('this is made by a loop; edit line 2')");
+    assert.deepEqual(await violations(), []);
+    await page.click(".graphproblem button");
+  },
+
+  async "scripts of other languages show the nodes of the design"() {
+    await open("ball.scad");
+    await page.waitForSelector(".tree .node");
+    assert.deepEqual(await violations(), []);
   },
 });

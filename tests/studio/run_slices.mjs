@@ -118,6 +118,23 @@ await test({}, {
     await picture("job");
   },
 
+  async "shows layers coarsely first, and then as the printer gets them"() {
+    await page.click(".slices button:has-text('fit')");
+    await isReady("slices");
+    const level = await page.getAttribute(".slices canvas", "data-level");
+    const first = [];
+    for (let n = 0; n < 6; ++n) {
+      await page.focus(".slices input[type=range]");
+      await page.keyboard.press("ArrowLeft");
+      const layer = await page.inputValue(".slices input[type=range]");
+      await isReady("slices", `[data-layer="${layer}"]`);
+      const levels = (await page.getAttribute(".slices canvas", "data-levels")).split(" ");
+      assert.ok(levels.includes(level));
+      first.push(Number(levels[0]) - Number(level));
+    }
+    assert.ok(first.includes(3), `none of six layers began with voxels 8 times as long: ${first}`);
+  },
+
   async "turns the part on the tray"() {
     await page.click("[aria-label='90 degrees more about y']");
     await page.waitForSelector("summary:has-text('command line')");

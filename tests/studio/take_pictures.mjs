@@ -1,5 +1,5 @@
-// Takes the pictures of docs/user/studio.md: a knob (studio.png, studio_slices.png, studio_jobs.png), a scan and
-// results of a simulation.
+// Takes the pictures of docs/user/studio.md: a knob (studio.png, studio_graph.png, studio_slices.png,
+// studio_jobs.png), a scan and results of a simulation.
 //
 //     node tests/studio/take_pictures.mjs build/release/apps/ombre/ombre /usr/bin/chromium docs/user
 import { copyFileSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
@@ -32,6 +32,12 @@ try {
   await page.click("#tab-all");
   for (const view of ["surface", "slices", "volume"]) await isReady(view);
   await take("studio.png");
+
+  await page.click("#tab-graph");
+  await page.click("text=Add…");
+  await page.click("[title='Show all']");
+  await take("studio_graph.png");
+  await page.click("text=Add…");
 
   await page.click("#tab-slices");
   await page.click("#tab-export");

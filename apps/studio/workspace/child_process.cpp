@@ -11,12 +11,13 @@
 #include <csignal>
 #include <system_error>
 
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 
 namespace ombre::studio {
 namespace {
 
-class Pipe {
+class Pipe : NotCopied {
  public:
   Pipe() {
     if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
@@ -26,8 +27,6 @@ class Pipe {
     close(0);
     close(1);
   }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
 
   int end(size_t which) const { return ends_[which]; }
   void close(size_t which) {
@@ -79,7 +78,7 @@ int wait_for(pid_t child) {
 
 // A small program that kills a process group as soon as this program is gone, however it ended: its stdin is a pipe,
 // which the system closes then.
-class Guardian {
+class Guardian : NotCopied {
  public:
   explicit Guardian(pid_t group) {
     const std::string script = "read done || kill -s KILL -- \"-$1\"";
@@ -93,8 +92,6 @@ class Guardian {
     line_.close(1);
     wait_for(shell_);
   }
-  Guardian(const Guardian&) = delete;
-  Guardian& operator=(const Guardian&) = delete;
 
  private:
   Pipe line_;

@@ -43,7 +43,8 @@ std::vector<Member> files_in(const fs::path& folder) {
 
 bool is_packed_already(const fs::path& path) {
   const std::string ending = ending_of(path);
-  return ending == ".png" || ending == ".3mf" || ending == ".gz" || ending == ".zip" || ending == ".ombre";
+  return ending == ".png" || ending == ".3mf" || ending == ".gz" || ending == ".zip" || ending == ".sl1" ||
+         ending == ".ombre";
 }
 
 void append_piece(std::string& bytes, const fs::path& path, uint64_t from, uint64_t count) {

@@ -60,32 +60,37 @@ std::string time_text() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d_%H%M%S", &parts)};
 }
 
+// Returns the places of a file that exists and of one that does not yet. Throws Error.
+std::pair<fs::path, fs::path> old_and_new(const Workspace& workspace, const std::string& from, const std::string& to) {
+  const fs::path file = existing(workspace, from);
+  check_ending(from, to);
+  return {file, new_place(workspace, to)};
+}
+
+void move_entry(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  check(error, to);
+}
+
+void copy_entry(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy(from, to, error);
+  check(error, to);
+}
+
 }  // namespace
 
 void rename_file(const Workspace& workspace, const std::string& from, const std::string& to) {
-  const fs::path file = existing(workspace, from);
-  check_ending(from, to);
-  const fs::path place = new_place(workspace, to);
-  const auto move = [](const fs::path& old, const fs::path& made) {
-    std::error_code error;
-    fs::rename(old, made, error);
-    check(error, made);
-  };
-  with_presets(workspace, from, to, move);
-  move(file, place);
+  const auto [file, place] = old_and_new(workspace, from, to);
+  with_presets(workspace, from, to, move_entry);
+  move_entry(file, place);
 }
 
 void duplicate_file(const Workspace& workspace, const std::string& from, const std::string& to) {
-  const fs::path file = existing(workspace, from);
-  check_ending(from, to);
-  const fs::path place = new_place(workspace, to);
-  const auto copy = [](const fs::path& old, const fs::path& made) {
-    std::error_code error;
-    fs::copy(old, made, error);
-    check(error, made);
-  };
-  copy(file, place);
-  with_presets(workspace, from, to, copy);
+  const auto [file, place] = old_and_new(workspace, from, to);
+  copy_entry(file, place);
+  with_presets(workspace, from, to, copy_entry);
 }
 
 void make_folder(const Workspace& workspace, const std::string& name) {

@@ -4,9 +4,9 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <string>
 
+#include "base/system/environment.h"
 #include "base/system/hash.h"
 #include "base/text/error.h"
 #include "base/text/json.h"
@@ -17,11 +17,6 @@ namespace ombre::studio {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  return value ? value : "";
-}
 
 std::string hash_of(const fs::path& root) {
   std::error_code error;

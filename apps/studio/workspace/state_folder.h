@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/system/not_copied.h"
 #include "base/text/data.h"
 
 namespace ombre::studio {
@@ -19,13 +20,11 @@ std::filesystem::path state_folder(const std::filesystem::path& root);
 uint16_t usual_port(const std::filesystem::path& root);
 
 // The right to keep a folder's jobs, which one studio has at a time. It ends with the program, however that ends.
-class StateLock {
+class StateLock : NotCopied {
  public:
   // Makes the folder. Without a folder, or where it cannot be written, nobody has the right.
   explicit StateLock(const std::filesystem::path& state);
   ~StateLock();
-  StateLock(const StateLock&) = delete;
-  StateLock& operator=(const StateLock&) = delete;
 
   bool is_held() const { return file_ >= 0; }
 

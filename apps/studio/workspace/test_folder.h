@@ -9,11 +9,12 @@
 #include <functional>
 #include <string>
 
+#include "base/system/not_copied.h"
 #include "studio/workspace/studio_messages.h"
 
 namespace ombre::studio {
 
-class TestFolder {
+class TestFolder : NotCopied {
  public:
   TestFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
@@ -23,8 +24,6 @@ class TestFolder {
     std::filesystem::create_directories(path);
   }
   ~TestFolder() { std::filesystem::remove_all(path); }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
 
   void write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((path / name).parent_path());

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "base/system/not_copied.h"
 #include "studio/workspace/workspace.h"
 
 namespace ombre::studio {
@@ -21,15 +22,13 @@ struct UploadPiece {
 
 // Writes uploads beside their places, under a hidden name, and gives them their names when they are complete.
 // Thread-safe.
-class Uploads {
+class Uploads : NotCopied {
  public:
   static constexpr uint64_t most_bytes = uint64_t{8} << 30;
   static constexpr size_t most_open = 64;  // beyond it, the oldest unfinished file is given up
 
   explicit Uploads(const Workspace& workspace) : workspace_(workspace) {}
   ~Uploads();
-  Uploads(const Uploads&) = delete;
-  Uploads& operator=(const Uploads&) = delete;
 
   // Throws RequestError "exists" if there is a file of that name and it is not to be replaced, and others for names out
   // of the folder, unknown kinds of files and pieces out of order. Throws Error if the file cannot be written.

@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "base/system/not_copied.h"
 #include "base/text/source_text.h"
 #include "program/field_source.h"
 
@@ -10,13 +11,11 @@ namespace ombre::python {
 
 namespace py = pybind11;
 
-class HostFunction : public program::FieldSource {
+class HostFunction : public program::FieldSource, NotCopied {
  public:
   // `callable` takes three arrays of coordinates, mm, and returns an array of as many numbers, or one number.
   HostFunction(py::object callable, SourceRange where);
   ~HostFunction() override;
-  HostFunction(const HostFunction&) = delete;
-  HostFunction& operator=(const HostFunction&) = delete;
 
   const py::object& callable() const { return callable_; }
 

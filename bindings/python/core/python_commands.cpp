@@ -7,6 +7,7 @@
 #include <deque>
 #include <thread>
 
+#include "base/system/not_copied.h"
 #include "base/system/progress.h"
 #include "design_objects.h"
 #include "expr/expression.h"
@@ -69,12 +70,10 @@ void work(RunningJob& job) {
 }
 
 // A guard that stops a command when nobody waits for it any more.
-class StopAtEnd {
+class StopAtEnd : NotCopied {
  public:
   explicit StopAtEnd(StopFlag& stop) : stop_(stop) {}
   ~StopAtEnd() { stop_.request(); }
-  StopAtEnd(const StopAtEnd&) = delete;
-  StopAtEnd& operator=(const StopAtEnd&) = delete;
 
  private:
   StopFlag& stop_;

@@ -67,7 +67,7 @@ def _text(value):
     return os.fspath(value) if hasattr(value, "__fspath__") else str(value)
 
 
-def _members(kind, options):
+def members_of(kind, options):
     """{name: value} of a job's options: texts, lists of them, or True."""
     known = keywords_of(kind)
     members = {}
@@ -147,7 +147,7 @@ def run(kind, own, options, design=None, progress=None):
 
     Raises DesignError, MachineError, CheckError, KeyboardInterrupt.
     """
-    members = {**own, **_members(kind, options)}
+    members = {**own, **members_of(kind, options)}
     if design is not None:
         members["design"] = "design"
     events, data = _watched(kind, progress, lambda take: _core.run_job(kind, members, design, take))
@@ -156,7 +156,7 @@ def run(kind, own, options, design=None, progress=None):
 
 def voxel_grids(options, design, progress=None):
     """Returns [(kind of the numbers, array of the shape (z, y, x))] for the options of `ombre voxels`."""
-    members = {"design": "design", "output": "memory", **_members("voxels", options)}
+    members = {"design": "design", "output": "memory", **members_of("voxels", options)}
     _, grids = _watched("voxels", progress, lambda take: _core.voxels(members, design, take))
     return [(about, numpy.frombuffer(numbers, dtype=about["data_type"]).reshape(
         [int(n) for n in reversed(about["dimensions"])])) for about, numbers in grids]

@@ -9,9 +9,9 @@ import textwrap
 import numpy
 
 from . import _core
-from ._commands import keywords_of, length_text, options_of, run, voxel_grids
+from ._commands import keywords_of, length_text, members_of, options_of, run, voxel_grids
 from ._errors import DesignError
-from ._shares import slice_by
+from ._shares import optimise_by, slice_by
 from ._solid import Solid, _is_solid, _nodes, wrap
 
 
@@ -433,7 +433,7 @@ def load_text(text, name="design.vcad", folder="", materials=None, **variables):
     return Design._of(_core.Design.load(path, "" if materials is None else os.fspath(materials), definitions, text))
 
 
-def optimise(script, folder, study, materials=None, progress=None, **options):
+def optimise(script, folder, study, materials=None, progress=None, client=None, shares=None, **options):
     """Searches for the values of a script's variables that serve it best; see `ombre optimise`.
 
     Args:
@@ -442,15 +442,25 @@ def optimise(script, folder, study, materials=None, progress=None, **options):
         study: a .json file, or what it holds, as a dict; names of files in a dict begin in the working folder.
         materials: a materials file.
         progress: True for a bar, or a function of the share that is done, 0 to 1.
+        client: a client of Dask, or an executor of concurrent.futures, whose workers measure the designs of a generation;
+            all see the same folder.
+        shares: in how many shares these designs are measured; by default as many as there are workers.
 
     Returns:
         What `--json` would tell; `events` has a "best" for each of the best designs, with `variables` and `measures`.
     """
-    own = {"design": os.fspath(script), "output": os.fspath(folder)}
+    place = os.fspath if client is None else os.path.abspath  # workers may have other working folders
+    own = {"design": place(script), "output": place(folder)}
     if materials is not None:
-        own["materials"] = os.fspath(materials)
+        own["materials"] = place(materials)
     if isinstance(study, dict) and isinstance(study.get("fea"), str):
         study = {**study, "fea": os.path.abspath(study["fea"])}
+    elif not isinstance(study, dict):
+        study = place(study)
+    if client is not None:
+        return optimise_by(client, {**own, **members_of("optimise", {**options, "study": study})}, shares, progress)
+    if shares is not None:
+        raise TypeError("shares are for a client: optimise(..., client=..., shares=8)")
     return run("optimise", own, {**options, "study": study}, progress=progress)[0]
 
 

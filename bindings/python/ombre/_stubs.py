@@ -221,7 +221,8 @@ def stub():
     out += [f"    def __{name}__(self) -> Expression: ...\n" for name in ("neg", "pos", "abs", "invert")]
     out += [_middle]
     out += ["def optimise(script: Path, folder: Path, study: Union[Path, dict[str, Any]], materials: Optional[Path] = ...," +
-            f" progress: Progress = ...{_options('optimise', ('study',))}) -> dict[str, Any]:\n" +
+            f" progress: Progress = ..., client: Any = ..., shares: Optional[int] = ...{_options('optimise', ('study',))})"
+            " -> dict[str, Any]:\n" +
             _docstring(ombre.optimise.__doc__, 4) + "    ...\n"]
     infos = _solid.node_infos()
     jobs = "".join(_jobs())

@@ -8,6 +8,7 @@
 from ._attributes import (Attribute, DefaultAttributes, DerivedFloatAttribute, FloatAttribute, Vec3Attribute,
                           Vec4Attribute, VolumeFractionsAttribute)
 from ._bars import CapMode, Cone, PolygonRevolve, Strut
+from ._cell_maps import CellMap, CellMapCollection, TrimMode
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
                           Vec3ToScalarsConverter, VolumeFractionsExpressionConverter)
@@ -17,7 +18,9 @@ from ._errors import MissingFeature
 from ._field_datasets import (CoverageFailure, FieldAssociation, FieldCoverage, FieldDomain, FieldMetadata,
                               UnstructuredFieldDataset)
 from ._filters import Blend, BoxKernel, Convolution, Convolve, CustomKernel, Voxels
+from ._lattices import MappedGraphLattice, MappedImplicitLattice
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
+from . import _diagrams  # noqa: F401  # gives nodes the method to_diagram
 from ._missing import Map, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
@@ -31,6 +34,7 @@ from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._texts import parse_vcad_text, version
 from ._tree import Node
 from ._triangles import SurfaceMesh
+from ._unit_cells import GraphUnitCell, ImplicitUnitCell
 from ._vectors import Vec2, Vec3, Vec4
 from ._volumes import (DICOMLoader, FloatVolume, PNGColorMode, PNGLoader, Vec2sVolume, Vec3sVolume, Vec4sVolume,
                        vdb_loader)
@@ -52,7 +56,8 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "Vec2", "Vec3", "Vec4", "DICOMLoader", "FloatVolume", "PNGColorMode", "PNGLoader", "Vec2sVolume",
            "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
            "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "HexahedralMesh", "SimulationCellType", "SimulationModel", "TetrahedralMesh",
-           "UnstructuredFieldDataset", "XDMFFieldLoader"]
+           "UnstructuredFieldDataset", "XDMFFieldLoader", "CellMap", "CellMapCollection", "GraphUnitCell", "ImplicitUnitCell",
+           "MappedGraphLattice", "MappedImplicitLattice", "TrimMode"]
 
 
 def __getattr__(name: str) -> object:

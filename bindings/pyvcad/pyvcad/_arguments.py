@@ -6,6 +6,8 @@ import numbers
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import ombre
+
 from ._vectors import Vec3
 
 Point = tuple[float, float, float]
@@ -35,6 +37,8 @@ def read(what: str, forms: tuple[Form, ...], positional: tuple[Any, ...], named:
         except TypeError as error:
             if len(values) > best or len(fitting) == 1:  # most likely the intended form
                 best, reason = len(values), str(error)
+        except ombre.DesignError:  # has the place of the mistake
+            raise
         except ValueError as error:
             raise ValueError(f"{what}, {error}") from None
         else:
@@ -64,6 +68,8 @@ def _read_form(form: Form, given: dict[str, Any], values: dict[str, Any]) -> Non
             values[name] = reader(given[name])
         except TypeError as error:
             raise TypeError(f"{name}: {error}") from None
+        except ombre.DesignError:
+            raise
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from None
 

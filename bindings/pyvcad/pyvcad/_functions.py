@@ -10,9 +10,16 @@ import ombre
 _names = ("x", "y", "z", "rho", "phic", "r", "theta", "phis", "d")
 
 
-def expression(value: Any) -> Any:
-    """A string, a number or a callable, which comes back as Ombre takes it; raises TypeError for anything else."""
-    if isinstance(value, str) or hasattr(value, "_ombre_text_"):
+def expression(value: Any, is_checked: bool = True) -> Any:
+    """A string, a number or a callable, which comes back as Ombre takes it; raises TypeError for anything else.
+
+    A text that is no formula of coordinates is an error, unless it is not checked.
+    """
+    if isinstance(value, str):
+        if is_checked:
+            _check_formula(value)
+        return value
+    if hasattr(value, "_ombre_text_"):
         return value
     if callable(value):
         return pointwise(value)
@@ -20,6 +27,18 @@ def expression(value: Any) -> Any:
         return float(value)
     raise TypeError(f"expected an expression (a text), a number or a function of (x, y, z, rho, phic, r, theta, phis), "
                     f"found {type(value).__name__}")
+
+
+def _check_formula(text: str) -> None:
+    """Raises DesignError for a text that is no formula, on the line of the script that writes it."""
+    from ._tree import _call_place
+    try:
+        ombre.attribute(ombre.cube(1), "value", text)
+    except ombre.DesignError as error:
+        diagnostics = getattr(error, "diagnostics", [])
+        reasons = "; ".join(d["message"] + (f"; {d['hint']}" if d.get("hint") else "") for d in diagnostics)
+        file, line = _call_place()
+        raise ombre.DesignError(f"{file}:{line}: the formula {text!r} is wrong: {reasons or error}") from None
 
 
 def pointwise(function: Callable[..., float]) -> Callable[..., Any]:

@@ -57,11 +57,21 @@ class MaterialDefs:
         except KeyError as error:
             raise KeyError(error.args[0]) from None
 
-    def id(self, name: str) -> int:
-        """The id of a material. Names do not mind case. Raises KeyError."""
+    def id(self, name: Any) -> int:
+        """The id of a material by its name, whose case does not matter, or by its colour as a Vec4. Raises KeyError."""
+        if isinstance(name, Vec4):
+            return self._id_of_color(name)
         if not isinstance(name, str):
             raise TypeError(f"id: expected a material's name, found {type(name).__name__}")
         return int(self._entry(name)["id"])
+
+    def _id_of_color(self, color: Vec4) -> int:
+        scale = 255.0 if all(0 <= c <= 1 for c in color) else 1.0
+        wanted = tuple(round(scale * c) for c in color)
+        for entry in self._entries():
+            if tuple(round(c) for c in self.color(entry["id"])) == wanted:
+                return int(entry["id"])
+        raise KeyError(f"there is no material of the colour {color!r}")
 
     def name(self, id: int) -> str:
         """The name of a material. Raises KeyError."""
@@ -119,10 +129,17 @@ class _DefaultMaterials(MaterialDefs):
 class _ShippedMaterials(MaterialDefs):
     """A file of the folder `materials`, read when it is first asked for."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, other_names: dict[str, str]) -> None:
         self._path = os.path.join(resources_path(), "materials", name + ".json")
         self._read = None
         self._colors = {}
+        self._other_names = other_names
+
+    def _entry(self, key: int | str) -> dict[str, Any]:
+        return super()._entry(self._other_names.get(key.lower(), key) if isinstance(key, str) else key)
+
+    def contains(self, key: int | str) -> bool:
+        return super().contains(self._other_names.get(key.lower(), key) if isinstance(key, str) else key)
 
 
 def expect_table(what: str, value: Any) -> MaterialDefs | None:
@@ -157,4 +174,5 @@ def resources_path() -> str:
 
 
 default_materials = _DefaultMaterials()
-j750_materials = _ShippedMaterials("j750")
+j750_materials = _ShippedMaterials("j750", {"veroyl-v": "VeroYellow", "verocy-v": "VeroCyan", "veromgt-v": "VeroMagenta",
+                                            "veromgnt": "VeroMagenta"})

@@ -9,9 +9,10 @@ from ._errors import missing
 from ._tree import Node
 
 _grids = "ombre voxels writes grids, and node.toSignedDistanceArray and toRGBAArray give arrays"
-_lattices = "tile a GraphLattice, or write the lattice as a Function"
+_maps = "ombre.surface_cells(path, ...) maps cells on meshes and faces of CAD files, also up to another surface"
 _surfaces = "ombre.conformal_map, surface_map and relief lay things along surfaces"
 _images = "ombre.relief reads images as heights"
+_tables = "its measurements are not free to copy; register_calibration(name or file) takes a calibration of your own"
 
 # Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
 MISSING: dict[str, dict[str, str]] = {
@@ -21,9 +22,7 @@ MISSING: dict[str, dict[str, str]] = {
         "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
         "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions",
-        "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CellMap": _surfaces, "CellMapCollection": _surfaces,
-        "MappedImplicitLattice": _lattices, "MappedGraphLattice": _lattices, "ImplicitUnitCell": _lattices,
-        "GraphUnitCell": _lattices, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
+        "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
         "TriangleMeshSurface": _surfaces, "MeshSelection": "", "probe_point": "node.snap(point)",
         "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
         "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
@@ -31,20 +30,30 @@ MISSING: dict[str, dict[str, str]] = {
         ("ColorPipeline", "GCVFCompiler"),
         "ColorInkjetCompiler and MaterialInkjetCompiler write the images of a material printer") | dict.fromkeys(
         ("MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
-         "MyersonCompiler"), "VatCompiler writes gray images") | dict.fromkeys(
+         "MyersonCompiler"), "VatCompiler writes gray images, and ombre slice -o part.sl1 an archive for printers") | dict.fromkeys(
         ("FullSpectrumSlicerProjectCompiler",),
         "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
-    "pyvcad_rendering": {
-        "Render_Image": "Render(root, materials, path=\"part.png\")", "Render_Sweep_Animation": "", "VisualizeSDF": "",
-        "Render_Turntable_Animation": "", "Render_Tree_Diagram": "", "Render_Tree_Legend": "",
-        "export_iso_surface_vtk": "Export(root, materials, path=\"part.ply\")",
-        "export_volume_vtk": "Export(root, materials, path=\"part.vdb\")", "select_mesh_patch": "",
-        "resolve_selection_mesh": "", "save_mesh_selection": "", "load_mesh_selection": "", "replay_mesh_selection": ""},
+    "pyvcad_metamaterials": dict.fromkeys(
+        ("cell_map_from_cad_face", "cell_map_between_cad_faces", "cell_map_from_surface", "cell_map_between_surfaces"),
+        _maps) | dict.fromkeys(
+        ("voronoi_plate_lattice", "delaunay_plate_lattice"), "ombre.voronoi_walls and delaunay_walls make walls") | {
+        "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
+        "rim": "an Intersection with a Shell", "mix_many": "mix(a, b, weight), one after the other",
+        "idw_weight": "ombre.point_distance gives the distance to the nearest of points"},
+    "pyvcad_metamaterials.properties": {"characterize_mesh": "characterize(Mesh(surface), voxel_size)"},
+    "pyvcad_rendering": dict.fromkeys(
+        ("select_mesh_patch", "resolve_selection_mesh", "save_mesh_selection", "load_mesh_selection",
+         "replay_mesh_selection"), ""),
+    "pyvcad_attribute_resolver": dict.fromkeys(
+        ("register_pla_conversions", "register_tpu_conversions", "register_foaming_conversions",
+         "register_j750_shore_hardness_conversions", "register_j750_modulus_toughness_conversions",
+         "generate_j750_modulus_toughness_lookup_table", "generate_j750_modulus_toughness_reachable_region_plot",
+         "register_stratasys_radiomatrix_conversions"), _tables),
 }
 
 # Methods of nodes that are missing, with what to use instead.
 _methods = {
-    "to_diagram": "", "set_attribute_conflict_resolver": "it is a method of Union, Intersection and BBoxUnion",
+    "set_attribute_conflict_resolver": "it is a method of Union, Intersection and BBoxUnion",
     "attribute_conflict_resolvers": "it is a method of Union, Intersection and BBoxUnion", "get_gradient_epsilon": "",
     "set_gradient_epsilon": "", "component_parameter": "", "segment_info": ""}
 

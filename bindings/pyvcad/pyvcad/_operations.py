@@ -92,6 +92,15 @@ class Identity(Unary):
         return solids[0]
 
 
+def _resolved(node: NAry, whole: ombre.Solid, solids: list[ombre.Solid]) -> ombre.Solid:
+    """The solid with the attributes for which a resolver is given that Ombre has no word for."""
+    for name, resolver in node._rules.items():
+        own = [solid for child, solid in zip(node._inputs(), solids) if name in child.attribute_list()]
+        if not resolver._rule and own:
+            whole = given(whole, name, resolver, own)
+    return whole
+
+
 class _Boolean(NAry):
     """Forms: (), (mix), (mix, children), (k), (k, mix), (k, mix, children), (k, children), (children), (a, b, ...).
 
@@ -111,11 +120,7 @@ class _Boolean(NAry):
         rule = "mix" if self._mix or self._mixes() else "first"
         whole: ombre.Solid = getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend,
                                                              attributes=self._attribute_rules())
-        for name, resolver in self._rules.items():
-            own = [solid for node, solid in zip(self._inputs(), solids) if name in node.attribute_list()]
-            if not resolver._rule and own:
-                whole = given(whole, name, resolver, own)
-        return whole
+        return _resolved(self, whole, solids)
 
 
 class Union(_Boolean):
@@ -141,8 +146,9 @@ class BBoxUnion(NAry):
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.union(solids, materials="mix" if self._mixes() else "first", blend=self._blend,
-                           attributes=self._attribute_rules())
+        whole: ombre.Solid = ombre.union(solids, materials="mix" if self._mixes() else "first", blend=self._blend,
+                                         attributes=self._attribute_rules())
+        return _resolved(self, whole, solids)
 
 
 class BBoxIntersection(NAry):
@@ -153,8 +159,9 @@ class BBoxIntersection(NAry):
         super().__init__(values["children"])
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.intersection(solids, materials="mix" if self._mixes() else "first",
-                                  attributes=self._attribute_rules())
+        whole: ombre.Solid = ombre.intersection(solids, materials="mix" if self._mixes() else "first",
+                                                attributes=self._attribute_rules())
+        return _resolved(self, whole, solids)
 
 
 class Difference(Binary):
@@ -285,7 +292,8 @@ class Tile(Unary):
         self._steps: Point | None = tuple(values[c] for c in steps) if "cx" in values else None  # type: ignore[assignment]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return ombre.tile(solids[0], self._steps)
+        assert self._child is not None
+        return ombre.tile(self._child._tiled(solids[0]), self._steps)
 
 
 def _list_of(reader: Any) -> Any:

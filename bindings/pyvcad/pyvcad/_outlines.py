@@ -7,7 +7,7 @@ import ombre
 
 from ._arguments import Optional, Point, boolean, length, read, text, vector
 from ._enums import FontAspect, HorizontalAlignment, VerticalAlignment
-from ._solids import _Leaf, _one
+from ._solids import _Leaf, _one, _unset
 
 _free_font = "DejaVu Sans Mono"  # replaces Consolas, the default of pyvcad
 _styles = {FontAspect.Regular: "regular", FontAspect.Bold: "bold", FontAspect.Italic: "italic",
@@ -28,18 +28,22 @@ def _choice(words: dict[Any, str]) -> Any:
 
 
 class Text(_Leaf):
-    """Letters with a depth, half of it to each side of z = 0: Text(text, height, depth, material=1, aspect, font, h_align, v_align).
+    """Letters with a depth, half of it to each side of z = 0: Text(text, height, depth, material=1, aspect, font,
+    h_align, v_align), or without the material: Text(text, height, depth, aspect, font, h_align, v_align).
 
     The height is the font's size; capitals are about 0.7 times as tall. Lines end with a line feed.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
-        form = {"text": text, "height": length, "depth": length, "material": _one,
-                "aspect": Optional(_choice(_styles), "regular"), "font": Optional(text, None),
-                "h_align": Optional(_choice(_sides), "center"), "v_align": Optional(_choice(_levels), "center")}
+        sizes = {"text": text, "height": length, "depth": length}
+        styles = {"aspect": Optional(_choice(_styles), "regular"), "font": Optional(text, None),
+                  "h_align": Optional(_choice(_sides), "center"), "v_align": Optional(_choice(_levels), "center")}
+        has_material = len(arguments) < 4 or not isinstance(arguments[3], FontAspect)
+        material: dict[str, Any] = {"material": _one} if has_material else {}
+        form: dict[str, Any] = {**sizes, **material, **styles}
         values = read("Text", (form,), arguments, named)
-        self._material = values.pop("material")
+        self._material = values.pop("material", _unset)
         self._values = values
         if not values["text"].strip():
             raise ValueError("Text: expected a text with letters")

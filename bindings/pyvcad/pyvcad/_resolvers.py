@@ -111,6 +111,7 @@ def given(whole: ombre.Solid, name: str, resolver: Resolver, solids: list[ombre.
 class resolvers:
     """How an attribute combines where children overlap; without one, the first child that has it wins."""
 
+    Vec4Mode = Vec4Mode
     AverageConflictResolver = AverageConflictResolver
     MinConflictResolver = MinConflictResolver
     MaxConflictResolver = MaxConflictResolver

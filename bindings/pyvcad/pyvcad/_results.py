@@ -11,6 +11,11 @@ from ._operations import _list_of
 from ._solids import _find, _Leaf
 
 
+def _of_displacements(value: Any) -> Any:
+    """An expression of dx, dy, dz and len, which are known once there is a solid."""
+    return expression(value, is_checked=False)
+
+
 class SimulationField(_Leaf):
     """Solid within a mesh of elements: SimulationField(inp_path, csv_path, expressions, materials, prob_mode=True).
 
@@ -29,7 +34,7 @@ class SimulationField(_Leaf):
               ) -> None:
         name = type(self).__name__
         lists = ("functions" if first else "expressions", "materials")
-        form = {**first, "inp_path": text, "csv_path": text, lists[0]: _list_of(expression),
+        form = {**first, "inp_path": text, "csv_path": text, lists[0]: _list_of(_of_displacements),
                 lists[1]: _list_of(material), **mode}
         values = read(name, (form,), arguments, named)
         self._functions, self._materials = values[lists[0]], values["materials"]

@@ -125,7 +125,8 @@ _cells = {LatticeType.BodyCenteredCubic: "bcc", LatticeType.FaceCenteredCubic: "
 class GraphLattice(_Leaf):
     """Struts with round ends along edges: GraphLattice(edges, radius, material=1); an edge is a pair of Vec3.
 
-    Or those of a unit cell, centred on the origin: GraphLattice(type, size, radius, material=1).
+    Or those of a unit cell, centred on the origin and cut at its box: GraphLattice(type, size, radius, material=1). Tile
+    joins whole struts.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
@@ -139,11 +140,21 @@ class GraphLattice(_Leaf):
         self._radius, self._material = values["radius"], values["material"]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        struts: ombre.Solid = self._struts()
+        if "cell" not in self._shape:
+            return struts
+        return ombre.intersection(struts, ombre.rectprism(self._shape["size"], self._material), materials="first")
+
+    def _struts(self) -> ombre.Solid:
         return ombre.lattice(**self._shape, radius=self._radius, material=self._material)
+
+    def _tiled(self, solid: ombre.Solid) -> ombre.Solid:
+        return self._with_attributes(self._struts()) if "cell" in self._shape else solid
 
 
 class Function(_Leaf):
-    """Points of a box where an expression is 0 or less: Function(expr, material=1, min=Vec3(-10, ...), max=Vec3(10, ...)).
+    """Points of a box where an expression is 0 or less: Function(expr, material=1, min=Vec3(-10, ...), max=Vec3(10, ...)),
+    or without the material: Function(expr, min, max).
 
     The expression is a text, or a function of (x, y, z, rho, phic, r, theta, phis), which is slow.
     """
@@ -151,10 +162,12 @@ class Function(_Leaf):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
         corner = (10.0, 10.0, 10.0)
-        form = {"expr": expression, "material": _one, "min": Optional(vector, tuple(-c for c in corner)),
-                "max": Optional(vector, corner)}
+        box = {"min": Optional(vector, tuple(-c for c in corner)), "max": Optional(vector, corner)}
+        has_material = len(arguments) < 2 or not hasattr(arguments[1], "__len__")
+        material: dict[str, Any] = {"material": _one} if has_material else {}
+        form: dict[str, Any] = {"expr": expression, **material, **box}
         values = read("Function", (form,), arguments, named)
-        self._expression, self._material = values["expr"], values["material"]
+        self._expression, self._material = values["expr"], values.get("material", _unset)
         self._min, self._max = values["min"], values["max"]
         if not all(a < b for a, b in zip(self._min, self._max)):
             raise ValueError(f"Function: expected min below max along x, y and z, found {self._min} and {self._max}")

@@ -20,7 +20,8 @@ from ._attributes import Attribute, checked
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
 from ._vectors import Vec3
 
-_folder = os.path.dirname(os.path.abspath(__file__)) + os.sep
+# The names of files of these packages begin with this: .../pyvcad/, .../pyvcad_metamaterials/ and so on.
+_packages = os.path.dirname(os.path.abspath(__file__))
 
 
 Place = tuple[str, int]  # a file, and a line of it
@@ -70,6 +71,9 @@ class Node:
     def _replace(self, of: Callable[[Node], Node]) -> None:
         """Puts `of(child)` in place of every child."""
 
+    def _take_copies(self) -> None:
+        """Makes lists that a copy shares with its original its own."""
+
     def _fractions(self) -> set[int] | None:
         """The materials that its attribute names, if it has one that says of what it is."""
         attribute = self._attributes.get("volume_fractions")
@@ -116,13 +120,21 @@ class Node:
         if self._solid is None or self._factory is not factory or not is_same:
             try:
                 with made_at(self._place):
-                    self._solid = self._make(solids)
-                    for name, attribute in self._attributes.items():
-                        self._solid = attribute._given_to(self._solid, name)
+                    self._solid = self._with_attributes(self._make(solids))
             except (ombre.DesignError, TypeError) as error:
                 raise self._error(_text_of(error)) from None
             self._factory, self._built_from = factory, solids
         self._checked_at = _Changes.count
+
+    def _with_attributes(self, solid: ombre.Solid) -> ombre.Solid:
+        """The solid with the attributes that were set on the node."""
+        for name, attribute in self._attributes.items():
+            solid = attribute._given_to(solid, name)
+        return solid
+
+    def _tiled(self, solid: ombre.Solid) -> ombre.Solid:
+        """The solid that Tile repeats, from the node's own."""
+        return solid
 
     def _error(self, text: str) -> ombre.DesignError:
         file, line = self._place
@@ -240,6 +252,7 @@ class Node:
         for node in in_order(self):
             twin = copy.copy(node)
             twin._home, twin._attributes = node._home, dict(node._attributes)
+            twin._take_copies()
             twin._replace(lambda child: copies[id(child)])
             copies[id(node)] = twin
         return copies[id(self)]
@@ -463,7 +476,7 @@ def _solid_of(node: Node) -> ombre.Solid:
 def _call_place() -> Place:
     """File and line of the script's code that runs."""
     frame = sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(_folder):
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_packages):
         frame = frame.f_back
     return frame.f_code.co_filename, frame.f_lineno
 

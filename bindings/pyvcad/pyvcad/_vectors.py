@@ -85,10 +85,18 @@ class Vec3(_Vector):
 
 
 class Vec4(_Vector):
-    """Four numbers: Vec4(x, y, z, w), or Vec4() for zeros; colours are red, green, blue and opacity, 0 to 255."""
+    """Four numbers: Vec4(x, y, z, w), or Vec4() for zeros; r, g, b and a are the same numbers.
+
+    Colours of materials are red, green, blue and opacity from 0 to 255, those of attributes from 0 to 1.
+    """
 
     __slots__ = ("x", "y", "z", "w")
     x: float
     y: float
     z: float
     w: float
+
+    r = property(lambda self: self.x, lambda self, value: setattr(self, "x", float(value)))
+    g = property(lambda self: self.y, lambda self, value: setattr(self, "y", float(value)))
+    b = property(lambda self: self.z, lambda self, value: setattr(self, "z", float(value)))
+    a = property(lambda self: self.w, lambda self, value: setattr(self, "w", float(value)))

@@ -24,10 +24,7 @@ class _AttributeCompiler(_Compiler):
     _required: tuple[str, ...] = ()
     _root: Any
     _voxel: tuple[float, float, float]
-    _is_strict = _is_stopped = False
-
-    def set_progress_callback(self, callback: Callable[[float], Any] | None) -> None:
-        self.setProgressCallback(callback)
+    _is_strict = False
 
     def supported_attributes(self) -> list[str]:
         return list(self._required)
@@ -35,19 +32,6 @@ class _AttributeCompiler(_Compiler):
     def set_strict_mode(self, strict: bool) -> None:
         """Makes places of the part without the attribute an error, before anything is written."""
         self._is_strict = bool(strict)
-
-    def cancel(self) -> None:
-        """Ends a compile() under way, from its callback or another thread; it raises RuntimeError and writes nothing."""
-        self._is_stopped = True
-
-    def _share(self, share: float) -> None:
-        self._stop_if_cancelled()
-        self._report(share)
-        self._stop_if_cancelled()
-
-    def _stop_if_cancelled(self) -> None:
-        if self._is_stopped:
-            raise RuntimeError(f"{type(self).__name__}: cancelled")
 
     def _check_everywhere(self, name: str, lacks: Callable[[Node], bool], has: Callable[[Node], bool]) -> None:
         """Raises RuntimeError at the first voxel of nodes that lack the attribute, where none above has it."""

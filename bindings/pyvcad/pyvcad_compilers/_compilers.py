@@ -25,6 +25,7 @@ Path = str | os.PathLike[str]
 
 class _Compiler:
     _callback: Callable[[float], Any] | None = None
+    _is_stopped = False
 
     def setProgressCallback(self, callback: Callable[[float], Any] | None) -> None:
         """A function of the share that is done, 0 to 1."""
@@ -32,9 +33,34 @@ class _Compiler:
             raise TypeError(f"setProgressCallback: expected a function, found {type(callback).__name__}")
         self._callback = callback
 
+    set_progress_callback = setProgressCallback
+
+    def supported_attributes(self) -> list[str]:
+        """The names of attributes that it reads: none."""
+        return []
+
+    def report_stats(self) -> None:
+        """Prints the settings and results of the last compile()."""
+        for name, value in sorted(vars(self).items()):
+            if isinstance(value, (int, float, str, tuple)) and not isinstance(value, bool):
+                print(f"{name.strip('_').replace('_', ' ')}: {value}")
+
     def _report(self, share: float) -> None:
         if self._callback:
             self._callback(share)
+
+    def cancel(self) -> None:
+        """Ends a compile() under way, from its callback or another thread; it raises RuntimeError and writes nothing."""
+        self._is_stopped = True
+
+    def _share(self, share: float) -> None:
+        self._stop_if_cancelled()
+        self._report(share)
+        self._stop_if_cancelled()
+
+    def _stop_if_cancelled(self) -> None:
+        if self._is_stopped:
+            raise RuntimeError(f"{type(self).__name__}: cancelled")
 
 
 class DirectMaterialCompiler(_Compiler):
@@ -58,11 +84,12 @@ class DirectMaterialCompiler(_Compiler):
         self._folder, self._prefix = os.fspath(output_directory), file_prefix
 
     def compile(self) -> None:
+        self._is_stopped = False
         design = self._root._ombre_design_(self._materials)
         os.makedirs(self._folder, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as folder:
             job = os.path.join(folder, "job")
-            design.slice(job, voxel=self._voxel, progress=self._callback)
+            design.slice(job, voxel=self._voxel, progress=self._share)
             images = sorted(name for name in os.listdir(job) if name.endswith(".png"))
             for number, image in enumerate(images):
                 os.replace(os.path.join(job, image), _image_path(self._folder, self._prefix, number))
@@ -90,6 +117,7 @@ class GrayscaleCompiler(_Compiler):
         self._folder, self._prefix = os.fspath(output_directory), file_prefix
 
     def compile(self) -> None:
+        self._is_stopped = False
         others = set(self._root.material_list()) - {0, self._low, self._high}
         if others:
             raise ombre.DesignError(f"GrayscaleCompiler: the design has the material {min(others)} beside the low one "
@@ -98,7 +126,7 @@ class GrayscaleCompiler(_Compiler):
         axes = self._axes(design.bounds)
         high = design.materials.names[self._high] if self._high < len(design.materials) else ""
         os.makedirs(self._folder, exist_ok=True)
-        for layers, points in slabs(axes, self._callback):
+        for layers, points in slabs(axes, self._share):
             shares = design.material(points).get(high, numpy.zeros(points.shape[:3]))
             for layer, number in enumerate(range(layers.start, layers.stop)):
                 pixels = numpy.rint(255 * shares[layer, ::-1]).astype(numpy.uint8)
@@ -138,11 +166,12 @@ class MeshCompiler(_Compiler):
         self._folder, self._prefix = os.fspath(output_directory), file_prefix
 
     def compile(self) -> None:
+        self._is_stopped = False
         design = self._root._ombre_design_(self._materials)
         os.makedirs(self._folder, exist_ok=True)
         bands: dict[str, Any] = {"bands": self._bands} if self._bands > 1 and len(self._root.material_list()) > 1 else {"by": "whole"}
         design.mesh(os.path.join(self._folder, self._prefix + ".3mf"), tolerance=min(self._voxel) / 8, force=True,
-                    progress=self._callback, **bands)
+                    progress=self._share, **bands)
         self._report(1.0)
 
 

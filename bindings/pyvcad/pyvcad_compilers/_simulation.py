@@ -149,8 +149,8 @@ class SimulationCompiler(_AttributeCompiler):
         settings, design = self._settings, self._root._ombre_design_(self._table)
         if settings.mesh_kind is SimulationMeshKind.HEX:
             cell = voxel_size(settings.hex_settings.voxel_size)
-            return bricks_of(design, cell, settings.random_seed, self._callback)
-        return tetrahedra_of(design, tetra_criteria(settings.tet_fixed_settings), settings.random_seed, self._callback)
+            return bricks_of(design, cell, settings.random_seed, self._share)
+        return tetrahedra_of(design, tetra_criteria(settings.tet_fixed_settings), settings.random_seed, self._share)
 
     def _described(self, elements: Elements, names: list[str]) -> SimulationModel:
         each = elements.cells.shape[1]

@@ -51,5 +51,5 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
                                f"{', '.join(self.supported_attributes())}")
         os.makedirs(os.path.dirname(os.path.abspath(self._path)), exist_ok=True)
         self._root._design().mesh(self._path, by=",".join(chosen), bands=self._bands, flavour="prusa", force=True,
-                                  tolerance=min(self._voxel) / 8, progress=self._callback)
+                                  tolerance=min(self._voxel) / 8, progress=self._share)
         self._report(1.0)

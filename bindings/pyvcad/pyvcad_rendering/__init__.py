@@ -16,7 +16,15 @@ from pyvcad._materials import expect_table
 from pyvcad._missing import attribute_of
 from pyvcad._tree import as_node
 
-__all__ = ["Render", "Export"]
+from . import vtk_export
+from ._diagram_files import Render_Tree_Diagram, Render_Tree_Legend
+from ._pictures import (Render_Image, Render_Sweep_Animation, Render_Turntable_Animation, RenderSettings, VisualizeSDF,
+                        first_scaled_attribute)
+from .vtk_export import export_iso_surface_vtk, export_volume_vtk
+
+__all__ = ["Render", "Export", "RenderSettings", "Render_Image", "Render_Sweep_Animation", "Render_Tree_Diagram",
+           "Render_Tree_Legend", "Render_Turntable_Animation", "VisualizeSDF", "export_iso_surface_vtk",
+           "export_volume_vtk", "vtk_export"]
 
 # The methods of a design that are not called as their kinds of jobs.
 _methods = {"voxels": "write_voxels"}
@@ -48,7 +56,13 @@ def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
     if is_hosted():
         take_note(as_node(root), materials)
         return
-    design = as_node(root)._ombre_design_(materials)
+    node = as_node(root)
+    design = node._ombre_design_(materials)
+    # A part with attributes in place of materials has the colours of the first one that varies.
+    if "by" not in options and node.attribute_list() and "volume_fractions" not in node.attribute_list():
+        if name := first_scaled_attribute(node):
+            options["by"] = name
+            options.setdefault("legend", True)
     design.show(None if path is None else os.fspath(path), **options)
 
 
@@ -82,6 +96,11 @@ def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
     design = as_node(root)._ombre_design_(materials)
     getattr(design, method)(target, **options)
     print(f"written to {target}", file=sys.stderr)
+
+
+render, export, render_image = Render, Export, Render_Image
+render_sweep_animation, render_turntable_animation = Render_Sweep_Animation, Render_Turntable_Animation
+render_tree_diagram, render_tree_legend = Render_Tree_Diagram, Render_Tree_Legend
 
 
 def __getattr__(name: str) -> object:

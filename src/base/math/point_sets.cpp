@@ -6,6 +6,7 @@
 
 #include "base/math/point_set_checks.h"
 #include "base/math/point_sets.h"
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 
 #ifdef OMBRE_QHULL
@@ -18,7 +19,7 @@ namespace ombre {
 namespace {
 
 // A run of Qhull over points. Its facets are valid as long as the object lives.
-class Qhull {
+class Qhull : NotCopied {
  public:
   Qhull(std::span<const Vec3> points, const char* command)
       : count_(points.size()), silence_(std::fopen("/dev/null", "w")) {
@@ -34,8 +35,6 @@ class Qhull {
     int blocks = 0, bytes = 0;
     qh_memfreeshort(&qh_, &blocks, &bytes);
   }
-  Qhull(const Qhull&) = delete;
-  Qhull& operator=(const Qhull&) = delete;
 
   bool failed() const { return failed_; }
   qhT* handle() { return &qh_; }
@@ -153,22 +152,54 @@ OfPoints<Plane> hull_planes(std::span<const Vec3> points) {
   return planes;
 }
 
-OfPoints<Edge3> delaunay_edges(std::span<const Vec3> points) {
-  if (std::string problem = problem_of_points(points, 5, false); !problem.empty()) return {{}, std::move(problem)};
+namespace {
+
+// Calls visit(corners) for each tetrahedron of the Delaunay triangulation. Returns what is wrong with the points, if
+// anything is.
+template <class Visit>
+std::string for_tetrahedra(std::span<const Vec3> points, const Visit& visit) {
+  if (std::string problem = problem_of_points(points, 5, false); !problem.empty()) return problem;
   Qhull cells(points, "qhull d Qt Qbb Qc Qz Q12 Pp");
-  if (cells.failed()) return {{}, no_answer};
-  std::vector<std::array<size_t, 2>> pairs;
+  if (cells.failed()) return no_answer;
   cells.for_facets([&](const facetT& facet) {
-    if (facet.upperdelaunay) return;
-    const std::vector<size_t> corners = cells.corners(facet);
+    if (!facet.upperdelaunay) visit(cells.corners(facet));
+  });
+  return {};
+}
+
+template <class List>
+void sort_without_repeated(List& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+}  // namespace
+
+OfPoints<Edge3> delaunay_edges(std::span<const Vec3> points) {
+  std::vector<std::array<size_t, 2>> pairs;
+  std::string problem = for_tetrahedra(points, [&](const std::vector<size_t>& corners) {
     for (size_t i = 0; i < corners.size(); ++i)
       for (size_t j = i + 1; j < corners.size(); ++j) pairs.push_back({corners[i], corners[j]});
   });
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  if (!problem.empty()) return {{}, std::move(problem)};
+  sort_without_repeated(pairs);
   OfPoints<Edge3> edges;
   for (const auto [a, b] : pairs) edges.list.push_back({points[a], points[b]});
   return edges;
+}
+
+OfPoints<std::array<Vec3, 3>> delaunay_faces(std::span<const Vec3> points) {
+  std::vector<std::array<size_t, 3>> triples;
+  std::string problem = for_tetrahedra(points, [&](const std::vector<size_t>& corners) {
+    for (size_t i = 0; i < corners.size(); ++i)
+      for (size_t j = i + 1; j < corners.size(); ++j)
+        for (size_t k = j + 1; k < corners.size(); ++k) triples.push_back({corners[i], corners[j], corners[k]});
+  });
+  if (!problem.empty()) return {{}, std::move(problem)};
+  sort_without_repeated(triples);
+  OfPoints<std::array<Vec3, 3>> faces;
+  for (const auto [a, b, c] : triples) faces.list.push_back({points[a], points[b], points[c]});
+  return faces;
 }
 
 OfPoints<Edge3> voronoi_edges(std::span<const Vec3> points, const std::optional<Box>& box) {
@@ -219,6 +250,7 @@ constexpr const char* no_library =
 
 OfPoints<Plane> hull_planes(std::span<const Vec3>) { return {{}, no_library}; }
 OfPoints<Edge3> delaunay_edges(std::span<const Vec3>) { return {{}, no_library}; }
+OfPoints<std::array<Vec3, 3>> delaunay_faces(std::span<const Vec3>) { return {{}, no_library}; }
 OfPoints<Edge3> voronoi_edges(std::span<const Vec3>, const std::optional<Box>&) { return {{}, no_library}; }
 
 }  // namespace ombre

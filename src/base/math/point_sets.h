@@ -36,6 +36,8 @@ OfPoints<Plane> hull_planes(std::span<const Vec3> points);
 // Returns the edges of the tetrahedra whose circumspheres contain no other point. If more than four points lie on a
 // sphere, one of the possible triangulations is used.
 OfPoints<Edge3> delaunay_edges(std::span<const Vec3> points);
+// Returns the faces of those tetrahedra.
+OfPoints<std::array<Vec3, 3>> delaunay_faces(std::span<const Vec3> points);
 // Returns the edges on which three or more points are equally near and no other point is nearer. Edges that extend to
 // infinity are left out, or are cut at the sides of `box` if it is given.
 OfPoints<Edge3> voronoi_edges(std::span<const Vec3> points, const std::optional<Box>& box);

@@ -11,16 +11,16 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/not_copied.h"
+
 namespace ombre {
 
 // Computes make(0), make(1) ... make(count - 1) in order on its own thread. At most `window` results wait to be taken.
 template <class T>
-class Ahead {
+class Ahead : NotCopied {
  public:
   Ahead(size_t count, size_t window, std::function<T(size_t)> make)
       : count_(count), window_(window), make_(std::move(make)), thread_([this] { work(); }) {}
-  Ahead(const Ahead&) = delete;
-  Ahead& operator=(const Ahead&) = delete;
   ~Ahead() {
     {
       const std::scoped_lock lock(mutex_);

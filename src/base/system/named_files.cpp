@@ -1,7 +1,16 @@
 #include "base/system/named_files.h"
 
+#include <dirent.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "base/text/error.h"
 
 namespace ombre {
 
@@ -25,6 +34,31 @@ std::vector<std::string> places_of(const std::string& path, const std::string& n
   }
   add(path);
   return places;
+}
+
+// The iterators of libstdc++ end the program if there is no memory for them.
+std::vector<std::string> names_in(const std::string& folder) {
+  const auto fail = [&] {
+    if (errno == ENOMEM) throw std::bad_alloc();
+    const std::string reason = std::generic_category().message(errno);
+    throw Error(Code::cannot_read, "cannot read the folder " + folder + ": " + reason, {{"file", folder}});
+  };
+  struct Close {
+    void operator()(DIR* open) const { closedir(open); }
+  };
+  const std::unique_ptr<DIR, Close> open(opendir(folder.c_str()));
+  if (!open) fail();
+  std::vector<std::string> names;
+  for (;;) {
+    errno = 0;
+    const dirent* const entry = readdir(open.get());
+    if (!entry) break;
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") names.emplace_back(name);
+  }
+  if (errno != 0) fail();
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace ombre

@@ -12,13 +12,14 @@
 #include <cstring>
 #include <thread>
 
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 
 namespace ombre {
 namespace {
 
 // Actions and attributes of posix_spawn, which are freed here.
-class SpawnPlan {
+class SpawnPlan : NotCopied {
  public:
   explicit SpawnPlan(const OtherProgram& program) {
     posix_spawn_file_actions_init(&actions_);
@@ -31,8 +32,6 @@ class SpawnPlan {
     posix_spawnattr_init(&attributes_);
     posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);  // so that Ctrl-C does not reach the program
   }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
   ~SpawnPlan() {
     posix_spawn_file_actions_destroy(&actions_);
     posix_spawnattr_destroy(&attributes_);

@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <string>
 
+#include "base/system/not_copied.h"
+
 namespace ombre {
 
-class TemporaryFolder {
+class TemporaryFolder : NotCopied {
  public:
   // Creates the folder in the system's folder for temporary files. Throws Error if this fails.
   TemporaryFolder();
   ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   std::string file(const std::string& name) const { return (path_ / name).string(); }

@@ -130,6 +130,14 @@ bool MemberReader::has_no_slips(const Data& data, const std::string& what,
   return error_count() == before;
 }
 
+std::optional<std::string> MemberReader::plain_name(const Data& data, const std::string& what) const {
+  const auto name = text(data, "name");
+  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+  if (!name || std::ranges::all_of(*name, is_plain)) return name;
+  fail(data, what + "'s name is made of lower-case letters, digits and '-'");
+  return std::nullopt;
+}
+
 void MemberReader::has_one_of(const Data& data, const std::string& what, const std::vector<std::string>& names,
                               const Phrase& hint) const {
   const auto found = std::ranges::count_if(names, [&](const std::string& name) { return data.find(name); });

@@ -15,6 +15,7 @@
 
 #include "base/text/data.h"
 #include "base/text/diagnostic.h"
+#include "base/text/plain.h"
 
 namespace ombre {
 
@@ -68,6 +69,8 @@ class MemberReader {
   // Does so for an object that may have other members, too. Of these it reports names that look like slips of a known
   // one that the object lacks.
   bool has_no_slips(const Data& data, const std::string& what, const std::vector<std::string>& known) const;
+  // Returns the member "name", if it is made of lower-case letters, digits and '-'; else reports it.
+  std::optional<std::string> plain_name(const Data& data, const std::string& what) const;
   // Reports it unless the object has one of these members, and no two.
   void has_one_of(const Data& data, const std::string& what, const std::vector<std::string>& names,
                   const Phrase& hint) const;
@@ -202,20 +205,6 @@ class Record {
 
 namespace field {
 
-namespace detail {
-template <class Member>
-struct Plain {
-  using Type = Member;
-};
-template <class Value>
-struct Plain<std::optional<Value>> {
-  using Type = Value;
-};
-}  // namespace detail
-// The type of a member, be it optional or not.
-template <class Member>
-using Plain = typename detail::Plain<Member>::Type;
-
 // The member becomes what `read` makes of the data, if anything: std::optional<Value>(const Data&, const
 // MemberReader&).
 template <class T, class Member, class Read>
@@ -223,6 +212,15 @@ Field<T> value(std::string name, Member T::*member, Read read) {
   return {std::move(name), [=](T& value, const Data& data, const MemberReader& reader) {
             if (auto found = read(data, reader)) value.*member = std::move(*found);
           }};
+}
+
+// The member "name" of a file that bears the same name.
+template <class T>
+Field<T> plain_name(const std::string& what, std::string T::*member) {
+  const auto read = [what](const Data& data, const MemberReader& reader) { return reader.plain_name(data, what); };
+  return value("name", member, read)
+      .required()
+      .means("lower-case letters, digits and `-`; the same as the file's name");
 }
 
 // The function sets what it likes of the struct.

@@ -16,8 +16,6 @@
 namespace ombre::eval {
 namespace {
 
-using program::Builder;
-using program::Field;
 using program::Op;
 using program::Program;
 
@@ -65,14 +63,14 @@ std::vector<float> evaluate(const KernelSet& kernels, const Program& program, co
 
 // Returns a program with several outputs that depend on all axes, made of random ops.
 Program random_program(std::mt19937& random, size_t size) {
-  Builder builder;
-  std::vector<Field> fields{builder.input(0), builder.input(1), builder.input(2)};
+  program::Builder builder;
+  std::vector<program::Field> fields{builder.input(0), builder.input(1), builder.input(2)};
   for (const double v : {0.5, -2.0, 3.0}) fields.push_back(builder.constant(v));
   const auto any = [&] { return fields[random() % fields.size()]; };
   for (size_t n = 0; n < size; ++n)
     fields.push_back(
         builder.apply(program::numeric_ops[random() % std::size(program::numeric_ops)], any(), any(), any()));
-  std::vector<std::pair<std::string, Field>> outputs;
+  std::vector<std::pair<std::string, program::Field>> outputs;
   for (size_t n = 0; n < 4; ++n) outputs.emplace_back("v", fields[fields.size() - 1 - n]);
   return builder.finish(outputs);
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
 
@@ -39,11 +40,9 @@ std::vector<std::string> deck_names(const std::vector<Named>& things) {
 }
 
 // Gathers text, and writes it in large pieces.
-class Lines {
+class Lines : NotCopied {
  public:
   explicit Lines(const Sink& sink) : sink_(sink) {}
-  Lines(const Lines&) = delete;
-  Lines& operator=(const Lines&) = delete;
   ~Lines() = default;
 
   Lines& operator<<(std::string_view text) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 
+#include "base/math/disjoint_sets.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
 
@@ -25,11 +25,6 @@ constexpr std::array<std::array<uint8_t, 2>, 3> brick_sides{{{5, 3}, {2, 4}, {0,
 constexpr std::array<std::array<uint8_t, 2>, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
 double tetrahedron_volume(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return dot(cross(b - a, c - a), d - a) / 6; }
-
-uint32_t first_of_piece(std::vector<uint32_t>& parents, uint32_t n) {
-  while (parents[n] != n) n = parents[n] = parents[parents[n]];
-  return n;
-}
 
 // Returns the angle in degrees between the two sides of a tetrahedron that meet in the edge ab.
 double dihedral(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
@@ -236,20 +231,16 @@ std::vector<NodeShare> volume_shares(const MeshView& mesh, size_t element) {
 }
 
 std::vector<uint32_t> pieces_of(const MeshView& mesh) {
-  std::vector<uint32_t> parents(mesh.node_count());
-  std::iota(parents.begin(), parents.end(), 0U);
+  DisjointSets sets(mesh.node_count());
   for (size_t element = 0; element < mesh.count(); ++element) {
     const auto nodes = mesh.nodes(element);
-    for (const uint32_t node : nodes) {
-      const uint32_t a = first_of_piece(parents, nodes[0]), b = first_of_piece(parents, node);
-      parents[std::max(a, b)] = std::min(a, b);
-    }
+    for (const uint32_t node : nodes) sets.join(nodes[0], node);
   }
   constexpr auto unknown = ~uint32_t{0};
   std::vector<uint32_t> numbers(mesh.node_count(), unknown), pieces;
   uint32_t next = 0;
   for (size_t element = 0; element < mesh.count(); ++element) {
-    uint32_t& number = numbers[first_of_piece(parents, mesh.nodes(element)[0])];
+    uint32_t& number = numbers[sets.root(mesh.nodes(element)[0])];
     if (number == unknown) number = next++;
     pieces.push_back(number);
   }

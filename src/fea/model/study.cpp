@@ -89,38 +89,42 @@ void read_displacement(Support& support, const Data& data, const MemberReader& r
       support.displacement_mm[axis] = reader.number(item, "displacement_mm");
 }
 
+// Returns the record of a support or a load with these members, its name, and where it acts.
+template <class T>
+Record<T> placed_record(const std::string& what, std::vector<Field<T>> fields) {
+  fields.insert(fields.begin(), field::value("on", &T::on, read_selection).required(selection_help));
+  fields.push_back(field::text("name", &T::name));
+  return Record<T>(what, fields);
+}
+
 Record<Support> support_record(Physics physics) {
   using S = Support;
-  const auto on = field::value("on", &S::on, read_selection).required(selection_help);
-  const auto name = field::text("name", &S::name);
   if (physics == Physics::mechanics)
-    return Record<S>("a support",
-                     {on, field::special("fix", read_fix), field::special("displacement_mm", read_displacement), name})
+    return placed_record<S>("a support",
+                            {field::special("fix", read_fix), field::special("displacement_mm", read_displacement)})
         .one_of({"fix", "displacement_mm"}, R"(write "fix": "xyz", or "displacement_mm": [null, null, -1])");
   const PhysicsWords& words = words_of(physics);
   const std::string example = "write \"" + words.potential.member + "\": " + words.usual_potential;
-  return Record<S>("a support", {on, field::number(words.potential.member, &S::value).required(example), name});
+  return placed_record<S>("a support", {field::number(words.potential.member, &S::value).required(example)});
 }
 
 Record<Load> load_record(Physics physics) {
   using L = Load;
-  const auto on = field::value("on", &L::on, read_selection).required(selection_help);
-  const auto name = field::text("name", &L::name);
   if (physics == Physics::mechanics)
-    return Record<L>("a load",
-                     {on, field::numbers("force_n", &L::force_n, "[x, y, z]"),
-                      field::number("pressure_mpa", &L::pressure_mpa).sets(&L::kind, L::Kind::pressure), name})
+    return placed_record<L>("a load",
+                            {field::numbers("force_n", &L::force_n, "[x, y, z]"),
+                             field::number("pressure_mpa", &L::pressure_mpa).sets(&L::kind, L::Kind::pressure)})
         .one_of({"force_n", "pressure_mpa"}, R"(write "force_n": [0, 0, -10], or "pressure_mpa": 0.1)");
   const PhysicsWords& words = words_of(physics);
-  std::vector<Field<L>> fields{on, field::number(words.flow.member, &L::flow).sets(&L::kind, L::Kind::flow),
-                               field::number(words.flux.member, &L::flow).sets(&L::kind, L::Kind::flux), name};
+  std::vector<Field<L>> fields{field::number(words.flow.member, &L::flow).sets(&L::kind, L::Kind::flow),
+                               field::number(words.flux.member, &L::flow).sets(&L::kind, L::Kind::flux)};
   std::vector<std::string> kinds{words.flow.member, words.flux.member};
   if (words.has_films) {
     fields.push_back(field::number("film_w_m2k", &L::film_w_m2k, above_zero).sets(&L::kind, L::Kind::convection));
     fields.push_back(field::number("ambient_c", &L::ambient_c));
     kinds.emplace_back("film_w_m2k");
   }
-  return Record<L>("a load", fields)
+  return placed_record<L>("a load", fields)
       .one_of(kinds, "write \"" + words.flow.member + "\": 1")
       .checked([](L& load, const Data& data, const MemberReader& reader) {
         if (load.kind == L::Kind::convection && !data.find("ambient_c"))

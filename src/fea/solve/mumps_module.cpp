@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 #include "fea/solve/direct_module.h"
 
@@ -109,7 +110,7 @@ struct Interface<double> {
 
 // Equations in one precision, which the constructor analyses.
 template <class Real>
-class Factors {
+class Factors : NotCopied {
  public:
   Factors(ElementEquations& equations, std::vector<int>& order) : equations_(equations) {
     std::memset(&mumps_, 0, sizeof mumps_);
@@ -133,8 +134,6 @@ class Factors {
     }
   }
   ~Factors() { finish(); }
-  Factors(const Factors&) = delete;
-  Factors& operator=(const Factors&) = delete;
 
   FactorisationCost cost() const {
     constexpr size_t in_core = 17, beside_disk = 27, entries = 3;

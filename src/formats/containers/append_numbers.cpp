@@ -20,12 +20,12 @@ void append_decimal(std::string& text, double value) {
   text += written == "-0" ? "0" : written;
 }
 
-void append_point(std::string& text, Vec3 p) {
-  append_float(text, p.x);
-  text += ' ';
-  append_float(text, p.y);
-  text += ' ';
-  append_float(text, p.z);
+void append_point(std::string& text, Vec3 p, char between, void append(std::string& text, double value)) {
+  append(text, p.x);
+  text += between;
+  append(text, p.y);
+  text += between;
+  append(text, p.z);
 }
 
 void append_count(std::string& text, uint64_t value) {

@@ -13,8 +13,9 @@ namespace ombre::formats {
 void append_float(std::string& text, double value);
 // Appends a number with at most six decimals, so millimetres are exact to the nanometre.
 void append_decimal(std::string& text, double value);
-// Appends "x y z".
-void append_point(std::string& text, Vec3 p);
+// Appends "x y z", or the coordinates with another character between them and in another form.
+void append_point(std::string& text, Vec3 p, char between = ' ',
+                  void append(std::string& text, double value) = append_float);
 void append_count(std::string& text, uint64_t value);
 
 // Appends a little-endian number.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "base/system/not_copied.h"
 #include "formats/containers/hdf5.h"
 
 namespace {
@@ -39,12 +40,10 @@ class Turn {
 };
 
 // An object of the library that is closed by the destructor.
-class Handle {
+class Handle : ombre::NotCopied {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
   ~Handle() { close(); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
 
   void close() {
     if (id_ >= 0) close_(id_);

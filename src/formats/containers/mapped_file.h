@@ -5,16 +5,16 @@
 #include <string>
 #include <string_view>
 
+#include "base/system/not_copied.h"
+
 namespace ombre::formats {
 
 // The bytes of a mapped file. The file must not change during the lifetime of this object.
-class MappedFile {
+class MappedFile : NotCopied {
  public:
   // Maps a file. Throws Error, naming the path and the reason.
   explicit MappedFile(const std::string& path);
   ~MappedFile();
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
 
   std::string_view bytes() const { return {static_cast<const char*>(begin_), size_}; }
 

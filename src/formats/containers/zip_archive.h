@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/system/module_loader.h"
+#include "base/system/not_copied.h"
 #include "base/text/diagnostic.h"
 #include "formats/containers/lazy_bytes.h"
 
@@ -42,7 +43,7 @@ struct ZipLimits {
 };
 
 // Reads entries into memory, never to disk. Errors in the archive are reported, and DesignError is thrown.
-class ZipReader {
+class ZipReader : NotCopied {
  public:
   static constexpr uint64_t most_bytes = uint64_t{1} << 30;
   static constexpr uint64_t small_entry_bytes = uint64_t{16} << 20;
@@ -50,8 +51,6 @@ class ZipReader {
   // Opens an archive; `name` and the bytes must outlive this object.
   ZipReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics, ZipLimits limits = {});
   ~ZipReader();
-  ZipReader(const ZipReader&) = delete;
-  ZipReader& operator=(const ZipReader&) = delete;
 
   const std::vector<std::string>& names() const { return names_; }
   // Names are compared as in OPC, with tolerance for incorrect writers: in either case, with / or \, with %20 for a

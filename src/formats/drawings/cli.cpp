@@ -16,14 +16,6 @@ std::string plain(const std::string& name) {
   return text;
 }
 
-void append_numbers(std::string& text, Vec3 p) {
-  append_decimal(text, p.x);
-  text += ',';
-  append_decimal(text, p.y);
-  text += ',';
-  append_decimal(text, p.z);
-}
-
 bool is_outer(const std::vector<Vec2>& polygon) {
   double twice = 0;
   for (size_t n = 0; n < polygon.size(); ++n)
@@ -63,9 +55,9 @@ std::string cli_header(const OutlineDocument& document, uint64_t layers, double 
   for (size_t n = 0; n < document.regions.size(); ++n)
     text += "$$LABEL/" + std::to_string(n + 1) + ',' + plain(document.regions[n].name) + '\n';
   text += "$$DIMENSION/";
-  append_numbers(text, document.box.lo);
+  append_point(text, document.box.lo, ',', append_decimal);
   text += ',';
-  append_numbers(text, document.box.hi);
+  append_point(text, document.box.hi, ',', append_decimal);
   text += "\n$$LAYERS/" + std::to_string(layers + 1) + "\n$$HEADEREND\n$$GEOMETRYSTART\n";
   return text + layer_begin(bottom_mm);
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/system/assert.h"
+#include "base/system/not_copied.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
 
@@ -33,7 +34,7 @@ void on_error(png_structp png, png_const_charp message) {
 
 void on_warning(png_structp, png_const_charp) {}
 
-struct PngReader {
+struct PngReader : NotCopied {
   Failure failure;
   std::string_view bytes;
   size_t position = 0;
@@ -46,8 +47,6 @@ struct PngReader {
     png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning);
     if (png) info = png_create_info_struct(png);
   }
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
   ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 

@@ -25,6 +25,7 @@ struct MeshGroup {
   std::string material = {};        // name in OBJ's usemtl; it is also the group's name if the file has no other
   std::string object = {};          // name of the AMF object or 3MF part that contains it, if it has one
   std::optional<Rgba> colour = {};  // AMF and 3MF: its own colour, or that of its material
+  uint32_t painted = 0;             // 3MF of slicers: extruder that its surface is painted with; 0 for none
 };
 
 // A placed lattice of one material. Several placements may share a lattice.
@@ -42,7 +43,8 @@ struct Mesh {
   std::vector<std::array<double, 2>> texture_coordinates;  // may be empty
   // empty, or one per triangle; indices into texture_coordinates
   std::vector<std::array<uint32_t, 3>> texture_triangles;
-  std::vector<PlacedLattice> lattices;  // from 3MF; united with the triangles, the earlier has precedence
+  std::vector<std::array<float, 4>> vertex_colours;  // red, green, blue, alpha in sRGB, 0 to 1; empty, or one a vertex
+  std::vector<PlacedLattice> lattices;               // from 3MF; united with the triangles, the earlier has precedence
 };
 
 // Reads binary and text STL; vertices at the same place are merged.

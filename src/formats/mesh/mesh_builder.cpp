@@ -1,10 +1,13 @@
 // Builds a mesh from the vertices, polygons and groups that a file lists.
 #include "formats/mesh/mesh_builder.h"
 
+#include <algorithm>
+
 namespace ombre::formats {
 namespace {
 
 constexpr uint32_t no_texture = UINT32_MAX;
+constexpr std::array<float, 4> white{1, 1, 1, 1};
 
 }  // namespace
 
@@ -45,8 +48,27 @@ void MeshBuilder::add_polygon(std::span<const uint32_t> corners, std::span<const
   for (const Corners& triangle : cutter_.cut(points_)) add_triangle(corners, texture, triangle);
 }
 
+void MeshBuilder::add_colour(const std::array<double, 4>& colour) {
+  mesh_.vertex_colours.resize(mesh_.vertices.size() - 1, white);
+  std::array<float, 4> kept;
+  std::ranges::transform(colour, kept.begin(), [](double part) { return static_cast<float>(part); });
+  mesh_.vertex_colours.push_back(kept);
+}
+
+void MeshBuilder::finish_colours() {
+  if (mesh_.vertex_colours.empty()) return;
+  const auto is_byte = [](const std::array<float, 4>& colour) {
+    return *std::max_element(colour.begin(), colour.end() - 1) > 1;
+  };
+  const bool are_bytes = std::ranges::any_of(mesh_.vertex_colours, is_byte);
+  mesh_.vertex_colours.resize(mesh_.vertices.size(), are_bytes ? std::array<float, 4>{255, 255, 255, 255} : white);
+  for (auto& colour : mesh_.vertex_colours)
+    for (float& part : colour) part = part >= 0 ? std::min(are_bytes ? part / 255 : part, 1.0F) : 0.0F;
+}
+
 MeshBuilder::Result MeshBuilder::finish() {
   end_group();
+  finish_colours();
   Result result{std::move(mesh_), 0};
   Mesh& mesh = result.mesh;
   if (!has_texture_) mesh.texture_coordinates.clear();

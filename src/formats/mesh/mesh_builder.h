@@ -19,6 +19,9 @@ class MeshBuilder {
   // Adds a vertex; at most most_vertices in total.
   void add_vertex(Vec3 p) { mesh_.vertices.push_back(p); }
   void add_texture_coordinate(double u, double v) { mesh_.texture_coordinates.push_back({u, v}); }
+  // Gives the last vertex a colour: red, green, blue and alpha, from 0 to 1, or to 255 if one of the file is above 1.
+  // Vertices without one are white.
+  void add_colour(const std::array<double, 4>& colour);
   size_t vertex_count() const { return mesh_.vertices.size(); }
   size_t texture_coordinate_count() const { return mesh_.texture_coordinates.size(); }
   size_t triangle_count() const { return mesh_.triangles.size(); }
@@ -40,6 +43,7 @@ class MeshBuilder {
  private:
   void add_triangle(std::span<const uint32_t> corners, std::span<const uint32_t> texture, Corners of);
   void end_group();
+  void finish_colours();
 
   Mesh mesh_;
   PolygonCutter cutter_;

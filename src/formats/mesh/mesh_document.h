@@ -11,6 +11,7 @@
 #include "base/math/vec.h"
 #include "formats/images/rgba.h"
 #include "formats/mesh/beam_lattice.h"
+#include "formats/mesh/slicer_project.h"
 
 namespace ombre::formats {
 
@@ -25,8 +26,8 @@ struct MeshBody {
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside
   std::optional<uint32_t> material = {};           // index of a material of the document
   std::vector<Rgba> vertex_colours = {};           // empty, or one per vertex
-  std::vector<std::pair<std::string, std::string>> settings =
-      {};  // with PrusaSlicer's keys, such as fill_density = 15%
+  Settings settings = {};
+  std::vector<uint8_t> paint = {};  // empty, or one per triangle: the extruder of its surface; 0 for the body's own
 };
 
 // Beams between vertices, which only 3MF supports.
@@ -45,6 +46,7 @@ struct MeshDocument {
   std::vector<MeshBody> bodies;
   std::vector<WrittenBeams> beams = {};
   std::vector<MeshBody> clips = {};  // solids that only serve for clipping
+  SlicerProject project = {};        // for files of slicers
 
   // Totals over the bodies.
   size_t vertex_count() const;

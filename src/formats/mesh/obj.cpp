@@ -77,7 +77,8 @@ class ObjReader {
 
   void start_group() { builder_.start_group(object_.empty() ? material_ : object_, material_); }
 
-  // Reads a vertex; weights and colours may follow, which next_line() skips.
+  // Reads a vertex. Three numbers that follow are its colour, as several programs write it; others are skipped by
+  // next_line(), such as a weight.
   void read_vertex() {
     need_in_line("a coordinate of a vertex");
     Vec3 p;
@@ -88,6 +89,13 @@ class ObjReader {
     p.z = scanner_.coordinate("a coordinate of a vertex");
     if (builder_.vertex_count() >= MeshBuilder::most_vertices) scanner_.fail_here("there are too many vertices");
     builder_.add_vertex(p);
+    std::array<double, 4> colour{0, 0, 0, 1};
+    for (size_t n = 0; n < 3; ++n) {
+      const auto part = scanner_.at_line_end() ? std::nullopt : texture_number();
+      if (!part) return;
+      colour[n] = *part;
+    }
+    builder_.add_colour(colour);
   }
 
   // Reads a texture coordinate. One that is no number counts as (0, 0), since the surface does not depend on it.

@@ -102,13 +102,33 @@ class OffReader {
   void read_vertex() {
     builder_.add_vertex(scanner_.point("a coordinate of a vertex"));
     if (!is_one_a_line_) return read_rest_of_vertex();
+    if (header_.has_colours && !header_.has_normals) read_colour();
     if (header_.has_texture) read_texture_coordinate();
     scanner_.next_line();
   }
 
+  // Reads red, green, blue and, where it is there, alpha.
+  void read_colour() {
+    std::array<double, 4> colour{0, 0, 0, 1};
+    bool has_bytes = false;
+    for (size_t n = 0; n < colour.size(); ++n) {
+      if (scanner_.at_line_end()) {
+        if (n < 3) return;
+        colour[n] = has_bytes ? 255 : 1;
+        continue;
+      }
+      colour[n] = scanner_.number("a part of a colour");
+      has_bytes = has_bytes || colour[n] > 1;
+    }
+    builder_.add_colour(colour);
+  }
+
   void read_rest_of_vertex() {
-    const int passed = (header_.has_normals ? 3 : 0) + (header_.has_colours ? 4 : 0);
-    for (int i = 0; i < passed; ++i) scanner_.number("a part of a normal or a colour");
+    for (int i = 0; i < (header_.has_normals ? 3 : 0); ++i) scanner_.number("a part of a normal");
+    std::array<double, 4> colour{};
+    for (size_t n = 0; n < (header_.has_colours ? colour.size() : 0); ++n)
+      colour[n] = scanner_.number("a part of a colour");
+    if (header_.has_colours) builder_.add_colour(colour);
     if (!header_.has_texture) return;
     const double u = scanner_.coordinate("a texture coordinate");
     builder_.add_texture_coordinate(u, scanner_.coordinate("a texture coordinate"));

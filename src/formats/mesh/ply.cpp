@@ -111,7 +111,7 @@ class Values {
 };
 
 // The meaning of a property for the mesh.
-enum class Role { none, x, y, z, u, v, corners };
+enum class Role { none, x, y, z, u, v, red, green, blue, alpha, corners };
 
 Role vertex_role(const PlyProperty& property) {
   if (property.is_list) return Role::none;
@@ -121,6 +121,11 @@ Role vertex_role(const PlyProperty& property) {
   if (name == "z") return Role::z;
   if (name == "s" || name == "u" || name == "texture_u") return Role::u;
   if (name == "t" || name == "v" || name == "texture_v") return Role::v;
+  const std::string_view colour = std::string_view(name).substr(name.starts_with("diffuse_") ? 8 : 0);
+  if (colour == "red") return Role::red;
+  if (colour == "green") return Role::green;
+  if (colour == "blue") return Role::blue;
+  if (colour == "alpha") return Role::alpha;
   return Role::none;
 }
 
@@ -214,12 +219,14 @@ class PlyReader {
     if (element.count > MeshBuilder::most_vertices || builder_.vertex_count() > 0)
       fail(diagnostics_, name_, "this PLY file has too many vertices, or lists them twice");
     has_texture_ = has(Role::u) && has(Role::v);
+    has_colours_ = has(Role::red) && has(Role::green) && has(Role::blue);
     for (uint64_t i = 0; i < element.count; ++i) read_vertex(element, found);
   }
 
   void read_vertex(const PlyElement& element, const std::vector<Role>& found) {
     Vec3 p;
     double u = 0, v = 0;
+    std::array<double, 4> colour{0, 0, 0, 1};
     for (size_t i = 0; i < found.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       switch (found[i]) {
@@ -238,6 +245,12 @@ class PlyReader {
         case Role::v:
           v = coordinate(property);
           break;
+        case Role::red:
+        case Role::green:
+        case Role::blue:
+        case Role::alpha:
+          colour[static_cast<size_t>(found[i]) - static_cast<size_t>(Role::red)] = part_of_colour(property);
+          break;
         case Role::corners:
         case Role::none:
           skip_property(property);
@@ -245,8 +258,33 @@ class PlyReader {
       }
     }
     builder_.add_vertex(p);
+    if (has_colours_) builder_.add_colour(colour);
     if (has_texture_) builder_.add_texture_coordinate(u, v);
     end_element();
+  }
+
+  // Returns a share: integers are shares of the greatest of their type.
+  double part_of_colour(const PlyProperty& property) {
+    const double value = values_.number(property.type, "a part of a colour"),
+                 share = value / greatest_of(property.type);
+    return share >= 0 && share <= 1 ? share : share > 1 ? 1 : 0;
+  }
+  static double greatest_of(PlyType type) {
+    switch (type) {
+      case PlyType::uint8:
+      case PlyType::int8:
+        return 255;
+      case PlyType::uint16:
+      case PlyType::int16:
+        return 65535;
+      case PlyType::uint32:
+      case PlyType::int32:
+        return UINT32_MAX;
+      case PlyType::float32:
+      case PlyType::float64:
+        break;
+    }
+    return 1;
   }
 
   double coordinate(const PlyProperty& property) {
@@ -324,7 +362,7 @@ class PlyReader {
   MeshBuilder builder_;
   std::vector<uint32_t> corners_;
   CountedWarnings warnings_;
-  bool has_texture_ = false;
+  bool has_texture_ = false, has_colours_ = false;
   bool is_one_a_line_ = false;
 };
 

@@ -1,8 +1,8 @@
 // Writes AMF (ISO/ASTM 52915): one object with a volume for each body, and PrusaSlicer's metadata.
 #include "formats/containers/append_numbers.h"
 #include "formats/containers/xml_text.h"
-#include "formats/mesh/slicer_settings.h"
 #include "formats/packages/package_writers.h"
+#include "formats/slicers/slicer_settings.h"
 
 namespace ombre::formats {
 namespace {
@@ -55,7 +55,8 @@ void append_triangle(std::string& text, const std::array<uint32_t, 3>& triangle,
 std::string volume_begin(const MeshBody& body) {
   const std::string material = body.material ? xml_attribute("materialid", std::to_string(*body.material + 1)) : "";
   std::string text = "<volume" + material + ">\n" + metadata("name", body.name);
-  for (const auto& [key, value] : slicer_settings(body)) text += metadata("slic3r." + key, value);
+  for (const auto& [key, value] : slicer_settings(body, SlicerFlavour::generic))
+    text += metadata("slic3r." + key, value);
   return text;
 }
 

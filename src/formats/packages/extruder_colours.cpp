@@ -72,6 +72,17 @@ void ExtruderColours::paint(std::vector<MeshGroup>& groups, uint64_t extruder) c
     if (!group.colour) group.colour = colours_[extruder - 1];
 }
 
+uint32_t ExtruderColours::paint_surfaces(std::vector<MeshGroup>& groups) const {
+  uint32_t unknown = 0;
+  for (MeshGroup& group : groups) {
+    if (group.painted == 0) continue;
+    group.material.clear();
+    group.colour = group.painted <= colours_.size() ? colours_[group.painted - 1] : std::nullopt;
+    if (!group.colour && unknown == 0) unknown = group.painted;
+  }
+  return unknown;
+}
+
 uint64_t extruder_of(std::string_view part, std::string_view object) {
   if (const uint64_t own = count_of(part)) return own;
   const uint64_t whole = count_of(object);

@@ -19,6 +19,10 @@ class ExtruderColours {
   static ExtruderColours of_bambu(std::string_view settings);
   static ExtruderColours of_prusa(std::string_view settings);
 
+  // Gives groups whose surface is painted the colours of their extruders, and returns the first extruder without one,
+  // or 0.
+  uint32_t paint_surfaces(std::vector<MeshGroup>& groups) const;
+
   // Gives the colour of this extruder, counted from 1, to groups without a colour.
   void paint(std::vector<MeshGroup>& groups, uint64_t extruder) const;
 

@@ -16,11 +16,12 @@ namespace ombre::formats {
 // A format is read where `read` is set, and written where `bytes` or `write_package` is.
 struct MeshFormat {
   std::string_view name;
-  std::string_view ending;     // ".3mf"
-  bool holds_bodies = false;   // says which triangles belong to which body
-  bool holds_colours = false;  // has colours of vertices
-  bool holds_beams = false;    // has struts beside triangles
-  bool is_archive = false;     // a zip archive, which needs libzip
+  std::string_view ending;      // ".3mf"
+  bool holds_bodies = false;    // says which triangles belong to which body
+  bool holds_colours = false;   // has colours of vertices
+  bool holds_beams = false;     // has struts beside triangles
+  bool holds_settings = false;  // has settings of slicers
+  bool is_archive = false;      // a zip archive, which needs libzip
   // True if the content shows for certain that a file has this format; null where only the ending tells.
   bool (*recognises)(std::string_view bytes, const std::string& ending) = nullptr;
   std::optional<Mesh> (*read)(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) = nullptr;

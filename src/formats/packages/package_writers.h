@@ -6,19 +6,13 @@
 
 #include "formats/containers/lazy_bytes.h"
 #include "formats/mesh/mesh_document.h"
+#include "formats/slicers/flavour.h"
 
 namespace ombre::formats {
 
 // Returns AMF: one object with a volume for each body. The bytes are generated from the document, which must outlive
 // them.
 LazyBytes amf_bytes(const MeshDocument& document);
-
-// The target program of a 3MF file; slicers read the material of a region from their own files inside of it.
-enum class SlicerFlavour {
-  generic,  // any program: an object for each body, together one part, with the settings of both slicers below
-  prusa,    // PrusaSlicer: one object, whose bodies are ranges of its triangles
-  bambu,    // Bambu Studio and OrcaSlicer: like generic, with colours in the form that they read
-};
 
 // Returns false in builds without libzip.
 bool can_write_3mf();

@@ -10,6 +10,7 @@
 #include "formats/packages/three_mf_beams.h"
 #include "formats/packages/three_mf_extensions.h"
 #include "formats/packages/three_mf_resources.h"
+#include "formats/slicers/painting.h"
 
 namespace ombre::formats {
 namespace {
@@ -93,11 +94,15 @@ class ObjectReader {
     for (const xml_node vertex : child_of(mesh, "vertices").children()) object.mesh.vertices.push_back(point(vertex));
     const PropertyReference usual = properties_.reference(object_node, "pindex", {});
     PropertyReference last;
+    uint32_t last_painted = 0;
     for (const xml_node triangle : child_of(mesh, "triangles").children()) {
       if (local_name(triangle) != "triangle") continue;
       const PropertyReference property = properties_.reference(triangle, {"p1", "p2", "p3"}, usual);
-      if (object.mesh.groups.empty() || property != last) start_group(object.mesh, property, triangle);
+      const uint32_t painted = painted_extruder(triangle);
+      if (object.mesh.groups.empty() || property != last || painted != last_painted)
+        start_group(object.mesh, property, triangle, painted);
       last = property;
+      last_painted = painted;
       count_mixture(property);
       count_gradient(triangle);
       object.mesh.triangles.push_back(corners(triangle, object.mesh.vertices.size()));
@@ -150,8 +155,27 @@ class ObjectReader {
             vertex_number(file_, triangle, "v3", vertices)};
   }
 
-  void start_group(Mesh& mesh, const PropertyReference& property, xml_node triangle) const {
+  // Returns the extruder that a triangle is painted with; 0 for none. A triangle that is painted in parts has the
+  // extruder of its largest part.
+  uint32_t painted_extruder(xml_node triangle) {
+    auto code = file_.attribute(triangle, "mmu_segmentation");
+    if (!code) code = file_.attribute(triangle, "paint_color");
+    if (!code || code->empty()) return 0;
+    const auto paint = read_paint(*code);
+    if (!paint) {
+      assembly_.warnings.add("a triangle has a paint that is not understood, and counts as unpainted",
+                             "triangles have a paint that is not understood, and count as unpainted");
+      return 0;
+    }
+    if (paint->is_divided)
+      assembly_.warnings.add("a triangle is painted in parts; all of it has the extruder of its largest part",
+                             "triangles are painted in parts; all of each has the extruder of its largest part");
+    return paint->extruder;
+  }
+
+  void start_group(Mesh& mesh, const PropertyReference& property, xml_node triangle, uint32_t painted) const {
     mesh.groups.push_back({"", static_cast<uint32_t>(mesh.triangles.size()), 0});
+    mesh.groups.back().painted = painted;
     properties_.describe(property, triangle, mesh.groups.back());
   }
 
@@ -162,15 +186,6 @@ class ObjectReader {
   PropertyTable properties_;
   std::map<uint64_t, std::shared_ptr<const Mesh>> clips_;
 };
-
-// Warns of painted triangles, by which slicers assign parts of a surface to other extruders.
-void warn_of_paint(const XmlFile& file, CountedWarnings& warnings) {
-  for (const std::string_view attribute : {" paint_color=\"", "mmu_segmentation=\""})
-    for (size_t at = file.text().find(attribute); at != std::string_view::npos;
-         at = file.text().find(attribute, at + attribute.size()))
-      warnings.add("a triangle is painted with another extruder, which is not read",
-                   "triangles are painted with other extruders, which is not read");
-}
 
 void read_unit(const XmlFile& file, xml_node model, Assembly& assembly) {
   const auto unit = file.attribute(model, "unit");
@@ -191,7 +206,6 @@ std::string id_of_key(const std::string& key) { return key.substr(0, key.find(' 
 void add_objects(const XmlFile& file, const std::string& part, Assembly& assembly, std::set<std::string>& further) {
   const xml_node model = file.root("model");
   warn_of_extensions(file, model);
-  warn_of_paint(file, assembly.warnings);
   ObjectReader(file, part, assembly, further).read(child_of(model, "resources"));
 }
 

@@ -1,9 +1,11 @@
 // Writes 3D/3dmodel.model: materials, colours, objects, and the items to build.
-#include "formats/containers/append_numbers.h"
 #include "formats/containers/xml_text.h"
 #include "formats/packages/package_writers.h"
 #include "formats/packages/three_mf_beams_text.h"
+#include "formats/packages/three_mf_mesh_text.h"
 #include "formats/packages/three_mf_text.h"
+#include "formats/slicers/project_filaments.h"
+#include "formats/slicers/prusa_project.h"
 
 namespace ombre::formats {
 namespace {
@@ -15,39 +17,6 @@ constexpr std::string_view model_begin =
     " xmlns:slic3rpe=\"http://schemas.slic3r.org/3mf/2017/06\"";
 
 std::string id_text(uint64_t id) { return xml_attribute("id", std::to_string(id)); }
-
-void append_vertex(std::string& text, Vec3 p) {
-  text += "<vertex x=\"";
-  append_float(text, p.x);
-  text += "\" y=\"";
-  append_float(text, p.y);
-  text += "\" z=\"";
-  append_float(text, p.z);
-  text += "\"/>\n";
-}
-
-// Attributes of triangles other than their corners.
-struct TriangleProperties {
-  uint64_t group = 0;           // 0 for none
-  std::optional<uint32_t> all;  // one property for all corners; if null, each vertex has its own
-};
-
-void append_triangle(std::string& text, const std::array<uint32_t, 3>& t, uint64_t first_vertex,
-                     const TriangleProperties& properties) {
-  text += "<triangle";
-  append_xml_attribute(text, "v1", append_count, first_vertex + t[0]);
-  append_xml_attribute(text, "v2", append_count, first_vertex + t[1]);
-  append_xml_attribute(text, "v3", append_count, first_vertex + t[2]);
-  if (properties.group != 0) {
-    append_xml_attribute(text, "pid", append_count, properties.group);
-    append_xml_attribute(text, "p1", append_count, properties.all.value_or(t[0]));
-    if (!properties.all) {
-      append_xml_attribute(text, "p2", append_count, t[1]);
-      append_xml_attribute(text, "p3", append_count, t[2]);
-    }
-  }
-  text += "/>\n";
-}
 
 class ModelText {
  public:
@@ -80,22 +49,20 @@ class ModelText {
     text += model_begin;
     if (!beams_.empty()) text += beam_lattice_space;
     text += ">\n";
-    if (flavour_ != SlicerFlavour::bambu) text += "<metadata name=\"slic3rpe:Version3mf\">1</metadata>\n";
+    text += "<metadata name=\"slic3rpe:Version3mf\">1</metadata>\n";
+    if (flavour_ == SlicerFlavour::prusa && has_paint(document_))
+      text += "<metadata name=\"slic3rpe:MmPaintingVersion\">1</metadata>\n";
     if (!document_.title.empty()) text += "<metadata name=\"Title\">" + xml_escaped(document_.title) + "</metadata>\n";
     bytes_.add(text + "<metadata name=\"Application\">ombre</metadata>\n<resources>\n");
   }
 
-  // Adds the materials; for Bambu Studio as colours, because it ignores materials.
   void add_materials() {
     if (document_.materials.empty()) return;
-    const bool is_colours = flavour_ == SlicerFlavour::bambu;
-    const std::string element = is_colours ? "m:colorgroup" : "basematerials";
-    std::string text = '<' + element + id_text(materials_id_) + ">\n";
+    std::string text = "<basematerials" + id_text(materials_id_) + ">\n";
     for (const MeshMaterial& material : document_.materials)
-      text += is_colours ? "<m:color" + xml_attribute("color", hex_colour(material.colour)) + "/>\n"
-                         : "<base" + xml_attribute("name", material.name) +
-                               xml_attribute("displaycolor", hex_colour(material.colour)) + "/>\n";
-    bytes_.add(text + "</" + element + ">\n");
+      text += "<base" + xml_attribute("name", material.name) +
+              xml_attribute("displaycolor", hex_colour(material.colour)) + "/>\n";
+    bytes_.add(text + "</basematerials>\n");
   }
 
   void add_colours(size_t index) {
@@ -108,38 +75,28 @@ class ModelText {
     bytes_.add("</m:colorgroup>\n");
   }
 
-  void add_vertices(const MeshBody& body) {
-    bytes_.add_rows(body.vertices.size(),
-                    [&body](std::string& text, size_t index) { append_vertex(text, body.vertices[index]); });
-  }
-
-  void add_triangles(const MeshBody& body, uint64_t first_vertex, const TriangleProperties& properties) {
-    bytes_.add_rows(body.triangles.size(), [&body, first_vertex, properties](std::string& text, size_t index) {
-      append_triangle(text, body.triangles[index], first_vertex, properties);
-    });
-  }
-
   // Returns the properties that an object's triangles need, given whether the object states its material.
   TriangleProperties properties_of(size_t index, bool object_has_material) const {
     const MeshBody& body = *bodies_[index];
-    if (!body.vertex_colours.empty()) return {first_colours_id_ + index, std::nullopt};
-    if (body.material && !object_has_material) return {materials_id_, body.material};
-    return {};
+    const std::string_view paint = flavour_ == SlicerFlavour::prusa ? "slic3rpe:mmu_segmentation" : "";
+    if (!body.vertex_colours.empty()) return {first_colours_id_ + index, std::nullopt, paint};
+    if (body.material && !object_has_material) return {materials_id_, body.material, paint};
+    return {0, std::nullopt, paint};
   }
 
   // Adds one object whose bodies are ranges of triangles and vertices, as PrusaSlicer expects.
   void add_joint_object() {
     bytes_.add("<object" + id_text(1) + " type=\"model\"" + xml_attribute("name", document_.title) +
                ">\n<mesh>\n<vertices>\n");
-    for (const MeshBody* body : bodies_) add_vertices(*body);
+    for (const MeshBody* body : bodies_) add_model_vertices(bytes_, *body);
     bytes_.add("</vertices>\n<triangles>\n");
     uint64_t first_vertex = 0;
     for (size_t i = 0; i < bodies_.size(); ++i) {
-      add_triangles(*bodies_[i], first_vertex, properties_of(i, false));
+      add_model_triangles(bytes_, *bodies_[i], first_vertex, properties_of(i, false));
       first_vertex += bodies_[i]->vertices.size();
     }
     bytes_.add("</triangles>\n</mesh>\n</object>\n");
-    add_build(1);
+    add_build(1, xml_attribute("transform", placement_on_bed(document_, prusa_bed_mm)));
   }
 
   void add_parts() {
@@ -165,22 +122,18 @@ class ModelText {
     if (body.material)
       begin +=
           xml_attribute("pid", std::to_string(materials_id_)) + xml_attribute("pindex", std::to_string(*body.material));
-    bytes_.add(begin + ">\n<mesh>\n<vertices>\n");
-    add_vertices(body);
-    bytes_.add("</vertices>\n<triangles>\n");
-    add_triangles(body, 0, properties_of(index, true));
-    bytes_.add("</triangles>\n</mesh>\n</object>\n");
+    bytes_.add(begin + ">\n");
+    add_mesh(bytes_, body, properties_of(index, true));
+    bytes_.add("</object>\n");
   }
 
   // Adds a clipping object, which is not built but only referred to by lattices.
   void add_clip(size_t index) {
     const MeshBody& clip = document_.clips[index];
     bytes_.add("<object" + id_text(first_clip_id_ + index) + " type=\"model\"" + xml_attribute("name", clip.name) +
-               ">\n<mesh>\n<vertices>\n");
-    add_vertices(clip);
-    bytes_.add("</vertices>\n<triangles>\n");
-    add_triangles(clip, 0, {});
-    bytes_.add("</triangles>\n</mesh>\n</object>\n");
+               ">\n");
+    add_mesh(bytes_, clip, {});
+    bytes_.add("</object>\n");
   }
 
   void add_beams(size_t index) {
@@ -189,15 +142,16 @@ class ModelText {
     bytes_.add("<object" + id_text(first_beams_id_ + index) + " type=\"model\"" + xml_attribute("name", beams.name) +
                ">\n<mesh>\n<vertices>\n");
     bytes_.add_rows(beams.vertices.size(),
-                    [&beams](std::string& text, size_t vertex) { append_vertex(text, beams.vertices[vertex]); });
+                    [&beams](std::string& text, size_t vertex) { append_model_vertex(text, beams.vertices[vertex]); });
     bytes_.add("</vertices>\n");
     bytes_.add(beam_lattice_text(beams, is_clipped ? std::optional(first_clip_id_ + beams.clip) : std::nullopt,
                                  materials_id_));
     bytes_.add("</mesh>\n</object>\n");
   }
 
-  void add_build(uint64_t object) {
-    bytes_.add("</resources>\n<build>\n<item" + xml_attribute("objectid", std::to_string(object)) + "/>\n</build>\n");
+  void add_build(uint64_t object, const std::string& transform = "") {
+    bytes_.add("</resources>\n<build>\n<item" + xml_attribute("objectid", std::to_string(object)) + transform +
+               "/>\n</build>\n");
   }
 
   const MeshDocument& document_;
@@ -211,6 +165,7 @@ class ModelText {
 }  // namespace
 
 LazyBytes three_mf_model(const MeshDocument& document, SlicerFlavour flavour) {
+  if (is_of_bambu(flavour)) return bambu_model(document);
   return ModelText(document, flavour).make();
 }
 

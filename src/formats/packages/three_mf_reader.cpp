@@ -9,6 +9,8 @@
 #include "formats/packages/three_mf_model.h"
 #include "formats/packages/three_mf_text.h"
 #include "formats/packages/three_mf_volumes.h"
+#include "formats/slicers/bambu_project.h"
+#include "formats/slicers/prusa_project.h"
 
 namespace ombre::formats {
 namespace {
@@ -29,8 +31,11 @@ class ThreeMfReader {
       further_.erase(further_.begin());
       if (!read_.contains(part)) read_part(part, false);
     }
-    apply(prusa_settings_path, apply_prusa_volumes, ExtruderColours::of_prusa(text_of(prusa_project_path)), root);
-    apply(bambu_settings_path, apply_bambu_parts, ExtruderColours::of_bambu(text_of(bambu_project_path)), root);
+    const auto of_prusa = ExtruderColours::of_prusa(text_of(prusa_project_path));
+    const auto of_bambu = ExtruderColours::of_bambu(text_of(bambu_project_path));
+    apply(prusa_settings_path, apply_prusa_volumes, of_prusa, root);
+    apply(bambu_settings_path, apply_bambu_parts, of_bambu, root);
+    paint_surfaces(archive_.has(bambu_project_path) ? of_bambu : of_prusa);
     return assemble(assembly_, name_, diagnostics_);
   }
 
@@ -88,6 +93,15 @@ class ThreeMfReader {
     if (!archive_.has(entry)) return;
     const std::string text = archive_.read(entry);
     settings(XmlFile(name_ + '/' + entry, text, diagnostics_), root, extruders, assembly_);
+  }
+
+  void paint_surfaces(const ExtruderColours& extruders) {
+    uint32_t unknown = 0;
+    for (auto& [key, object] : assembly_.objects)
+      unknown = std::max(unknown, extruders.paint_surfaces(object.mesh.groups));
+    if (unknown == 0) return;
+    diagnostics_.warning({}, name_ + ": triangles are painted with extruder " + std::to_string(unknown) +
+                                 ", whose colour the file does not say; they have none");
   }
 
   const std::string& name_;

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "formats/mesh/slicer_settings.h"
-
 #include "formats/mesh/test_documents.h"
 #include "formats/packages/package_readers.h"
 #include "formats/packages/package_writers.h"
@@ -15,8 +13,13 @@ namespace {
 
 using namespace test;
 
+std::optional<Rgba> opaque(std::optional<Rgba> colour) {
+  if (colour) colour->at(3) = 255;
+  return colour;
+}
+
 TEST(ThreeMf, NamesMaterialsAndColoursComeBack) {
-  for (const auto flavour : {SlicerFlavour::generic, SlicerFlavour::prusa, SlicerFlavour::bambu}) {
+  for (const auto flavour : {SlicerFlavour::generic, SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca}) {
     const Mesh mesh = read(package(pair(), flavour));
     EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
     ASSERT_EQ(mesh.groups.size(), 2u);
@@ -25,8 +28,8 @@ TEST(ThreeMf, NamesMaterialsAndColoursComeBack) {
     EXPECT_EQ(mesh.groups[1].colour, (Rgba{0, 0, 255, 51}));
     EXPECT_EQ(mesh.groups[1].name, "right");
     EXPECT_EQ(mesh.groups[1].object, "pair");
-    // Bambu Studio only reads colours.
-    EXPECT_EQ(mesh.groups[1].material, flavour == SlicerFlavour::bambu ? "" : "clear blue");
+    // Bambu Studio and OrcaSlicer have colours of filaments alone.
+    EXPECT_EQ(mesh.groups[1].material, is_of_bambu(flavour) ? "" : "clear blue");
   }
 }
 
@@ -127,17 +130,6 @@ TEST(ThreeMf, VolumesOfPrusaSlicerAreGroups) {
   Diagnostics diagnostics;
   EXPECT_TRUE(read_3mf("a.3mf", with(first + last("NegativeVolume")), diagnostics));
   EXPECT_NE(to_text(diagnostics).find("the negative volume \"more\" is left out"), std::string::npos);
-}
-
-TEST(ThreeMf, SettingsHaveTheNamesOfTheirSlicer) {
-  EXPECT_EQ(bambu_key("infill_speed"), "sparse_infill_speed");
-  EXPECT_EQ(bambu_key("fuzzy_skin_point_dist"), "fuzzy_skin_point_distance");
-  EXPECT_EQ(bambu_key("layer_height"), "layer_height");
-  EXPECT_EQ(bambu_key("brim_width"), "brim_width");
-  ASSERT_TRUE(slicer_key_of("infill_density"));
-  EXPECT_EQ(slicer_key_of("infill_density")->prusa, "fill_density");
-  EXPECT_FALSE(slicer_key_of("modulus"));
-  EXPECT_FALSE(slicer_key_of(""));
 }
 
 // Returns an archive of Bambu Studio with an object of two parts, and the settings of both.
@@ -269,13 +261,38 @@ TEST(ThreeMf, ExtensionsThatAreUsedAreReported) {
             "warning: a.3mf/3D/a.model: elements of unknown names are not read: 2 <stack>\n");
 }
 
-TEST(ThreeMf, MixturesAndPaintAreCounted) {
+TEST(ThreeMf, MixturesAreCounted) {
   const std::string mixed = "<m:compositematerials id=\"7\"/>" + object(1, "pid=\"7\" pindex=\"0\"");
   EXPECT_EQ(warnings(archive(model(mixed))),
             "warning: a.3mf: 4 triangles have their materials by <compositematerials>, which is not read\n");
+}
+
+// The triangles that are painted have the colour of their extruder, the others that of the body's extruder.
+TEST(ThreeMf, PaintedTrianglesComeBack) {
+  MeshDocument document = pair();
+  document.bodies[0].paint = {2, 2, 0, 1};
+  for (const auto flavour : {SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca}) {
+    const Mesh mesh = read(package(document, flavour));
+    ASSERT_EQ(mesh.groups.size(), 4u);
+    EXPECT_EQ(mesh.groups[0].triangle_count, 2u);
+    EXPECT_EQ(opaque(mesh.groups[0].colour), (Rgba{0, 0, 255, 255})) << flavour_word(flavour);
+    EXPECT_EQ(opaque(mesh.groups[1].colour), (Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(opaque(mesh.groups[2].colour), (Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(mesh.groups[3].name, "right");
+  }
+}
+
+TEST(ThreeMf, PaintThatIsNotReadIsReported) {
+  const auto painted = [](const std::string& attribute) { return warnings(archive(model(object(1, "", attribute)))); };
   for (const char* paint : {"paint_color=\"4\"", "slic3rpe:mmu_segmentation=\"4\""})
-    EXPECT_EQ(warnings(archive(model(object(1, "", paint)))),
-              "warning: a.3mf: a triangle is painted with another extruder, which is not read\n");
+    EXPECT_EQ(
+        painted(paint),
+        "warning: a.3mf: triangles are painted with extruder 1, whose colour the file does not say; they have none\n");
+  EXPECT_NE(painted("paint_color=\"841\"").find("painted in parts; all of it has the extruder of its largest part"),
+            std::string::npos);
+  EXPECT_EQ(painted("paint_color=\"1\""),
+            "warning: a.3mf: a triangle has a paint that is not understood, and counts as unpainted\n");
+  EXPECT_EQ(painted("paint_color=\"\""), "");
 }
 
 TEST(ThreeMf, ColoursOfCornersAreCounted) {

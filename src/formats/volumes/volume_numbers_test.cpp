@@ -9,15 +9,11 @@
 #include "base/text/test_errors.h"
 #include "formats/containers/gzip.h"
 #include "formats/volumes/npy.h"
+#include "formats/volumes/test_bytes.h"
 #include "formats/volumes/volume.h"
 
 namespace ombre::formats {
 namespace {
-
-template <class T>
-std::string raw(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
 
 std::string nrrd(const std::string& type, const std::string& more, const std::string& data) {
   return "NRRD0005\ntype: " + type + "\ndimension: 3\nsizes: 2 2 1\nendian: little\n" + more + "\n\n" + data;
@@ -73,11 +69,12 @@ TEST(VolumeNumbers, LongIntegersAreRead) {
   const std::string mha =
       "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_LONG_LONG\nElementDataFile = LOCAL\n";
   for (const std::string& file :
-       {nrrd("int64", "encoding: raw", raw(long_numbers)),
-        nrrd("long long int", "encoding: ascii", "-2 0 7 2147483647"), npy_header("<i8", {1, 2, 2}) + raw(long_numbers),
-        nifti(1024, 64, 0, 0, raw(long_numbers)), mha + raw(long_numbers)
+       {nrrd("int64", "encoding: raw", bytes_of_numbers(long_numbers)),
+        nrrd("long long int", "encoding: ascii", "-2 0 7 2147483647"),
+        npy_header("<i8", {1, 2, 2}) + bytes_of_numbers(long_numbers),
+        nifti(1024, 64, 0, 0, bytes_of_numbers(long_numbers)), mha + bytes_of_numbers(long_numbers)
 #ifdef OMBRE_3MF
-                                                      ,
+                                                                   ,
         vti
 #endif
        }) {
@@ -90,39 +87,42 @@ TEST(VolumeNumbers, LongIntegersAreRead) {
 // A double holds every whole number up to 2^53.
 TEST(VolumeNumbers, LongIntegersAreExactOrAnError) {
   const int64_t most = int64_t{1} << 53;
-  const VoxelVolume exact = read(nrrd("int64", "encoding: raw", raw(std::vector<int64_t>{most, -most, most - 1, 0})));
+  const VoxelVolume exact =
+      read(nrrd("int64", "encoding: raw", bytes_of_numbers(std::vector<int64_t>{most, -most, most - 1, 0})));
   EXPECT_EQ(std::get<std::vector<double>>(exact.values), (std::vector<double>{0x1p53, -0x1p53, 0x1p53 - 1, 0}));
-  EXPECT_TRUE(has(problem(nrrd("int64", "encoding: raw", raw(std::vector<int64_t>{0, 0, most + 1, 0}))),
+  EXPECT_TRUE(has(problem(nrrd("int64", "encoding: raw", bytes_of_numbers(std::vector<int64_t>{0, 0, most + 1, 0}))),
                   "has the int64 9007199254740993 at voxel (0, 1, 0), which is beyond 2^53"));
-  EXPECT_TRUE(has(problem(nrrd("uint64", "encoding: raw", raw(std::vector<uint64_t>{~uint64_t{0}, 0, 0, 0}))),
-                  "has the uint64 18446744073709551615 at voxel (0, 0, 0)"));
+  EXPECT_TRUE(
+      has(problem(nrrd("uint64", "encoding: raw", bytes_of_numbers(std::vector<uint64_t>{~uint64_t{0}, 0, 0, 0}))),
+          "has the uint64 18446744073709551615 at voxel (0, 0, 0)"));
 }
 
 TEST(VolumeNumbers, NanIsAnErrorOrReplaced) {
-  const std::string file = nrrd("float", "encoding: raw", raw(std::vector<float>{1, no_number, no_number, 4}));
+  const std::string file =
+      nrrd("float", "encoding: raw", bytes_of_numbers(std::vector<float>{1, no_number, no_number, 4}));
   EXPECT_TRUE(has(problem(file), "has 2 values that are NaN, no number, the first at voxel (1, 0, 0); nan=0"));
   EXPECT_EQ(std::get<std::vector<float>>(read(file, -5).values), (std::vector<float>{1, -5, -5, 4}));
-  const std::string infinite =
-      nrrd("float", "encoding: raw", raw(std::vector<float>{1, 2, std::numeric_limits<float>::infinity(), 4}));
+  const std::string infinite = nrrd(
+      "float", "encoding: raw", bytes_of_numbers(std::vector<float>{1, 2, std::numeric_limits<float>::infinity(), 4}));
   EXPECT_TRUE(has(problem(infinite), "has 1 value that is infinite, the first at voxel (0, 1, 0)"));
 }
 
 // The number in place of NaN is that of the design, so the file's scale does not change it.
 TEST(VolumeNumbers, NiftiScalesNumbersAlone) {
-  const std::string data = raw(std::vector<float>{1, no_number, 3, 4});
+  const std::string data = bytes_of_numbers(std::vector<float>{1, no_number, 3, 4});
   EXPECT_EQ(std::get<std::vector<float>>(read(nifti(16, 32, 2, 10, data), 7).values),
             (std::vector<float>{12, 7, 16, 18}));
 }
 
 // nibabel takes a slope that is not finite as none; a scale whose intercept is unknown cannot be applied.
 TEST(VolumeNumbers, NiftiSlopesOfNanMeanNoScale) {
-  const std::string data = raw(std::vector<int16_t>{1, 2, 3, 4});
+  const std::string data = bytes_of_numbers(std::vector<int16_t>{1, 2, 3, 4});
   EXPECT_EQ(std::get<std::vector<int16_t>>(read(nifti(4, 16, no_number, no_number, data)).values)[3], 4);
   EXPECT_TRUE(has(problem(nifti(4, 16, 2, no_number, data)), "intercept is not finite"));
 }
 
 TEST(VolumeNumbers, BytesBehindNumbersAreAWarning) {
-  const std::string data = raw(std::vector<int16_t>{1, 2, 3, 4}), file = nifti(4, 16, 0, 0, data);
+  const std::string data = bytes_of_numbers(std::vector<int16_t>{1, 2, 3, 4}), file = nifti(4, 16, 0, 0, data);
   EXPECT_TRUE(read(file).warnings.empty());
   const VoxelVolume longer = read(file + "abc");
   ASSERT_EQ(longer.warnings.size(), 1U);

@@ -9,14 +9,10 @@
 #include "formats/containers/gzip.h"
 #include "formats/volumes/npy.h"
 #include "formats/volumes/nrrd.h"
+#include "formats/volumes/test_bytes.h"
 
 namespace ombre::formats {
 namespace {
-
-template <class T>
-std::string bytes_of_numbers(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
 
 std::string nrrd_with(const std::string& type, const std::string& more, const std::string& data) {
   return "NRRD0004\ntype: " + type + "\ndimension: 3\nsizes: 2 3 1\n" + more + "\n\n" + data;
@@ -46,11 +42,8 @@ const std::vector<int16_t> six{-2, 0, 300, 4, 5, 32767};
 }  // namespace
 
 TEST(Volume, ReadsWhatNrrdHeadersOfOursSay) {
-  NrrdHeader header;
-  header.type = "float";
-  header.count = {2, 3, 1};
-  header.spacing_mm = {0.5, 0.25, 3};
-  header.origin_mm = {-1, 2, 7};
+  const NrrdHeader header{
+      .type = "float", .count = {2, 3, 1}, .spacing_mm = {0.5, 0.25, 3}, .origin_mm = {-1, 2, 7}, .notes = {}};
   const std::vector<float> numbers{0, 1.5f, -2, 3, 4, 5};
   const VoxelVolume volume = read_whole(nrrd_header(header) + bytes_of_numbers(numbers));
   EXPECT_EQ(volume.count, (std::array<int64_t, 3>{2, 3, 1}));

@@ -34,11 +34,10 @@ BoxTree tree_of(const std::vector<BeamShape>& shapes) {
   return BoxTree(boxes);
 }
 
-class BeamSource final : public program::FieldSource {
+class BeamSource final : public program::NamedSource {
  public:
   BeamSource(std::string name, const formats::PlacedLattice& placed, Hash content)
-      : name_(std::move(name)),
-        content_(content),
+      : NamedSource(std::move(name), content),
         lattice_from_mm_(inverse(placed.mm_from_lattice)),
         shrinks_(stretch(placed.mm_from_lattice).least),
         shapes_(shapes_of(*placed.lattice)),
@@ -56,8 +55,6 @@ class BeamSource final : public program::FieldSource {
     bounds_ = bounds_.expanded(beam_rounding * (length(bounds_.size()) + length(bounds_.center())));
   }
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override { return bounds_; }
   int channel(std::string_view channel_name) const override { return channel_of(channel_name); }
 
@@ -100,8 +97,6 @@ class BeamSource final : public program::FieldSource {
     return tree_.nearest(p, reach, enough, [&](uint32_t n) { return (*shapes_)[n].distance(p); });
   }
 
-  std::string name_;
-  Hash content_;
   Affine lattice_from_mm_;
   double shrinks_;  // least factor by which the placement scales a length
   BeamShapes shapes_;

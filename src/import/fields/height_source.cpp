@@ -74,13 +74,11 @@ Between between(double at, uint32_t count) {
   return {first, std::min(first + 1, count - 1), place - first};
 }
 
-class HeightSource final : public program::FieldSource {
+class HeightSource final : public program::NamedSource {
  public:
   HeightSource(std::string name, GrayImage image, Hash content)
-      : name_(std::move(name)), content_(content), image_(std::move(image)), extremes_(image_) {}
+      : NamedSource(std::move(name), content), image_(std::move(image)), extremes_(image_) {}
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override {
     return {{0, 0, -Box::inf}, {static_cast<double>(image_.width), static_cast<double>(image_.height), Box::inf}};
   }
@@ -109,8 +107,6 @@ class HeightSource final : public program::FieldSource {
   }
   static double mixed(double a, double b, double share) { return a + share * (b - a); }
 
-  std::string name_;
-  Hash content_;
   GrayImage image_;
   Extremes extremes_;
 };

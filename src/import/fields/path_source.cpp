@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math/box_tree.h"
 #include "base/system/assert.h"
 #include "import/fields/segment_tree.h"
+#include "import/fields/triangle_distance.h"
 
 namespace ombre::importing {
 namespace {
@@ -152,6 +154,108 @@ class PointsSource final : public NearestSegment {
   size_t count_;
 };
 
+class SegmentsSource final : public NearestSegment {
+ public:
+  explicit SegmentsSource(const std::vector<Vec3>& points)
+      : NearestSegment("segments", "index", points, pairs_of(points)), count_(points.size() / 2) {}
+
+ private:
+  static std::vector<LineSegment> pairs_of(const std::vector<Vec3>& points) {
+    std::vector<LineSegment> segments;
+    for (size_t n = 1; n < points.size(); n += 2)
+      segments.push_back({points[n - 1], points[n], static_cast<uint32_t>(n / 2)});
+    return segments;
+  }
+  double other(const LineSegment& segment, Vec3) const override { return segment.number; }
+  Interval other_range() const override { return {0, static_cast<double>(count_ - 1)}; }
+
+  size_t count_;
+};
+
+// Has the channel "distance", which changes by at most 1 mm for each mm.
+class DistanceSource : public program::FieldSource {
+ public:
+  DistanceSource(const char* name, const std::vector<Vec3>& points) : name_(name), content_(content_of(name, points)) {}
+
+  std::string name() const override { return name_; }
+  Hash content() const override { return content_; }
+  int channel(std::string_view channel_name) const override { return channel_name == "distance" ? 0 : -1; }
+  double ops_of_sample(int) const override { return 100; }
+  double sample(int, Vec3 p) const override { return is_finite(p) ? distance(p) : 0; }
+  Interval range(int, const Box& box) const override {
+    if (!box.is_bounded()) return {0, Box::inf};
+    const double value = distance(box.center()), reach = 0.5 * length(box.size());
+    const double room = reach + path_rounding * (reach + value + length(box.center()) + 1);
+    return {std::max(0.0, round_down(value - room)), round_up(value + room)};
+  }
+
+ private:
+  virtual double distance(Vec3 p) const = 0;
+
+  const char* name_;
+  Hash content_;
+};
+
+// A point is as far from the wall between its cell and another one as from the plane between both points. A point b
+// whose plane is w away is at most 2 w farther than the nearest point a: the foot of the perpendicular on the plane is
+// as far from b as from a. So a search for the least |p - a| + 2 w never skips the nearest wall.
+class PointCells final : public DistanceSource {
+ public:
+  explicit PointCells(const std::vector<Vec3>& points) : DistanceSource("cells of points", points), points_(points) {
+    std::vector<Box> boxes;
+    for (const Vec3& p : points) boxes.push_back({p, p});
+    tree_ = BoxTree(boxes);
+  }
+  Box bounds() const override { return Box::everything(); }
+
+ private:
+  double distance(Vec3 p) const override {
+    uint32_t own = 0;
+    double least = Box::inf;
+    tree_.nearest(p, Box::inf, 0, [&](uint32_t n) {
+      const double here = length(points_[n] - p);
+      if (here < least) {
+        least = here;
+        own = n;
+      }
+      return here;
+    });
+    const double found = tree_.nearest(p, Box::inf, 0, [&](uint32_t n) {
+      const Vec3 apart = points_[n] - points_[own];
+      const double size = length(apart);
+      if (!(size > 0)) return Box::inf;
+      return least + 2 * std::max(0.0, dot(0.5 * (points_[n] + points_[own]) - p, apart) / size);
+    });
+    return 0.5 * (found - least);
+  }
+
+  std::vector<Vec3> points_;
+  BoxTree tree_;
+};
+
+class Triangles final : public DistanceSource {
+ public:
+  explicit Triangles(const std::vector<Vec3>& points) : DistanceSource("triangles", points) {
+    std::vector<Box> boxes;
+    for (size_t n = 0; n + 2 < points.size(); n += 3) {
+      corners_.push_back({points[n], points[n + 1], points[n + 2]});
+      boxes.push_back(box_of(corners_.back()));
+      bounds_ = hull(bounds_, boxes.back());
+    }
+    tree_ = BoxTree(boxes);
+  }
+  Box bounds() const override { return bounds_; }
+
+ private:
+  double distance(Vec3 p) const override {
+    return tree_.nearest(p, Box::inf, 0, [&](uint32_t n) { return std::sqrt(squared_distance(p, corners_[n])); });
+  }
+
+  std::vector<std::array<Vec3, 3>> corners_;
+  Box bounds_;
+  BoxTree tree_;
+};
+
 }  // namespace
 
 program::SourceField make_path_source(const std::vector<Vec3>& points) {
@@ -162,6 +266,21 @@ program::SourceField make_path_source(const std::vector<Vec3>& points) {
 program::SourceField make_points_source(const std::vector<Vec3>& points) {
   ASSERT(!points.empty());
   return std::make_shared<PointsSource>(points);
+}
+
+program::SourceField make_segments_source(const std::vector<Vec3>& points) {
+  ASSERT(points.size() >= 2 && points.size() / 2 * 2 == points.size());
+  return std::make_shared<SegmentsSource>(points);
+}
+
+program::SourceField make_triangles_source(const std::vector<Vec3>& points) {
+  ASSERT(points.size() >= 3 && points.size() / 3 * 3 == points.size());
+  return std::make_shared<Triangles>(points);
+}
+
+program::SourceField make_point_cells_source(const std::vector<Vec3>& points) {
+  ASSERT(points.size() >= 2);
+  return std::make_shared<PointCells>(points);
 }
 
 }  // namespace ombre::importing

@@ -45,11 +45,10 @@ std::vector<LineSegment> without_axis(std::vector<LineSegment> walls) {
   return walls;
 }
 
-class PolygonSource final : public program::FieldSource {
+class PolygonSource final : public program::NamedSource {
  public:
   PolygonSource(std::string name, Polygons polygons, PolygonOptions options)
-      : name_(std::move(name)),
-        content_(hash_of(polygons, options)),
+      : NamedSource(std::move(name), hash_of(polygons, options)),
         polygons_(std::make_shared<const Polygons>(std::move(polygons))),
         bounds_(bounds_of(*polygons_)),
         crossings_(*polygons_, {1, 0}),
@@ -57,8 +56,6 @@ class PolygonSource final : public program::FieldSource {
     if (options.turns_about_y) inner_walls_.emplace(without_axis(polygon_walls(*polygons_, crossings_)));
   }
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override { return bounds_; }
 
   int channel(std::string_view channel_name) const override { return channel_of(channel_name); }
@@ -99,8 +96,6 @@ class PolygonSource final : public program::FieldSource {
     return crossings_.winding_at({p.x, p.y}).is_inside();
   }
 
-  std::string name_;
-  Hash content_;
   std::shared_ptr<const Polygons> polygons_;
   Box bounds_;
   PolygonCrossings crossings_;

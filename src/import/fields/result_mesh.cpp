@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/system/assert.h"
+#include "import/fields/triangle_distance.h"
 
 namespace ombre::importing {
 namespace {
@@ -23,25 +24,6 @@ Box box_of_element(const formats::Results& results, size_t element) {
     box.hi[axis] = range.hi;
   }
   return box.expanded(4 * element_room * length(box.size()));
-}
-
-// Returns the barycentric coordinates of the point of a triangle nearest to p. Source: C. Ericson, Real-Time Collision
-// Detection, 2005, 5.1.5.
-std::array<double, 3> nearest_shares(const std::array<Vec3, 3>& t, Vec3 p) {
-  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
-               d6 = dot(ac, cp);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const auto edge = [](double from, double to) { return from - to > 0 ? from / (from - to) : 0.0; };
-  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - edge(d1, d3), edge(d1, d3), 0};
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - edge(d2, d6), 0, edge(d2, d6)};
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return {0, 1 - edge(d4 - d3, d6 - d5), edge(d4 - d3, d6 - d5)};
-  const double sum = va + vb + vc;
-  if (!(sum > 0)) return {1, 0, 0};
-  return {va / sum, vb / sum, vc / sum};
 }
 
 Vec3 blended(const std::array<Vec3, 3>& corners, const std::array<double, 3>& shares) {

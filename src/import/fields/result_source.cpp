@@ -62,18 +62,16 @@ class ChannelBounds {
   Interval whole_ = no_values;
 };
 
-class ResultSource final : public program::FieldSource {
+class ResultSource final : public program::NamedSource {
  public:
   ResultSource(std::string name, std::shared_ptr<const ResultMesh> mesh, const OutsideRule& outside,
                const Hash& content)
-      : name_(std::move(name)), mesh_(std::move(mesh)), outside_(outside), content_(content) {
+      : NamedSource(std::move(name), content), mesh_(std::move(mesh)), outside_(outside) {
     const auto& fields = mesh_->results().fields;
     for (size_t f = 0; f < fields.size(); ++f)
       for (size_t c = 0; c < fields[f].components; ++c) channels_.push_back({f, c});
   }
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override { return mesh_->bounds(); }
 
   int channel(std::string_view channel_name) const override {
@@ -175,10 +173,8 @@ class ResultSource final : public program::FieldSource {
     return *known;
   }
 
-  std::string name_;
   std::shared_ptr<const ResultMesh> mesh_;
   OutsideRule outside_;
-  Hash content_;
   std::vector<ResultChannel> channels_;
   mutable std::mutex mutex_;
   mutable std::map<int, std::unique_ptr<ChannelBounds>> channel_bounds_;

@@ -24,15 +24,14 @@ struct Neighbours {
   size_t count = 0;
 };
 
-class ScatteredSource final : public program::FieldSource {
+class ScatteredSource final : public program::NamedSource {
  public:
   ScatteredSource(std::string name, std::shared_ptr<const formats::Results> results, bool takes_nearest,
                   const OutsideRule& outside, const Hash& content)
-      : name_(std::move(name)),
+      : NamedSource(std::move(name), content),
         results_(std::move(results)),
         takes_nearest_(takes_nearest),
-        outside_(outside),
-        content_(content) {
+        outside_(outside) {
     std::vector<Box> boxes;
     for (const Vec3& point : results_->points) {
       boxes.push_back({point, point});
@@ -42,8 +41,6 @@ class ScatteredSource final : public program::FieldSource {
     for (size_t f = 0; f < results_->fields.size(); ++f) add_field(f);
   }
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override { return bounds_.expanded(outside_.within_mm); }
   int channel(std::string_view channel_name) const override {
     if (channel_name == "inside") return 0;
@@ -134,11 +131,9 @@ class ScatteredSource final : public program::FieldSource {
     return sum / weights;
   }
 
-  std::string name_;
   std::shared_ptr<const formats::Results> results_;
   bool takes_nearest_;
   OutsideRule outside_;
-  Hash content_;
   Box bounds_;
   BoxTree tree_;
   std::vector<ScatteredChannel> channels_;

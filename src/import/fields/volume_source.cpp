@@ -217,18 +217,15 @@ std::optional<int64_t> whole_number(double value, double tolerance) {
 }
 
 template <class T>
-class GridSource final : public program::FieldSource {
+class GridSource final : public program::NamedSource {
  public:
   GridSource(std::string name, Hash content, formats::VoxelVolume volume)
-      : name_(std::move(name)),
-        content_(content),
+      : NamedSource(std::move(name), content),
         grid_(std::make_shared<Grid<T>>(std::move(volume))),
         blocks_(std::make_shared<ValueBlocks>(grid_->count, [&](int64_t j, int64_t k, int64_t first, int64_t end) {
           return grid_->range_of_row(j, k, first, end);
         })) {}
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override {
     const auto& [nx, ny, nz] = grid_->count;
     return {{-0.5, -0.5, -0.5},
@@ -328,8 +325,6 @@ class GridSource final : public program::FieldSource {
     return blocks_->whole().lo >= -most && blocks_->whole().hi <= most;
   }
 
-  std::string name_;
-  Hash content_;
   std::shared_ptr<const Grid<T>> grid_;
   std::shared_ptr<const ValueBlocks> blocks_;
 };

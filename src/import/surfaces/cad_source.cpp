@@ -166,18 +166,16 @@ class ExactSolid {
   double doubt_;
 };
 
-class ExactSource final : public program::FieldSource {
+class ExactSource final : public program::NamedSource {
  public:
   ExactSource(std::string name, Hash content, double doubt_mm)
-      : name_(std::move(name)), content_(content), doubt_(doubt_mm) {}
+      : NamedSource(std::move(name), content), doubt_(doubt_mm) {}
 
   void add(const cad::SolidPtr& solid, program::SourceField triangles, std::optional<FaceTree> faces) {
     solids_.push_back(std::make_unique<ExactSolid>(solid, std::move(triangles), std::move(faces), doubt_));
     bounds_ = hull(bounds_, solid->bounds);
   }
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override { return bounds_; }
 
   int channel(std::string_view channel_name) const override { return channel_of(channel_name); }
@@ -218,8 +216,6 @@ class ExactSource final : public program::FieldSource {
     return least;
   }
 
-  std::string name_;
-  Hash content_;
   double doubt_;
   std::vector<std::unique_ptr<ExactSolid>> solids_;
   Box bounds_;

@@ -11,9 +11,9 @@
 
 #include "base/system/module_loader.h"
 #include "base/text/error.h"
+#include "import/fields/triangle_distance.h"
 #include "import/surfaces/embree_calls.h"
 #include "import/surfaces/triangle_clusters.h"
-#include "import/surfaces/triangle_distance.h"
 
 namespace ombre::importing {
 

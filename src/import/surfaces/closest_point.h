@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "base/system/not_copied.h"
 #include "import/surfaces/surface.h"
 
 namespace ombre::importing {
@@ -14,13 +15,11 @@ bool has_mesh_distance();
 
 // Finds the triangles that may be nearest with Embree in single precision, with a margin for rounding, and computes
 // their distances in double precision. Thread-safe once built.
-class ClosestPoint {
+class ClosestPoint : NotCopied {
  public:
   // Builds the tree. Throws Error if Embree cannot start. Requires has_mesh_distance().
   explicit ClosestPoint(SurfacePtr surface);
   ~ClosestPoint();
-  ClosestPoint(const ClosestPoint&) = delete;
-  ClosestPoint& operator=(const ClosestPoint&) = delete;
 
   static constexpr uint32_t none = ~uint32_t{0};
   struct Nearest {

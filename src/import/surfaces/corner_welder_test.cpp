@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-Mesh apart(const Mesh& mesh, double noise) {
+Mesh soup_of(const Mesh& mesh, double noise) {
   std::mt19937 random(7);
   return test::apart(mesh, random, noise);
 }
@@ -19,7 +19,7 @@ TEST(CornerWelder, RoundingIsMended) {
   for (const double noise : {1e-16, 1e-12, 1e-9, 1e-7, 1e-6, 1e-5})
     for (const Mesh& mesh : {torus(7, 2, 40, 20), cuboid({-5, -5, 0}, {5, 5, 20}), sphere(10, 3)}) {
       SCOPED_TRACE(noise);
-      Mesh soup = apart(mesh, noise);
+      Mesh soup = soup_of(mesh, noise);
       ASSERT_FALSE(inspect(soup).is_closed());
       const auto welded = weld_corners(soup, false);
       ASSERT_TRUE(welded);
@@ -31,7 +31,7 @@ TEST(CornerWelder, RoundingIsMended) {
 }
 
 TEST(CornerWelder, FarFromTheOriginTheSizeBoundsTheTolerance) {
-  Mesh soup = apart(moved(cuboid({0, 0, 0}, {10, 8, 6}), Affine::translation({5e5, 4.6e6, 0})), 1e-6);
+  Mesh soup = soup_of(moved(cuboid({0, 0, 0}, {10, 8, 6}), Affine::translation({5e5, 4.6e6, 0})), 1e-6);
   EXPECT_TRUE(weld_corners(soup, false));
   EXPECT_TRUE(inspect(soup).is_closed());
 }
@@ -53,14 +53,14 @@ TEST(CornerWelder, HolesStayOpen) {
   Mesh mesh = cuboid({0, 0, 0}, {10, 10, 10});
   mesh.triangles.pop_back();
   expect_unchanged(mesh);
-  expect_unchanged(apart(mesh, 1e-9));
+  expect_unchanged(soup_of(mesh, 1e-9));
 }
 
 TEST(CornerWelder, FinePartsDoNotCollapse) {
   // Rounding to floats explains at most 2.4e-6 of 10, so the plate's thickness is intended.
   const Mesh plate = cuboid({0, 0, 0}, {10, 10, 3e-5});
-  expect_unchanged(apart(plate, 2e-5));
-  Mesh soup = apart(plate, 1e-9);
+  expect_unchanged(soup_of(plate, 2e-5));
+  Mesh soup = soup_of(plate, 1e-9);
   ASSERT_TRUE(weld_corners(soup, false));
   EXPECT_NEAR(inspect(soup).volume, 3e-3, 1e-6);
   // The hole's rim is shorter than the greatest tolerance.
@@ -85,8 +85,8 @@ TEST(CornerWelder, NoiseWithinATriangleVanishes) {
 TEST(CornerWelder, DirectionsCountUnlessTheRuleIgnoresThem) {
   Mesh mesh = cuboid({0, 0, 0}, {10, 10, 10});
   std::swap(mesh.triangles[3][1], mesh.triangles[3][2]);
-  expect_unchanged(apart(mesh, 1e-9));
-  Mesh soup = apart(mesh, 1e-9);
+  expect_unchanged(soup_of(mesh, 1e-9));
+  Mesh soup = soup_of(mesh, 1e-9);
   EXPECT_TRUE(weld_corners(soup, true));
   EXPECT_EQ(inspect(soup).open_edges, 0u);
 }

@@ -34,11 +34,10 @@ class Lazy {
   mutable std::optional<T> value_;
 };
 
-class MeshSource final : public program::FieldSource {
+class MeshSource final : public program::NamedSource {
  public:
   MeshSource(std::string name, formats::Mesh mesh, Hash content, MeshOptions options)
-      : name_(std::move(name)),
-        content_(hash_bytes(content.hex() + std::to_string(static_cast<int>(options.rule)))),
+      : NamedSource(std::move(name), hash_bytes(content.hex() + std::to_string(static_cast<int>(options.rule)))),
         rule_(options.rule) {
     auto surface = std::make_shared<Surface>();
     surface->vertices = std::move(mesh.vertices);
@@ -47,8 +46,6 @@ class MeshSource final : public program::FieldSource {
     bounds_ = importing::bounds(*surface_);
   }
 
-  std::string name() const override { return name_; }
-  Hash content() const override { return content_; }
   Box bounds() const override { return bounds_; }
 
   int channel(std::string_view channel_name) const override {
@@ -172,8 +169,6 @@ class MeshSource final : public program::FieldSource {
     return closest_.get([&](std::optional<ClosestPoint>& value) { value.emplace(surface_); });
   }
 
-  std::string name_;
-  Hash content_;
   InsideRule rule_;
   SurfacePtr surface_;
   Box bounds_;

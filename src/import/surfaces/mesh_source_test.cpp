@@ -6,14 +6,15 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 #include "formats/containers/file.h"
 #include "formats/packages/read_mesh.h"
+#include "import/fields/triangle_distance.h"
 #include "import/surfaces/closest_point.h"
 #include "import/surfaces/solid_angle.h"
 #include "import/surfaces/test_meshes.h"
-#include "import/surfaces/triangle_distance.h"
 
 namespace ombre::importing {
 namespace {
@@ -255,6 +256,9 @@ TEST(Inspect, MergesVerticesAtTheSamePlace) {
 // The models in examples/models.
 const std::filesystem::path models = std::filesystem::path(OMBRE_SOURCE_DIR) / "examples" / "models";
 
+// Open surfaces, on which examples lay cells.
+const std::set<std::string> sheets{"head.off", "insole.off"};
+
 TEST(Models, AreClosedAndFaceOutward) {
   size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(models)) {
@@ -268,8 +272,10 @@ TEST(Models, AreClosedAndFaceOutward) {
     ASSERT_TRUE(mesh) << to_text(diagnostics);
     EXPECT_TRUE(diagnostics.list().empty()) << to_text(diagnostics);
     const MeshReport report = inspect(*mesh);
-    EXPECT_TRUE(report.is_closed()) << report.open_edges << " open, " << report.inconsistent_edges << " inconsistent";
+    EXPECT_EQ(report.inconsistent_edges, 0u);
     EXPECT_EQ(report.degenerate, 0u);
+    if (sheets.contains(entry.path().filename().string())) continue;
+    EXPECT_TRUE(report.is_closed()) << report.open_edges << " open";
     EXPECT_GT(report.volume, 0);
   }
   EXPECT_GE(count, 6u);

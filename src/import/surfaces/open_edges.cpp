@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "import/fields/triangle_distance.h"
 #include "import/surfaces/mesh_edges.h"
-#include "import/surfaces/triangle_distance.h"
 
 namespace ombre::importing {
 namespace {

@@ -5,31 +5,13 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 
 #include "base/math/box.h"
+#include "base/math/disjoint_sets.h"
 #include "import/surfaces/point_winding.h"
 
 namespace ombre::importing {
 namespace {
-
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), uint32_t{0}); }
-
-  uint32_t root(uint32_t n) {
-    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
-    return n;
-  }
-  void join(uint32_t a, uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 // Joins the sets whose triangles are not closed at this edge by themselves.
 void join_open(std::span<const FacetEdge> edge, DisjointSets& sets) {

@@ -26,6 +26,7 @@ std::optional<PlanOptions> plan_options(const std::string& program, const Sampli
   options.image = images.format;
   options.place = sampling.place;
   options.whole_tray = sampling.tray;
+  if (images.samples > 0) options.value = ValueChoice{"coverage", {}, 8, images.samples};
   if (!images.by.empty()) options.value = ValueChoice{images.by, images.range, std::stoi(images.bits)};
   return options;
 }

@@ -78,6 +78,7 @@ struct ImageOptions {
   std::string by;  // empty: images show materials
   std::optional<Interval> range;
   std::string bits = "8";
+  int samples = 0;
 
   static const options::Spec<ImageOptions>& options() {
     using namespace options;
@@ -95,7 +96,13 @@ struct ImageOptions {
                "Bits of a gray pixel: 8 (default, 256 shades), 16 (65,536), or 1 for a mask, white from the\n"
                "middle of the range on",
                "8|16|1")
-            .needs("--by")};
+            .needs("--by"),
+        option("--antialias", &ImageOptions::samples, kind::whole,
+               "Show in 255 shades how much of each pixel is inside, by N x N points half-way up the layer, whatever\n"
+               "the material: for masks of vat printers",
+               "N")
+            .between(1, 16)
+            .excludes({"--by"})};
     return spec;
   }
 };

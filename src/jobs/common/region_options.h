@@ -14,11 +14,15 @@ namespace ombre::compile {
 std::vector<double> parse_borders(const std::string& text, const std::string& name);
 inline constexpr options::Kind<std::vector<double>> rising_numbers_kind{"numbers", parse_borders};
 
+// Parses positive numbers such as "5,0.1".
+std::vector<double> parse_distances(const std::string& text, const std::string& name);
+inline constexpr options::Kind<std::vector<double>> distances_kind{"numbers", parse_distances};
+
 struct RegionOptions {
   std::optional<double> tolerance_mm, cell_mm;
   std::string by;
   int bands = 0;  // 0: not chosen
-  std::vector<double> borders;
+  std::vector<double> borders, within;
 
   // `piece` names what a region becomes, "A body"; `usual` names the default regions, and `usual_tolerance` the default
   // tolerance.
@@ -40,9 +44,17 @@ struct RegionOptions {
                 .between(2, 1000),
             option("--borders", &RegionOptions::borders, rising_numbers_kind,
                    "Values at the borders of bands: fractions from 0 to 1, or values of the attribute", "V1,V2,...")
-                .excludes({"--bands"})};
+                .excludes({"--bands"}),
+            option("--within", &RegionOptions::within, distances_kind,
+                   "Largest distance of values from the middle of their band, for all names or one for each: as few\n"
+                   "bands as that takes",
+                   "V1,V2,...")
+                .excludes({"--bands", "--borders"})};
   }
-  bool are_chosen() const { return !by.empty() || bands > 0 || !borders.empty(); }
+  bool are_chosen() const { return !by.empty() || has_bands(); }
+  bool has_bands() const { return bands > 0 || !borders.empty() || !within.empty(); }
+  // Returns the distance for the value `n` of those that have bands; 0 for none.
+  double within_of(size_t n) const { return within.empty() ? 0 : within[within.size() > 1 ? n : 0]; }
   // Throws options::WrongValue for options that exclude each other.
   RegionRequest request() const;
 };

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "base/math/disjoint_sets.h"
 #include "base/math/line_simplification.h"
 
 namespace ombre::compile {
@@ -38,11 +38,6 @@ class Points {
   std::map<Key, uint32_t> numbers_;
 };
 
-uint32_t root_in(std::vector<uint32_t>& parents, uint32_t n) {
-  while (parents[n] != n) n = parents[n] = parents[parents[n]];
-  return n;
-}
-
 class EdgeFinder {
  public:
   EdgeFinder(double tolerance_mm, double size_mm) : tolerance_mm_(tolerance_mm), size_mm_(size_mm) {}
@@ -51,15 +46,13 @@ class EdgeFinder {
     std::vector<uint32_t> numbers;
     for (const Vec3& p : body.vertices) numbers.push_back(points_.add(p));
     std::map<Edge, std::vector<Vec3>> normals;
-    std::vector<uint32_t> parents(body.vertices.size());
-    std::iota(parents.begin(), parents.end(), 0U);
+    DisjointSets sets(body.vertices.size());
     for (const auto& triangle : body.triangles) {
       const Vec3 a = body.vertices[triangle[0]], b = body.vertices[triangle[1]], c = body.vertices[triangle[2]];
       const Vec3 normal = cross(b - a, c - a);
       for (size_t n = 0; n < 3; ++n) {
         const uint32_t from = triangle[n], to = triangle[(n + 1) % 3];
-        const uint32_t p = root_in(parents, from), q = root_in(parents, to);
-        parents[std::max(p, q)] = std::min(p, q);
+        sets.join(from, to);
         if (length(normal) > 0) normals[std::minmax(from, to)].push_back((1 / length(normal)) * normal);
       }
     }
@@ -67,9 +60,9 @@ class EdgeFinder {
     for (const auto& [edge, both] : normals) {
       if (!is_sharp_edge(both)) continue;
       edges_.push_back(std::minmax(numbers[edge.first], numbers[edge.second]));
-      has_edge[root_in(parents, edge.first)] = true;
+      has_edge[sets.root(edge.first)] = true;
     }
-    add_smooth_points(body, parents, has_edge);
+    add_smooth_points(body, sets, has_edge);
     add_face_points(body, normals);
   }
 
@@ -113,10 +106,10 @@ class EdgeFinder {
 
   // Adds points of each surface without sharp edges: the lowest point, points around it, and the outermost along each
   // axis. A mesher sees a surface where its points lie close together, and goes on from there.
-  void add_smooth_points(const surface::Body& body, std::vector<uint32_t>& parents, const std::vector<bool>& has_edge) {
+  void add_smooth_points(const surface::Body& body, DisjointSets& sets, const std::vector<bool>& has_edge) {
     std::map<uint32_t, Vertices> surfaces;
     for (uint32_t n = 0; n < body.vertices.size(); ++n)
-      if (const uint32_t root = root_in(parents, n); !has_edge[root]) surfaces[root].push_back(n);
+      if (const uint32_t root = sets.root(n); !has_edge[root]) surfaces[root].push_back(n);
     const auto place = [&](uint32_t n) { return body.vertices[n]; };
     for (const auto& [root, vertices] : surfaces) {
       std::vector<Vec3> found;
@@ -133,8 +126,7 @@ class EdgeFinder {
   // Adds the vertex of each face that is farthest from sharp edges, and a few vertices around that one.
   void add_face_points(const surface::Body& body, const std::map<Edge, std::vector<Vec3>>& normals) {
     std::vector<bool> is_sharp(body.vertices.size());
-    std::vector<uint32_t> parents(body.vertices.size());
-    std::iota(parents.begin(), parents.end(), 0U);
+    DisjointSets sets(body.vertices.size());
     for (const auto& [edge, both] : normals)
       if (is_sharp_edge(both)) is_sharp[edge.first] = is_sharp[edge.second] = true;
     Vertices edge_points;
@@ -143,12 +135,11 @@ class EdgeFinder {
     if (edge_points.empty()) return;
     for (const auto& [edge, both] : normals) {
       if (is_sharp[edge.first] || is_sharp[edge.second]) continue;
-      const uint32_t p = root_in(parents, edge.first), q = root_in(parents, edge.second);
-      parents[std::max(p, q)] = std::min(p, q);
+      sets.join(edge.first, edge.second);
     }
     std::map<uint32_t, Vertices> faces;
     for (uint32_t n = 0; n < is_sharp.size(); ++n)
-      if (!is_sharp[n]) faces[root_in(parents, n)].push_back(n);
+      if (!is_sharp[n]) faces[sets.root(n)].push_back(n);
     for (const auto& [root, vertices] : faces) {
       const uint32_t middle = farthest(body, vertices, edge_points);
       std::vector<Vec3> found;
@@ -215,21 +206,19 @@ class EdgeFinder {
   // Drops short lines with an open end, and connected lines that are short together if one has an open end. Rough
   // surfaces have such sharp edges here and there, and no mesh needs them.
   void drop_scraps(std::vector<Vertices>& lines) {
-    std::vector<uint32_t> parents(points_.all.size());
-    std::iota(parents.begin(), parents.end(), 0U);
+    DisjointSets sets(points_.all.size());
     for (const Vertices& line : lines) {
-      const uint32_t a = root_in(parents, line.front()), b = root_in(parents, line.back());
-      parents[std::max(a, b)] = std::min(a, b);
+      sets.join(line.front(), line.back());
     }
     std::map<uint32_t, double> lengths;
     std::map<uint32_t, bool> is_open;
     for (const Vertices& line : lines) {
-      const uint32_t root = root_in(parents, line.front());
+      const uint32_t root = sets.root(line.front());
       lengths[root] += length_of(line);
       is_open[root] |= ends_nowhere(line);
     }
     std::erase_if(lines, [&](const Vertices& line) {
-      const uint32_t root = root_in(parents, line.front());
+      const uint32_t root = sets.root(line.front());
       if (is_open[root] && lengths[root] < least_open_length * size_mm_) return true;
       return ends_nowhere(line) && length_of(line) < least_length * size_mm_;
     });
@@ -237,18 +226,16 @@ class EdgeFinder {
 
   // Joins ends of lines that are far shorter than elements to one corner, since elements would have to be as small.
   void join_near_corners(std::vector<Vertices>& lines) {
-    std::vector<uint32_t> parents(points_.all.size());
-    std::iota(parents.begin(), parents.end(), 0U);
+    DisjointSets sets(points_.all.size());
     const auto is_short = [&](const Vertices& line) { return length_of(line) < join_length * size_mm_; };
     for (const Vertices& line : lines) {
       if (!is_short(line)) continue;
-      const uint32_t a = root_in(parents, line.front()), b = root_in(parents, line.back());
-      parents[std::max(a, b)] = std::min(a, b);
+      sets.join(line.front(), line.back());
     }
     std::erase_if(lines, is_short);
     for (Vertices& line : lines) {
-      line.front() = root_in(parents, line.front());
-      line.back() = root_in(parents, line.back());
+      line.front() = sets.root(line.front());
+      line.back() = sets.root(line.back());
     }
   }
 

@@ -8,7 +8,7 @@
 #include "base/math/point_text.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
-#include "import/surfaces/triangle_distance.h"
+#include "import/fields/triangle_distance.h"
 #include "jobs/fea/sharp_edges.h"
 #include "jobs/mesh/mesh_job.h"
 #include "questions/build.h"

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "jobs/common/job_options.h"
 #include "jobs/grid/grid_job.h"
@@ -16,10 +17,11 @@ struct GridChoices {
   std::optional<Box> box;
   WorkOptions work;
   bool gzip = false, force = false;
+  std::vector<std::string> settings;  // all options that were set: "--voxel=0.2"
 
   static const options::Spec<GridChoices>& options() {
     using namespace options;
-    static const options::Spec<GridChoices> spec{
+    static const options::Spec<GridChoices> rows{
         group(&GridChoices::design),
         group(&GridChoices::sampling),
         option("-o,--output", &GridChoices::output, kind::file, "The file to write; its ending says the format", "FILE")
@@ -33,6 +35,7 @@ struct GridChoices {
               WorkOptions::options("Most memory for slabs of voxels in flight and stages (default 2G)")),
         flag("--gzip", &GridChoices::gzip, "Compress the numbers of a .nrrd file"),
         flag("--force", &GridChoices::force, "Replace existing files, and write even if the disk seems too small")};
+    static const options::Spec<GridChoices> spec = recorded(rows, &GridChoices::settings);
     return spec;
   }
   // Reads the options; `usual` stands for a missing --what. Sparse grids hold distances near the surface alone. Throws

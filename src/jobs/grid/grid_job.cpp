@@ -213,14 +213,20 @@ std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, con
   return job;
 }
 
+int64_t most_slab_layers(const GridJob& job) {
+  int64_t layers = slab_unit;
+  while (layers > 1 && layer_bytes(job) * static_cast<double>(layers) > slab_bytes) layers /= 2;
+  return layers;
+}
+
 GridWork size_grid_work(const GridJob& job, int threads) {
   const auto stages = static_cast<double>(job.stages->memory_bytes({threads, job.memory_bytes, nullptr, nullptr}));
   const double allowed = std::min(window_bytes, static_cast<double>(job.memory_bytes) - stages);
   const double layer = layer_bytes(job);
-  GridWork work{slab_unit};
+  GridWork work{most_slab_layers(job)};
   // A file takes a copy of a slab.
   const auto slabs_in = [&](double bytes) { return bytes / (layer * static_cast<double>(work.slab_layers)) - 1; };
-  while (work.slab_layers > 1 && (slabs_in(slab_bytes) < 0 || slabs_in(allowed) < 1)) work.slab_layers /= 2;
+  while (work.slab_layers > 1 && slabs_in(allowed) < 1) work.slab_layers /= 2;
   const size_t wanted = 2 * static_cast<size_t>(threads > 0 ? threads : core_count());
   work.window = static_cast<size_t>(std::clamp(slabs_in(allowed), 1.0, static_cast<double>(wanted)));
   work.memory_bytes = stages + layer * static_cast<double>(work.slab_layers) * static_cast<double>(work.window + 1);

@@ -60,6 +60,8 @@ struct GridWork {
   double memory_bytes = 0;  // the most that these slabs and stages can take, once stages are prepared
 };
 GridWork size_grid_work(const GridJob& job, int threads);
+// Returns the layers of the largest slabs: 8, or fewer where layers are large.
+int64_t most_slab_layers(const GridJob& job);
 
 // Plans grids. Returns nothing, and adds diagnostics, when the design cannot be sampled, or lacks an attribute.
 std::optional<GridJob> plan_grids(const LoadedPtr& loaded, const Plan& plan, const GridQuery& query,

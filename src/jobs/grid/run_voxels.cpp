@@ -16,8 +16,10 @@
 #include "jobs/common/overwrite.h"
 #include "jobs/common/remarks.h"
 #include "jobs/common/session.h"
+#include "jobs/common/settings_key.h"
 #include "jobs/grid/grid_choices.h"
 #include "jobs/grid/scan_files.h"
+#include "jobs/grid/shared_grid.h"
 #include "jobs/grid/sparse_file.h"
 #include "jobs/grid/volume_files.h"
 #include "jobs/grid/voxels_in_memory.h"
@@ -192,8 +194,14 @@ int write(const GridChoices& a, const compile::GridJob& job, const Format& forma
   return done;
 }
 
-std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::GridQuery& query, Session& session,
-                                         Diagnostics& diagnostics) {
+// A grid with the design that it is of.
+struct Planned {
+  compile::GridJob job;
+  compile::LoadedPtr loaded;
+};
+
+std::optional<Planned> plan_job(const GridChoices& a, const compile::GridQuery& query, Session& session,
+                                Diagnostics& diagnostics) {
   const auto options = plan_options(a.sampling, a.work, session, diagnostics);
   if (!options) return std::nullopt;
   if (is_scan(a.design.design) && !options->pitch[0])
@@ -207,35 +215,69 @@ std::optional<compile::GridJob> plan_job(const GridChoices& a, const compile::Gr
   if (!plan) return std::nullopt;
   auto job =
       compile::plan_grids(loaded, *plan, query, compile::chosen_region(a.box, plan->request.lattice), diagnostics);
-  if (job) job->memory_bytes = a.work.memory_bytes;
-  return job;
+  if (!job) return std::nullopt;
+  job->memory_bytes = a.work.memory_bytes;
+  return Planned{std::move(*job), loaded};
+}
+
+compile::GridQuery query_of(const GridChoices& a, const Format& format) {
+  const std::string usual = is_scan(a.design.design) ? "number"
+                            : is_sparse(format)      ? "distance,fractions"
+                                                     : "materials";
+  return a.query(usual, is_sparse(format));
 }
 
 int voxels(const GridChoices& a, Session& session) {
   const Format format = chosen_format(a);
-  const std::string usual = is_scan(a.design.design) ? "number"
-                            : is_sparse(format)      ? "distance,fractions"
-                                                     : "materials";
-  const compile::GridQuery query = a.query(usual, is_sparse(format));
-  JobSteps<compile::GridJob> steps;
+  const compile::GridQuery query = query_of(a, format);
+  JobSteps<Planned> steps;
   steps.refuse = [&] {
     if (has_one_file(format, query)) refuse_to_overwrite_any({a.output}, format, a.force);
   };
   steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, query, session, diagnostics); };
-  steps.check = [&](const compile::GridJob& job) { check(a, job, format, session); };
-  steps.run = [&](const compile::GridJob& job) { return write(a, job, format, session); };
+  steps.check = [&](const Planned& planned) { check(a, planned.job, format, session); };
+  steps.run = [&](const Planned& planned) { return write(a, planned.job, format, session); };
   return take_steps(steps, session);
+}
+
+// Returns a key of everything that decides the numbers, such as the pitch of a printer whose profile is a file.
+stores::JobKey key_of(const GridChoices& a, const Planned& planned, const Session& session) {
+  stores::JobKey key = settings_key(a.design.design, planned.loaded->design, a.settings, session.program);
+  const compile::Sampling& sampling = planned.job.request;
+  std::string voxels, materials;
+  for (size_t axis = 0; axis < 3; ++axis)
+    voxels += sampling.lattice.pitch[axis].text() + ' ' +
+              format_number(sampling.lattice.origin[static_cast<int>(axis)]) + ' ' +
+              std::to_string(planned.job.region.lo[axis]) + ' ' + std::to_string(planned.job.region.hi[axis]) + '\n';
+  for (const compile::SliceMaterial& material : sampling.materials) materials += material.name + '\n';
+  key.add("the voxels", voxels);
+  key.add("the materials", materials);
+  return key;
+}
+
+SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) {
+  const auto& choices = *static_cast<const GridChoices*>(job);
+  const Format format = chosen_format(choices);
+  const auto* const dense = std::get_if<compile::DenseFormat>(&format);
+  if (!dense || choices.force)
+    throw WrongArgument("of grids those in .npy, .nrrd and .raw files are shared out, without " +
+                        spelled::option("--force"));
+  auto planned = plan_job(choices, query_of(choices, format), session, diagnostics);
+  if (!planned || diagnostics.has_errors()) return nullptr;
+  stores::JobKey key = key_of(choices, *planned, session);
+  std::vector<std::string> paths = compile::volume_paths(choices.output, planned->job.grids);
+  return share_grid(choices, {std::move(planned->job), std::move(paths), *dense}, std::move(key), tell_report);
 }
 
 }  // namespace
 
 int make_voxels(const GridChoices& a, Session& session, std::vector<compile::VolumeInMemory>& made) {
-  JobSteps<compile::GridJob> steps;
+  JobSteps<Planned> steps;
   steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, a.query("materials", false), session, diagnostics); };
-  steps.check = [&](const compile::GridJob& job) { warn_of_metric(session.events, job); };
-  steps.run = [&](const compile::GridJob& job) {
+  steps.check = [&](const Planned& planned) { warn_of_metric(session.events, planned.job); };
+  steps.run = [&](const Planned& planned) {
     JobProgress progress(session.events);
-    made = compile::volumes_in_memory(job, a.work.threads, &progress, &session.stop);
+    made = compile::volumes_in_memory(planned.job, a.work.threads, &progress, &session.stop);
     return done;
   };
   return take_steps(steps, session);
@@ -244,6 +286,7 @@ int make_voxels(const GridChoices& a, Session& session, std::vector<compile::Vol
 JobKind voxels_kind() {
   JobKind kind = job_kind<GridChoices>("voxels", "Write a voxel grid for other programs", voxels_footer(), voxels);
   for (const WrittenFormat& format : written_formats()) kind.endings.push_back(format.ending);
+  kind.share = share;
   return kind;
 }
 

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <memory>
+#include <numeric>
+#include <utility>
 
 #include "base/system/stopwatch.h"
 #include "jobs/slice/layer_files.h"
@@ -31,6 +32,8 @@ Data all_materials(const Sampling& request) {
   for (const SliceMaterial& material : request.materials) list.push_back(described(material));
   return list;
 }
+
+bool is_float(const Grid& grid) { return grid.kind != GridKind::material; }
 
 // Describes the numbers of a grid.
 DataMembers about(const GridJob& job, const Grid& grid) {
@@ -65,7 +68,7 @@ DataMembers about(const GridJob& job, const Grid& grid) {
 exporting::Volume volume_of(const GridJob& job, const Grid& grid) {
   const voxel::Lattice& lattice = job.request.lattice;
   exporting::Volume volume;
-  volume.is_float = grid.kind != GridKind::material;
+  volume.is_float = is_float(grid);
   for (size_t axis = 0; axis < 3; ++axis) {
     volume.count[axis] = job.region.size(static_cast<int>(axis));
     volume.spacing_mm[static_cast<int>(axis)] = lattice.pitch[axis].mm();
@@ -93,7 +96,7 @@ class SlabNumbers {
       }
   }
 
-  std::string_view bytes() const { return bytes_; }
+  std::string bytes() && { return std::move(bytes_); }
 
  private:
   size_t offset(int64_t i, int64_t j, int64_t k) const {
@@ -118,6 +121,20 @@ class SlabNumbers {
 
 }  // namespace
 
+void each_numbers(const GridJob& job, int threads, const TakeNumbers& take, Progress* progress, const StopFlag* stop) {
+  const auto take_slab = [&](const GridSlab& slab) {
+    SlabOfNumbers numbers{slab.box, {}, false};
+    for (size_t n = 0; n < job.grids.size(); ++n) {
+      SlabNumbers of_grid(slab.box, is_float(job.grids[n]));
+      for (const FieldTile& tile : slab.tiles) of_grid.take(tile, n);
+      numbers.bytes.push_back(std::move(of_grid).bytes());
+    }
+    for (const FieldTile& tile : slab.tiles) numbers.has_inside = numbers.has_inside || has_inside(job, tile);
+    take(numbers);
+  };
+  each_slab(job, threads, take_slab, progress, stop);
+}
+
 std::vector<VolumeInMemory> volumes_in_memory(const GridJob& job, int threads, Progress* progress,
                                               const StopFlag* stop) {
   std::vector<VolumeInMemory> volumes;
@@ -125,14 +142,10 @@ std::vector<VolumeInMemory> volumes_in_memory(const GridJob& job, int threads, P
     volumes.push_back({volume_of(job, grid), {}});
     volumes.back().numbers.reserve(volumes.back().volume.bytes());
   }
-  const auto take = [&](const GridSlab& slab) {
-    for (size_t n = 0; n < volumes.size(); ++n) {
-      SlabNumbers numbers(slab.box, volumes[n].volume.is_float);
-      for (const FieldTile& tile : slab.tiles) numbers.take(tile, n);
-      volumes[n].numbers += numbers.bytes();
-    }
+  const auto take = [&](const SlabOfNumbers& slab) {
+    for (size_t n = 0; n < volumes.size(); ++n) volumes[n].numbers += slab.bytes[n];
   };
-  each_slab(job, threads, take, progress, stop);
+  each_numbers(job, threads, take, progress, stop);
   return volumes;
 }
 
@@ -147,9 +160,31 @@ std::vector<std::string> volume_paths(const std::string& path, const std::vector
   return paths;
 }
 
+std::vector<uint64_t> numbers_bytes(const GridJob& job, int64_t layers) {
+  std::vector<uint64_t> bytes;
+  for (const Grid& grid : job.grids)
+    bytes.push_back(volume_of(job, grid).layer_bytes() * static_cast<uint64_t>(layers));
+  return bytes;
+}
+
 uint64_t volume_bytes(const GridJob& job) {
+  const std::vector<uint64_t> bytes = numbers_bytes(job, job.region.size(2));
+  return std::accumulate(bytes.begin(), bytes.end(), uint64_t{0});
+}
+
+VolumeFiles::VolumeFiles(const GridJob& job, const std::vector<std::string>& paths, const DenseFormat& format) {
+  for (size_t n = 0; n < paths.size(); ++n)
+    files_.push_back(std::make_unique<exporting::VolumeFile>(paths[n], *format.format, volume_of(job, job.grids[n]),
+                                                             format.is_gzip));
+}
+
+uint64_t VolumeFiles::commit() {
   uint64_t bytes = 0;
-  for (const Grid& grid : job.grids) bytes += volume_of(job, grid).bytes();
+  for (auto& file : files_) file->close();
+  for (auto& file : files_) {
+    file->commit();
+    bytes += file->bytes_written();
+  }
   return bytes;
 }
 
@@ -157,24 +192,13 @@ GridReport write_volumes(const GridJob& job, const std::vector<std::string>& pat
                          int threads, Progress* progress, const StopFlag* stop) {
   const Stopwatch watch;
   GridReport report{paths, 0, false, 0};
-  std::vector<std::unique_ptr<exporting::VolumeFile>> files;
-  for (size_t n = 0; n < paths.size(); ++n)
-    files.push_back(std::make_unique<exporting::VolumeFile>(paths[n], *format.format, volume_of(job, job.grids[n]),
-                                                            format.is_gzip));
-  const auto take = [&](const GridSlab& slab) {
-    for (size_t n = 0; n < files.size(); ++n) {
-      SlabNumbers numbers(slab.box, job.grids[n].kind != GridKind::material);
-      for (const FieldTile& tile : slab.tiles) numbers.take(tile, n);
-      files[n]->append(numbers.bytes());
-    }
-    for (const FieldTile& tile : slab.tiles) report.has_inside = report.has_inside || has_inside(job, tile);
+  VolumeFiles files(job, paths, format);
+  const auto take = [&](const SlabOfNumbers& slab) {
+    for (size_t n = 0; n < paths.size(); ++n) files.append(n, slab.bytes[n]);
+    report.has_inside = report.has_inside || slab.has_inside;
   };
-  each_slab(job, threads, take, progress, stop);
-  for (auto& file : files) file->close();
-  for (auto& file : files) {
-    file->commit();
-    report.bytes_written += file->bytes_written();
-  }
+  each_numbers(job, threads, take, progress, stop);
+  report.bytes_written = files.commit();
   report.seconds = watch.seconds();
   return report;
 }

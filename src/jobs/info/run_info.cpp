@@ -86,6 +86,41 @@ DataList coverage_data(const std::vector<compile::MeshCoverage>& coverage) {
   return list;
 }
 
+// Nodes that give a report of themselves, such as maps of cells, with the line of the script that makes them.
+struct NodeReport {
+  std::string node, text;
+  int line = 0;  // 0 if unknown
+};
+
+std::vector<NodeReport> reports_of(const design::Design& design) {
+  std::vector<NodeReport> reports;
+  for (const design::Node* node : design::topological(design.roots())) {
+    const auto number = node->type().output("report");
+    if (!number || !node->gives(*number)) continue;
+    const Data text = node->constant(*number);
+    if (!text.string()) continue;
+    const SourceRange& where = node->where();
+    const int line = where.source ? where.source->place(where.begin).line : 0;
+    reports.push_back({node->type().name, *text.string(), line});
+  }
+  return reports;
+}
+
+std::string reports_text(const std::vector<NodeReport>& reports) {
+  std::string text;
+  for (const NodeReport& report : reports)
+    text += report.node + (report.line > 0 ? ", line " + std::to_string(report.line) : "") + "  " + report.text + "\n";
+  return text;
+}
+
+DataList reports_data(const std::vector<NodeReport>& reports) {
+  DataList list;
+  for (const NodeReport& report : reports)
+    list.emplace_back(
+        DataMembers{{"node", report.node}, {"line", static_cast<double>(report.line)}, {"report", report.text}});
+  return list;
+}
+
 int show_design(const std::string& path, Session& session) {
   Diagnostics diagnostics;
   const compile::LoadedPtr loaded = load_design({.design = path}, session, diagnostics);
@@ -93,14 +128,17 @@ int show_design(const std::string& path, Session& session) {
   const auto coverage = attributes ? compile::survey_coverage(*loaded, diagnostics) : std::nullopt;
   session.events.diagnose(diagnostics);
   if (!coverage) return wrong_input;
+  const std::vector<NodeReport> reports = reports_of(loaded->design);
   DataList list;
   for (const compile::SurveyedAttribute& attribute : *attributes) list.push_back(attribute_data(attribute));
   if (session.events.wants_data())
-    session.events.event("design",
-                         {{"file", path}, {"attributes", std::move(list)}, {"results", coverage_data(*coverage)}});
+    session.events.event("design", {{"file", path},
+                                    {"attributes", std::move(list)},
+                                    {"results", coverage_data(*coverage)},
+                                    {"reports", reports_data(reports)}});
   else
     session.events.print((attributes->empty() ? "the design has no attributes\n" : attributes_text(*attributes)) +
-                         coverage_text(*coverage));
+                         coverage_text(*coverage) + reports_text(reports));
   return done;
 }
 
@@ -163,7 +201,8 @@ JobKind info_kind() {
   return job_kind<InfoChoices>(
       "info", "Say what a file holds: a design, or any file that designs read",
       "For a volume (a scan, a grid) it prints size, voxels, orientation, values and how often they occur. For a\n"
-      "design it prints attributes with type, unit and range, and the share that lies in the meshes of its results;\n"
+      "design it prints attributes with type, unit and range, the share that lies in the meshes of its results, and\n"
+      "what maps of cells on surfaces stretch;\n"
       "for results of a simulation elements and fields, and for an OpenSCAD script the parameters. For a mesh it "
       "prints\n"
       "triangles, volume, whether it is closed, parts and colours; for a CAD file its solids; for a drawing its "

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/packages/package_writers.h"
 #include "jobs/common/job_options.h"
 #include "jobs/common/region_options.h"
+#include "jobs/mesh/flavour_option.h"
 #include "jobs/mesh/mesh_job.h"
 #include "questions/colour_map.h"
 
@@ -25,6 +25,8 @@ struct MeshChoices {
   bool keep_all = false;
   formats::SlicerFlavour flavour = formats::SlicerFlavour::generic;
   std::vector<std::string> settings;
+  int mix_layers = 0;  // 0: filaments are not mixed
+  bool virtual_tools = false, height_ranges = false;
   bool beams = false;
   WorkOptions work{0, 2 * usual_memory};
   bool force = false;
@@ -47,13 +49,21 @@ struct MeshChoices {
                "Values of the first and the last colour (default: the range at the vertices)", "LO,HI")
             .needs("--colour-by"),
         flag("--keep-all", &MeshChoices::keep_all, "Keep the triangles of all cells, even where the surface is flat"),
-        choice("--flavour,--flavor", &MeshChoices::flavour, {"generic", "prusa", "bambu"},
-               "Program that a .3mf is for: generic (default), prusa or bambu", "SLICER"),
+        flavour_option(&MeshChoices::flavour),
         options::list(
             "--setting", &MeshChoices::settings, kind::text,
             "A slicer's setting for the bodies: KEY=VALUE, KEY=FIRST..LAST from the first region to the last, "
             "or\nKEY=V1,V2,... one by one; may be repeated",
             "KEY=VALUE"),
+        option("--mix-layers", &MeshChoices::mix_layers, kind::whole,
+               "Print bands of a mixture of two materials by changing their filaments from layer to layer, in cycles "
+               "of at\nmost N layers (2 to 6)",
+               "N")
+            .between(2, 6),
+        flag("--virtual-tools", &MeshChoices::virtual_tools,
+             "Give each temperature and flow_rate of bands a tool, which sets them for the one nozzle; prusa and orca"),
+        flag("--height-ranges", &MeshChoices::height_ranges,
+             "Write attributes that vary by height alone as ranges of heights of one body, not as bodies"),
         flag("--beams", &MeshChoices::beams, "Write struts and lattices as beams if possible; .3mf only"),
         group(&MeshChoices::work, WorkOptions::options("Most memory for the cells at the surface (default 4G)")),
         flag("--force", &MeshChoices::force, "Replace an existing file")};

@@ -8,8 +8,8 @@
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "export/mesh_file.h"
-#include "formats/mesh/slicer_settings.h"
 #include "formats/packages/package_writers.h"
+#include "formats/slicers/slicer_settings.h"
 #include "jobs/common/events.h"
 #include "jobs/common/job_design.h"
 #include "jobs/common/job_kind.h"
@@ -17,9 +17,13 @@
 #include "jobs/common/overwrite.h"
 #include "jobs/common/session.h"
 #include "jobs/mesh/beam_document.h"
+#include "jobs/mesh/height_bands.h"
 #include "jobs/mesh/mesh_choices.h"
-#include "jobs/mesh/slicer_setting.h"
+#include "jobs/mesh/mixed_filaments.h"
+#include "jobs/mesh/painted_surfaces.h"
+#include "jobs/mesh/slicer_bodies.h"
 #include "jobs/mesh/vertex_colours.h"
+#include "jobs/mesh/virtual_tools.h"
 
 namespace ombre::jobs {
 namespace {
@@ -43,52 +47,6 @@ constexpr const char* mesh_footer =
     "  ombre mesh sole.vcad --by infill_density,temperature --flavour prusa     each band with its own settings\n"
     "  ombre mesh part.vcad --colour-by color_rgba -o part.glb                  vertices in the attribute's colours\n"
     "  ombre mesh seat.vcad --bands 4 --flavour prusa --setting fill_density=10%..60%\n";
-
-// Adds the settings of the middles of a body's bands, unless others were given.
-void add_attributes(const compile::Region& region, std::vector<std::pair<std::string, std::string>>& values) {
-  for (const auto& [attribute, middle] : region.attributes) {
-    const formats::SlicerKey* key = formats::slicer_key_of(attribute);
-    const auto is_given = [&](const auto& value) { return value.first == key->prusa; };
-    if (!key || std::ranges::any_of(values, is_given)) continue;
-    values.emplace_back(key->prusa,
-                        format_rounded(key->is_whole ? std::round(middle) : middle, 4) + std::string(key->unit));
-  }
-}
-
-std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<SlicerSetting>& settings, size_t body,
-                                                             const compile::MeshedDesign& made, bool is_by_part) {
-  std::vector<std::pair<std::string, std::string>> values;
-  for (const SlicerSetting& setting : settings) {
-    if (setting.listed() > 0 && setting.listed() != made.bodies.size())
-      throw WrongArgument(spelled::option("--setting", setting.key()) + " lists " + std::to_string(setting.listed()) +
-                          " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
-    values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
-  }
-  add_attributes(made.bodies[body].region, values);
-  // Bodies of materials and parts have an extruder each, in their order; bands share one.
-  const bool is_given = std::ranges::any_of(settings, [](const SlicerSetting& s) { return s.key() == "extruder"; });
-  if (!is_given && !made.bodies[body].region.material && !is_by_part) values.emplace_back("extruder", "1");
-  return values;
-}
-
-formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
-                                  const std::vector<SlicerSetting>& settings, bool is_by_part) {
-  formats::MeshDocument document;
-  document.title = title;
-  for (size_t n = 0; n < made.bodies.size(); ++n) {
-    compile::RegionBody& body = made.bodies[n];
-    const std::string name = made.bodies.size() == 1 && body.region.name.empty() ? title : body.region.name;
-    formats::MeshBody written;
-    written.name = name;
-    written.settings = settings_of(settings, n, made, is_by_part);
-    written.material = static_cast<uint32_t>(n);
-    document.materials.push_back({name, body.colour});
-    written.vertices = std::move(body.body.vertices);
-    written.triangles = std::move(body.body.triangles);
-    document.bodies.push_back(std::move(written));
-  }
-  return document;
-}
 
 void tell_bodies(const Events& events, const compile::MeshedDesign& made) {
   DataList bodies;
@@ -195,7 +153,7 @@ void check_beams(const MeshChoices& a, const compile::MeshRequest& request, cons
   if (!format.holds_beams)
     throw WrongArgument(spelled::option("--beams") + " are for .3mf; " + output + " cannot hold them");
   if (a.flavour != formats::SlicerFlavour::generic)
-    throw WrongArgument(spelled::option("--flavour", a.flavour == formats::SlicerFlavour::prusa ? "prusa" : "bambu") +
+    throw WrongArgument(spelled::option("--flavour", formats::flavour_word(a.flavour)) +
                         " has no beams, which its slicers do not read; leave one of the two out");
   if (request.bands)
     throw WrongArgument("beams have a material each, but no bands; write " + spelled::option("--by", "materials") +
@@ -218,11 +176,33 @@ compile::UsualRegions usual_regions(const MeshChoices& a, const formats::MeshFor
   return format.holds_bodies ? compile::UsualRegions::separate : compile::UsualRegions::joined;
 }
 
+// Refuses options that only projects of slicers have.
+void check_project(const MeshChoices& a, const MeshOutput& output) {
+  const bool is_written = formats::is_project(a.flavour) && output.format->is_archive;
+  const auto needs = [&](bool is_chosen, const Phrase& option, bool fits, const std::string& words) {
+    if (is_chosen && !(is_written && fits))
+      throw WrongArgument(option + " is for projects of slicers in .3mf files; write " +
+                          spelled::option("--flavour", words));
+  };
+  const bool is_bambu = a.flavour == formats::SlicerFlavour::bambu;
+  needs(a.mix_layers > 0, spelled::option("--mix-layers"), true, "prusa, bambu or orca");
+  needs(a.height_ranges, spelled::option("--height-ranges"), true, "prusa, bambu or orca");
+  needs(a.virtual_tools, spelled::option("--virtual-tools"), !is_bambu, "prusa or orca");
+  if (a.height_ranges && (a.regions.by.empty() || a.mix_layers > 0 || a.virtual_tools))
+    throw WrongArgument(spelled::option("--height-ranges") + " is for attributes; write " +
+                        spelled::option("--by", "infill_density") + " without filaments of their own");
+  if (a.mix_layers > 0 && a.virtual_tools)
+    throw WrongArgument(spelled::option("--mix-layers") + " and " + spelled::option("--virtual-tools") +
+                        " both choose filaments; leave one of the two out");
+}
+
 void refuse(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
   const formats::MeshFormat& format = *output.format;
   refuse_to_overwrite(output.path, a.force);
   if (format.companion_bytes) refuse_to_overwrite(exporting::companion_path(output.path, format), a.force);
   if (a.beams) check_beams(a, request, output.path, format);
+  check_project(a, output);
+  for (const std::string& setting : a.settings) SlicerSetting(setting).check(a.flavour);
   if (!a.colour_by.empty() && !format.holds_colours)
     throw WrongArgument(spelled::option("--colour-by") + ": " + output.path + " holds no colours of vertices; write " +
                         words_text(formats::mesh_endings_with(&formats::MeshFormat::holds_colours)));
@@ -264,16 +244,61 @@ std::optional<compile::MeshedDesign> make_mesh(const compile::Loaded& loaded, co
   return std::nullopt;
 }
 
+bool colour(const MeshChoices& a, const compile::Loaded& loaded, double tolerance_mm, formats::MeshDocument& document,
+            Diagnostics& diagnostics, Session& session) {
+  if (a.colour_by.empty()) return true;
+  if (formats::is_project(a.flavour))
+    return paint_surfaces(loaded, a.colour_by, tolerance_mm, session.events, document, diagnostics, a.work.threads,
+                          &session.stop);
+  const compile::VertexColouring colouring{a.colour_by, a.palette, a.range};
+  return compile::colour_vertices(loaded, colouring, document, diagnostics, a.work.threads, &session.stop);
+}
+
+// Slicers expect a layer height in each range.
+void set_layer_height(formats::SlicerProject& project) {
+  std::string height = "0.2";
+  for (const auto& [key, value] : project.object_settings)
+    if (key == "layer_height") height = value;
+  for (formats::HeightRange& range : project.ranges)
+    if (std::ranges::none_of(range.settings, [](const auto& own) { return own.first == "layer_height"; }))
+      range.settings.emplace_back("layer_height", height);
+}
+
+bool add_ranges(const MeshChoices& a, const compile::Loaded& loaded, formats::MeshDocument& document,
+                Diagnostics& diagnostics, Session& session) {
+  if (!a.height_ranges) return true;
+  auto ranges = height_bands(loaded, a, diagnostics, &session.stop);
+  if (!ranges) return false;
+  document.project.ranges = std::move(*ranges);
+  set_layer_height(document.project);
+  session.events.say(format_count(document.project.ranges.size()) + " ranges of heights have their own settings");
+  return true;
+}
+
+void check_filaments(const MeshChoices& a, const formats::MeshDocument& document) {
+  if (!formats::is_project(a.flavour)) return;
+  for (const formats::MeshBody& body : document.bodies)
+    if (formats::body_extruder(body) > formats::most_filaments)
+      throw WrongArgument(std::to_string(document.bodies.size()) +
+                          " bodies have a filament each, and a project has at most " +
+                          std::to_string(formats::most_filaments) + "; write " +
+                          spelled::option("--setting", "extruder=1") + " for one filament");
+}
+
 int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made, const MeshOutput& output,
           const std::vector<SlicerSetting>& settings, PrintedDiagnostics& printed, Session& session) {
-  formats::MeshDocument document = document_of(made, output.stem, settings, a.regions.by == "parts");
-  if (!a.colour_by.empty()) {
-    const compile::VertexColouring colouring{a.colour_by, a.palette, a.range};
-    const bool good =
-        compile::colour_vertices(loaded, colouring, document, printed.diagnostics(), a.work.threads, &session.stop);
-    printed.print();
-    if (!good) return wrong_input;
-  }
+  formats::MeshDocument document = document_of(made, output.stem, a, settings);
+  if (a.virtual_tools) add_virtual_tools(made, session.events, document);
+  Diagnostics& diagnostics = printed.diagnostics();
+  if (a.mix_layers > 0) add_mixed_filaments(loaded, made, a.mix_layers, session.events, diagnostics, document);
+  check_filaments(a, document);
+  tell_equal_bands(session.events, made, a, document);
+  const bool good = colour(a, loaded, made.tolerance_mm, document, diagnostics, session) &&
+                    add_ranges(a, loaded, document, diagnostics, session);
+  if (good && formats::is_project(a.flavour)) name_only_filament(loaded, session.events, diagnostics, document);
+  printed.print();
+  if (!good) return wrong_input;
+  if (output.format->holds_settings) tell_lost_attributes(session.events, made, a);
   compile::add_beams(made, loaded.design.materials, document);
   exporting::write_mesh_file(output.path, document, *output.format, a.flavour);
   return done;

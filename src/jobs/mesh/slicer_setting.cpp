@@ -1,8 +1,11 @@
 #include "jobs/mesh/slicer_setting.h"
 
+#include <cmath>
 #include <optional>
 
 #include "base/text/text.h"
+#include "formats/slicers/known_keys.h"
+#include "formats/slicers/slicer_settings.h"
 #include "jobs/common/session.h"
 
 namespace ombre::jobs {
@@ -43,6 +46,32 @@ SlicerSetting::SlicerSetting(const std::string& text) {
   first_ = first->number;
   last_ = last->number;
   unit_ = last->unit;
+}
+
+bool SlicerSetting::is_of_object(formats::SlicerFlavour flavour) const {
+  return formats::scope_of(flavour, formats::key_in(flavour, key_)) == formats::KeyScope::object;
+}
+
+void SlicerSetting::check(formats::SlicerFlavour flavour) const {
+  const std::string program(
+      formats::program_of(flavour == formats::SlicerFlavour::generic ? formats::SlicerFlavour::prusa : flavour));
+  const Phrase written = spelled::option("--setting", key_);
+  if (formats::key_in(flavour, key_).empty()) {
+    const std::string close = did_you_mean(key_, formats::known_keys(flavour));
+    throw WrongArgument(
+        written + ": " + program + " has no such setting for a body of a part" +
+        (close.empty() ? "; its keys for printer and filaments belong to the slicer's profiles" : "; " + close));
+  }
+  if (is_of_object(flavour) && (is_range_ || values_.size() > 1))
+    throw WrongArgument(written + ": in " + program + " this setting is one for all bodies of a part; write one value");
+  if (key_ != "extruder") return;
+  for (const std::string& value : values_) {
+    const auto extruder = parse_number(value);
+    if (!extruder || *extruder < 1 || *extruder > static_cast<double>(formats::most_filaments) ||
+        *extruder != std::floor(*extruder))
+      throw WrongArgument(written + "=" + value + ": extruders are numbered from 1 to " +
+                          std::to_string(formats::most_filaments));
+  }
 }
 
 std::string SlicerSetting::value(size_t number, double share) const {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/slicers/flavour.h"
 #include "jobs/common/session.h"
 
 namespace ombre::jobs {
@@ -15,6 +16,10 @@ class SlicerSetting {
  public:
   // Throws WrongArgument.
   explicit SlicerSetting(const std::string& text);
+
+  // Throws WrongArgument if the program does not know the setting, or not for each body by itself.
+  void check(formats::SlicerFlavour flavour) const;
+  bool is_of_object(formats::SlicerFlavour flavour) const;
 
   const std::string& key() const { return key_; }
   // Returns the number of listed values; 0 if there is one for all.

@@ -13,15 +13,11 @@ namespace {
 
 using Columns = std::vector<std::vector<double>>;
 
-uint8_t byte_of(double share) {
-  return std::isfinite(share) ? static_cast<uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))) : 0;
-}
-
 // Returns the colour that the attribute gives; alpha is full if the attribute has none.
 formats::Rgba own_colour(const Columns& columns, size_t vertex) {
   formats::Rgba colour{0, 0, 0, 255};
   for (size_t part = 0; part < std::min<size_t>(4, columns.size()); ++part)
-    colour[part] = byte_of(columns[part][vertex]);
+    colour[part] = colour_byte(columns[part][vertex]);
   return colour;
 }
 
@@ -36,7 +32,7 @@ formats::Rgba mixed_colour(const design::MaterialTable& table, const Sampler& sa
     total += share;
   }
   formats::Rgba colour{128, 128, 128, 255};
-  for (size_t part = 0; part < 4 && total > 0; ++part) colour[part] = byte_of(sum[part] / total / 255);
+  for (size_t part = 0; part < 4 && total > 0; ++part) colour[part] = colour_byte(sum[part] / total / 255);
   return colour;
 }
 
@@ -55,6 +51,10 @@ formats::Rgba palette_colour(const VertexColouring& colouring, Interval range, d
 }
 
 }  // namespace
+
+uint8_t colour_byte(double share) {
+  return std::isfinite(share) ? static_cast<uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))) : 0;
+}
 
 bool colour_vertices(const Loaded& loaded, const VertexColouring& colouring, formats::MeshDocument& document,
                      Diagnostics& diagnostics, int threads, const StopFlag* stop) {

@@ -24,4 +24,7 @@ struct VertexColouring {
 bool colour_vertices(const Loaded& loaded, const VertexColouring& colouring, formats::MeshDocument& document,
                      Diagnostics& diagnostics, int threads = 0, const StopFlag* stop = nullptr);
 
+// Returns the byte of a colour's part between 0 and 1.
+uint8_t colour_byte(double share);
+
 }  // namespace ombre::compile

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/system/not_copied.h"
 #include "base/system/tasks.h"
 #include "base/text/file_ending.h"
 #include "base/text/json.h"
@@ -99,7 +100,7 @@ compile::LoadOptions load_options(const OptimiseChoices& a, Session& session) {
 }
 
 // A search that is ready to measure designs.
-struct VariableSearch {
+struct VariableSearch : NotCopied {
   const OptimiseChoices choices;
   const OptimiseStudy study;
   const stores::JobKey key;
@@ -115,8 +116,6 @@ struct VariableSearch {
         stored(study, key),
         meter(study, loader(choices, session), load_options(choices, session), plan),
         folder{choices.folder} {}
-  VariableSearch(const VariableSearch&) = delete;
-  VariableSearch& operator=(const VariableSearch&) = delete;
 };
 using VariableSearchPtr = std::shared_ptr<const VariableSearch>;
 

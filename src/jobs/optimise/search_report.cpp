@@ -14,9 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using compile::History;
-using compile::OptimiseChoices;
 using compile::OptimiseStudy;
-using optimise::Outcome;
 
 std::string measures_text(const OptimiseStudy& study, const History::Row& row) {
   std::vector<std::string> parts;
@@ -27,7 +25,7 @@ std::string measures_text(const OptimiseStudy& study, const History::Row& row) {
 }
 
 // Returns the option that turns the script as the measured designs were turned.
-std::string turn_text(const OptimiseChoices& a) {
+std::string turn_text(const compile::OptimiseChoices& a) {
   if (!a.design.rotate) return "";
   const Vec3 turn = *a.design.rotate;
   return "; with " +
@@ -36,7 +34,7 @@ std::string turn_text(const OptimiseChoices& a) {
 }
 
 // Returns a script that is the design with other values: the last value of a variable counts.
-std::string script_of(const OptimiseChoices& a, const OptimiseStudy& study, const History::Row& row) {
+std::string script_of(const compile::OptimiseChoices& a, const OptimiseStudy& study, const History::Row& row) {
   const fs::path design = fs::proximate(fs::absolute(a.design.design), fs::absolute(a.folder));
   std::string text = "// " + measures_text(study, row) + turn_text(a) + "\ninclude <" + design.generic_string() + ">\n";
   for (size_t n = 0; n < row.values.size(); ++n)
@@ -53,7 +51,7 @@ std::vector<size_t> some_of(const std::vector<size_t>& front, size_t most) {
 }
 
 std::string chart_of(const OptimiseStudy& study, const std::vector<const History::Row*>& rows,
-                     const std::vector<Outcome>& outcomes, const std::vector<size_t>& front) {
+                     const std::vector<optimise::Outcome>& outcomes, const std::vector<size_t>& front) {
   using Kind = optimise::ChartPoint::Kind;
   const auto measures = study.measures();
   const bool has_two = study.objectives.size() > 1;
@@ -78,7 +76,7 @@ std::string chart_of(const OptimiseStudy& study, const std::vector<const History
 
 class Report {
  public:
-  Report(const OptimiseChoices& a, const OptimiseStudy& study, const History& history, const Events& events)
+  Report(const compile::OptimiseChoices& a, const OptimiseStudy& study, const History& history, const Events& events)
       : a_(a), study_(study), history_(history), rows_(history.rows()), events_(events) {
     for (const History::Row* row : rows_) outcomes_.push_back(outcome_of(study, row->measured));
     front_ = optimise::front_of(outcomes_);
@@ -131,12 +129,12 @@ class Report {
     return check_failed;
   }
 
-  const OptimiseChoices& a_;
+  const compile::OptimiseChoices& a_;
   const OptimiseStudy& study_;
   const History& history_;
   std::vector<const History::Row*> rows_;
   const Events& events_;
-  std::vector<Outcome> outcomes_;
+  std::vector<optimise::Outcome> outcomes_;
   std::vector<size_t> front_;
   DataList files_;
 };
@@ -150,7 +148,7 @@ std::string values_text(const OptimiseStudy& study, const History::Row& row) {
   return join(parts, ", ");
 }
 
-int report_search(const OptimiseChoices& choices, const OptimiseStudy& study, const History& history,
+int report_search(const compile::OptimiseChoices& choices, const OptimiseStudy& study, const History& history,
                   const Events& events) {
   return Report(choices, study, history, events).write();
 }

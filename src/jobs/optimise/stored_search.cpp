@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view search_format = "ombre search";
-
 // Adds the files that the first design reads.
 void add_files(const OptimiseChoices& choices, const OptimiseStudy& study, stores::JobKey& key) {
   std::vector<double> start;
@@ -56,7 +54,7 @@ stores::JobKey search_key(const OptimiseChoices& choices, const Data& data, cons
 }
 
 const stores::JobWords& StoredSearch::words() const {
-  static const stores::JobWords words{"search", "designs", search_file, "design", ""};
+  static const stores::JobWords words{"search", "ombre search", "designs", search_file, "design", ""};
   return words;
 }
 
@@ -64,26 +62,18 @@ std::string StoredSearch::description(const stores::Entries&) const {
   DataList variables, measures;
   for (const DesignVariable& variable : study_.variables) variables.emplace_back(variable.name);
   for (const Measure& measure : study_.measures()) measures.emplace_back(measure.label());
-  return print_json(DataMembers{{"format", std::string(search_format) + ", version 1"},
-                                {"variables", variables},
-                                {"measures", measures},
-                                {"key", key_.data()}});
+  return described({{"variables", variables}, {"measures", measures}});
 }
 
 void StoredSearch::check_same(const std::string& folder, const DataMembers& there) const {
-  const std::string difference = key_.difference(Data(there).find("key"));
-  if (difference.empty()) return;
-  throw options::WrongValue("the history in " + folder + " is of another study or design, since " + difference +
+  const std::string differing = difference(there);
+  if (differing.empty()) return;
+  throw options::WrongValue("the history in " + folder + " is of another study or design, since " + differing +
                             "; choose another " + spelled::option("-o") + ", or " + spelled::option("--force") +
                             " to begin again");
 }
 
 bool StoredSearch::accepts(const stores::Entry& entry) const { return measured_design(entry, study_).has_value(); }
-
-bool StoredSearch::is_kind(const Data& description) const {
-  const Data* format = description.find("format");
-  return format && format->string() && format->string()->starts_with(search_format);
-}
 
 std::optional<stores::NameTest> StoredSearch::files_of(const Data&) const {
   return [](std::string_view) { return false; };

@@ -18,9 +18,9 @@ inline constexpr const char* search_file = "search.json";
 stores::JobKey search_key(const OptimiseChoices& choices, const Data& data, const OptimiseStudy& study,
                           const std::string& program);
 
-class StoredSearch : public stores::StoredJob {
+class StoredSearch : public stores::KeyedJob {
  public:
-  StoredSearch(const OptimiseStudy& study, stores::JobKey key) : study_(study), key_(std::move(key)) {}
+  StoredSearch(const OptimiseStudy& study, stores::JobKey key) : KeyedJob(std::move(key)), study_(study) {}
 
   const stores::JobWords& words() const override;
   std::string description(const stores::Entries& finished) const override;
@@ -29,12 +29,10 @@ class StoredSearch : public stores::StoredJob {
   void check_same(const std::string& folder, const DataMembers& there) const override;
   bool accepts(const stores::Entry& entry) const override;
   bool owns(std::string_view) const override { return false; }
-  bool is_kind(const Data& description) const override;
   std::optional<stores::NameTest> files_of(const Data& description) const override;
 
  private:
   const OptimiseStudy& study_;
-  stores::JobKey key_;
 };
 
 }  // namespace ombre::compile

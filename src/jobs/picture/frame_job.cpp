@@ -1,12 +1,10 @@
 #include "jobs/picture/frame_job.h"
 
-#include <map>
-#include <set>
-
 #include "base/text/error.h"
 #include "base/text/text.h"
 #include "formats/images/png.h"
-#include "jobs/picture/stored_frames.h"
+#include "jobs/common/settings_key.h"
+#include "stores/numbered_files.h"
 #include "stores/open_store.h"
 
 namespace ombre::jobs {
@@ -19,23 +17,17 @@ stores::FolderUse folder_use(const PictureChoices& a) {
   return a.resume ? stores::FolderUse::resume : stores::FolderUse::fresh;
 }
 
-// Returns everything that the pictures depend on: the design, and the options but for those of work and place.
+const stores::JobWords& frame_words() {
+  static const stores::JobWords words{"set of frames", "ombre frames", "frames", "frames.json", "frame", ".png"};
+  return words;
+}
+
 stores::JobKey key_of(const PictureChoices& a, const compile::Loaded& loaded, const Session& session) {
-  static const std::set<std::string> without{"design", "--output", "--threads", "--memory", "--force", "--resume"};
-  stores::JobKey key;
-  key.add(a.design.design, design::hash(loaded.design).hex());
-  std::map<std::string, std::string> settings;
-  for (const std::string& setting : a.settings) {
-    const std::string name = setting.substr(0, setting.find('='));
-    if (!without.contains(name)) settings[name] += setting + '\n';
-  }
-  for (const auto& [name, setting] : settings) key.add(name, setting);
-  key.add("the version of Ombre", session.program);
-  return key;
+  return settings_key(a.design.design, loaded.design, a.settings, session.program);
 }
 
 // Adds the frames of a range that the store lacks; returns an exit code.
-int add_frames(const compile::Loaded& loaded, compile::PictureRequest request, const compile::StoredFrames& job,
+int add_frames(const compile::Loaded& loaded, compile::PictureRequest request, const stores::NumberedFiles& job,
                stores::Store& store, stores::PieceRange range, JobProgress& progress, Session& session) {
   request.wants = [&](int frame) {
     return range.begin <= frame && frame < range.end && !store.finished().contains(frame);
@@ -56,7 +48,10 @@ void say_stored(const PictureChoices& a, size_t written, size_t kept, Session& s
 class SharedFrames final : public SharedJob {
  public:
   SharedFrames(const PictureChoices& choices, compile::LoadedPtr loaded, stores::JobKey key)
-      : choices_(choices), loaded_(std::move(loaded)), key_(std::move(key)), stored_(choices.frames, key_) {}
+      : choices_(choices),
+        loaded_(std::move(loaded)),
+        key_(std::move(key)),
+        stored_(frame_words(), choices.frames, key_) {}
 
   std::string folder() const override { return stores::pieces_folder(choices_.output); }
   const stores::StoredJob& stored() const override { return stored_; }
@@ -88,7 +83,7 @@ class SharedFrames final : public SharedJob {
   PictureChoices choices_;
   compile::LoadedPtr loaded_;
   stores::JobKey key_;
-  compile::StoredFrames stored_;
+  stores::NumberedFiles stored_;
 };
 
 }  // namespace
@@ -106,14 +101,12 @@ int take_pictures(const compile::Loaded& loaded, const compile::PictureRequest& 
   return is_done && !diagnostics.has_errors() ? done : wrong_input;
 }
 
-void refuse_used_folder(const PictureChoices& a) {
-  stores::refuse_used(a.output, folder_use(a), compile::frame_words());
-}
+void refuse_used_folder(const PictureChoices& a) { stores::refuse_used(a.output, folder_use(a), frame_words()); }
 
 int store_frames(const PictureChoices& a, const compile::Loaded& loaded, const compile::PictureRequest& request,
                  Session& session) {
   JobProgress progress(session.events, Counted::steps);
-  const compile::StoredFrames job(a.frames, key_of(a, loaded, session));
+  const stores::NumberedFiles job(frame_words(), a.frames, key_of(a, loaded, session));
   const auto store = stores::open_store(a.output, job, folder_use(a), {a.work.threads, &progress, &session.stop});
   const size_t kept = store->finished().size();
   try {

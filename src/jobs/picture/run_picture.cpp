@@ -15,9 +15,10 @@
 #include "jobs/info/result_files.h"
 #include "jobs/picture/frame_job.h"
 #include "jobs/picture/picture_choices.h"
-#include "jobs/picture/stored_frames.h"
 #include "load/load.h"
+#include "questions/question.h"
 #include "stores/open_store.h"
+#include "stores/stored_job.h"
 
 namespace ombre::jobs {
 namespace {
@@ -67,7 +68,7 @@ std::vector<std::string> output_files(const PictureChoices& a) {
   std::vector<std::string> files;
   for (int frame = 0; frame < a.frames; ++frame)
     files.push_back((path.parent_path() /
-                     (path.stem().string() + "_" + compile::frame_number(frame, a.frames) + path.extension().string()))
+                     (path.stem().string() + "_" + stores::piece_number(frame, a.frames) + path.extension().string()))
                         .string());
   return files;
 }
@@ -90,8 +91,17 @@ compile::LoadedPtr load_pictured(const PictureChoices& a, Session& session, Diag
   return load_design(a.design, session, diagnostics, a.work.threads);
 }
 
+// Says which attributes a design has, if its picture shows materials.
+void tell_attributes(const compile::Loaded& loaded, const compile::PictureRequest& request, const Events& events) {
+  const std::vector<std::string> names = compile::attribute_names(loaded.design);
+  if (names.empty() || !request.by.empty()) return;
+  events.say("it has the attributes " + join(names, ", ") + "; " + spelled::option("--by", names.front()) +
+             " colours by one");
+}
+
 int write_pictures(const compile::Loaded& loaded, const compile::PictureRequest& request,
                    const std::vector<std::string>& files, Session& session) {
+  if (!files.empty()) tell_attributes(loaded, request, session.events);
   JobProgress progress(session.events, Counted::steps);
   return take_pictures(loaded, request, session, progress, [&](int frame, const compile::Picture& picture) {
     const std::string bytes = png_of(request, picture);

@@ -100,6 +100,11 @@ BitLayer& BitLayer::operator&=(const BitLayer& other) {
   return *this;
 }
 
+BitLayer& BitLayer::operator|=(const BitLayer& other) {
+  for (size_t n = 0; n < bits_.size(); ++n) bits_[n] |= other.bits_[n];
+  return *this;
+}
+
 BitLayer& BitLayer::remove(const BitLayer& other) {
   for (size_t n = 0; n < bits_.size(); ++n) bits_[n] &= ~other.bits_[n];
   return *this;

@@ -1,7 +1,9 @@
 // Layers of flags, a bit for each voxel, and the growth of their regions by shapes.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -28,12 +30,33 @@ class BitLayer {
   uint64_t count() const;
   void invert();
   BitLayer& operator&=(const BitLayer& other);
+  BitLayer& operator|=(const BitLayer& other);
   BitLayer& remove(const BitLayer& other);
 
  private:
   int64_t width_ = 0, height_ = 0, words_ = 0;
   std::vector<uint64_t> bits_;
 };
+
+// Calls `found(begin, end)` for each run of set voxels in a row, from the least on.
+template <class Found>
+void each_run(const BitLayer& layer, int64_t j, const Found& found) {
+  const uint64_t* const row = layer.row(j);
+  const int64_t width = layer.width();
+  const auto next = [&](int64_t from, bool wanted) {
+    for (int64_t w = from / 64; w * 64 < width; ++w) {
+      uint64_t bits = wanted ? row[w] : ~row[w];
+      if (w == from / 64) bits &= ~uint64_t{0} << (from % 64);
+      if (bits != 0) return std::min(width, w * 64 + std::countr_zero(bits));
+    }
+    return width;
+  };
+  for (int64_t begin = next(0, true); begin < width;) {
+    const int64_t end = next(begin, false);
+    found(begin, end);
+    begin = end < width ? next(end, true) : width;
+  }
+}
 
 // Layers from the layer `first` on.
 struct BitLayers {

@@ -1,7 +1,6 @@
 #include "jobs/printable/flag_pieces.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 
 namespace ombre::compile {
@@ -9,27 +8,20 @@ namespace {
 
 constexpr uint32_t no_label = UINT32_MAX;
 
-// Calls `found(begin, end)` for each run of set bits in a row.
-template <class Found>
-void each_run(const uint64_t* row, int64_t width, const Found& found) {
-  const auto next = [&](int64_t from, bool wanted) {
-    for (int64_t w = from / 64; w * 64 < width; ++w) {
-      uint64_t bits = wanted ? row[w] : ~row[w];
-      if (w == from / 64) bits &= ~uint64_t{0} << (from % 64);
-      if (bits != 0) return std::min(width, w * 64 + std::countr_zero(bits));
-    }
-    return width;
-  };
-  for (int64_t begin = next(0, true); begin < width;) {
-    const int64_t end = next(begin, false);
-    found(begin, end);
-    begin = end < width ? next(end, true) : width;
-  }
-}
-
 bool is_larger(const FlagPiece& a, const FlagPiece& b) {
   const auto key = [](const FlagPiece& piece) { return std::tuple(~piece.voxels, piece.box.lo, piece.box.hi); };
   return key(a) < key(b);
+}
+
+bool has_any(const BitLayer& layer, int64_t j, int64_t begin, int64_t end) {
+  const uint64_t* const row = layer.row(j);
+  for (int64_t w = begin / 64; w * 64 < end; ++w) {
+    uint64_t bits = row[w];
+    if (w == begin / 64) bits &= ~uint64_t{0} << (begin % 64);
+    if (w == end / 64) bits &= (uint64_t{1} << (end % 64)) - 1;
+    if (bits != 0) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -44,6 +36,12 @@ void FlagPieceFinder::merge(uint32_t a, uint32_t b) {
   if (a == b) return;
   FlagPiece &kept = pieces_[a], &other = pieces_[b];
   kept.voxels += other.voxels;
+  kept.is_pinned = kept.is_pinned || other.is_pinned;
+  if (kept.voxels > kept_voxels_)
+    kept.runs.clear();
+  else
+    kept.runs.insert(kept.runs.end(), other.runs.begin(), other.runs.end());
+  other.runs = {};
   for (size_t axis = 0; axis < 3; ++axis) {
     kept.box.lo[axis] = std::min(kept.box.lo[axis], other.box.lo[axis]);
     kept.box.hi[axis] = std::max(kept.box.hi[axis], other.box.hi[axis]);
@@ -61,21 +59,32 @@ void FlagPieceFinder::join(const std::vector<Run>& before, Run& run) {
       merge(run.label, other->label);
 }
 
-void FlagPieceFinder::add(int64_t k, const BitLayer& layer) {
+// Keeps a run that the piece has got.
+void FlagPieceFinder::keep(FlagPiece& piece, const FlagRun& run) const {
+  if (piece.voxels > kept_voxels_)
+    piece.runs = {};
+  else
+    piece.runs.push_back(run);
+}
+
+void FlagPieceFinder::add(int64_t k, const BitLayer& layer, const BitLayer* pins) {
+  width_ = layer.width();
   Rows rows(static_cast<size_t>(layer.height()));
   for (int64_t j = 0; j < layer.height(); ++j) {
     const auto row = static_cast<size_t>(j);
-    each_run(layer.row(j), layer.width(), [&](int64_t begin, int64_t end) {
+    each_run(layer, j, [&](int64_t begin, int64_t end) {
       Run run{begin, end, no_label};
       if (row < last_.size()) join(last_[row], run);
       if (row > 0) join(rows[row - 1], run);
       if (run.label == no_label) {
         run.label = static_cast<uint32_t>(parents_.size());
         parents_.push_back(run.label);
-        pieces_.push_back({0, {{begin, j, k}, {end, j + 1, k + 1}}});
+        pieces_.push_back({0, {{begin, j, k}, {end, j + 1, k + 1}}, false, {}});
       }
       FlagPiece& piece = pieces_[root(run.label)];
       piece.voxels += static_cast<uint64_t>(end - begin);
+      piece.is_pinned = piece.is_pinned || (pins && has_any(*pins, j, begin, end));
+      keep(piece, {k, j, begin, end});
       piece.box.lo = {std::min(piece.box.lo[0], begin), std::min(piece.box.lo[1], j), std::min(piece.box.lo[2], k)};
       piece.box.hi = {std::max(piece.box.hi[0], end), std::max(piece.box.hi[1], j + 1),
                       std::max(piece.box.hi[2], k + 1)};
@@ -84,6 +93,14 @@ void FlagPieceFinder::add(int64_t k, const BitLayer& layer) {
   }
   close_finished(rows);
   last_ = std::move(rows);
+}
+
+BitLayer FlagPieceFinder::last_where(const Counts& holds) {
+  BitLayer layer(width_, static_cast<int64_t>(last_.size()));
+  for (size_t row = 0; row < last_.size(); ++row)
+    for (const Run& run : last_[row])
+      if (holds(pieces_[root(run.label)])) layer.set(static_cast<int64_t>(row), run.begin, run.end);
+  return layer;
 }
 
 // Closes pieces that do not reach the layer, and numbers the others anew.
@@ -95,7 +112,7 @@ void FlagPieceFinder::close_finished(Rows& rows) {
       uint32_t& at = number[root(run.label)];
       if (at == no_label) {
         at = static_cast<uint32_t>(open.size());
-        open.push_back(pieces_[root(run.label)]);
+        open.push_back(std::move(pieces_[root(run.label)]));
       }
       run.label = at;
     }
@@ -111,7 +128,8 @@ void FlagPieceFinder::close(const FlagPiece& piece) {
   ++done_.count;
   done_.voxels += piece.voxels;
   std::vector<FlagPiece>& largest = done_.largest;
-  largest.insert(std::ranges::upper_bound(largest, piece, is_larger), piece);
+  const FlagPiece plain{piece.voxels, piece.box, piece.is_pinned, {}};
+  largest.insert(std::ranges::upper_bound(largest, plain, is_larger), plain);
   if (largest.size() > most) largest.pop_back();
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jobs/printable/flag_pieces.h"
+#include "jobs/printable/layer_windows.h"
 #include "jobs/printable/print_checks.h"
 #include "jobs/slice/plan.h"
 
@@ -17,13 +18,6 @@ struct PrintFinding {
   FlagPieces pieces;  // boxes are in voxels of the job
   int64_t layer = 0;  // the layer with the most flags, and its flags; empty if flags are more than what is found
   BitLayer flags;
-};
-
-struct CheckRun {
-  int threads = 0;
-  size_t memory_bytes = size_t{2} << 30;
-  Progress* progress = nullptr;
-  const StopFlag* stop = nullptr;
 };
 
 // Returns what the checks find, errors first; the plan's stages must be prepared. The result depends on neither threads

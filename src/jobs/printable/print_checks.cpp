@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text/text.h"
+#include "jobs/printable/layer_checks.h"
 
 namespace ombre::compile {
 namespace {
@@ -68,31 +69,32 @@ BitLayers part(const BitLayers& region, int64_t begin, int64_t end) {
   return {begin, {region.layers.begin() + (begin - region.first), region.layers.begin() + (end - region.first)}};
 }
 
-PrintCheck bodies_check() {
-  PrintCheck check;
-  check.kind = "bodies";
-  check.found = FoundPieces::but_largest;
-  check.text = "bodies that do not touch the largest one";
-  check.remedy = "join them to it, or remove them, if they are not meant";
-  check.flags = [](const SolidLayers& layers, int64_t begin, int64_t end) { return part(layers.solid, begin, end); };
-  return check;
-}
+std::vector<MaterialId> if_any(MaterialId id) { return id == 0 ? std::vector<MaterialId>() : std::vector{id}; }
 
-PrintCheck hollow_check() {
-  PrintCheck check;
-  check.kind = "hollow";
-  check.found = FoundPieces::enclosed;
-  check.text = "closed hollows, in which support, resin or powder stays";
-  check.remedy = "fill them, or give them a drain";
-  check.flags = [](const SolidLayers& layers, int64_t begin, int64_t end) {
-    return inverted(part(layers.solid, begin, end));
+// Adds to a check that it looks at the solid without support, or at what is not that solid.
+PrintCheck of_solid(PrintCheck check, MaterialId support, bool is_inverted) {
+  check.materials = if_any(support);
+  check.flags = [support, is_inverted](const SolidLayers& layers, int64_t begin, int64_t end) {
+    BitLayers solid = solid_without(layers, support, begin, end);
+    return is_inverted ? inverted(std::move(solid)) : solid;
   };
   return check;
 }
 
-MaterialId id_of(const Sampling& sampling, const std::string& name) {
-  const auto found = std::ranges::find(sampling.materials, name, &SliceMaterial::name);
-  return found == sampling.materials.end() ? MaterialId{0} : found->id;
+PrintCheck bodies_check(MaterialId support) {
+  return of_solid({.kind = "bodies",
+                   .text = "bodies that do not touch the largest one",
+                   .remedy = "join them to it, or remove them, if they are not meant",
+                   .found = FoundPieces::but_largest},
+                  support, false);
+}
+
+PrintCheck hollow_check(MaterialId support) {
+  return of_solid({.kind = "hollow",
+                   .text = "closed hollows, in which support, resin or powder stays",
+                   .remedy = "fill them, or give them a drain",
+                   .found = FoundPieces::enclosed},
+                  support, true);
 }
 
 }  // namespace
@@ -112,6 +114,19 @@ BitLayers thin_places(const BitLayers& region, double diameter_mm, Vec3 voxel_mm
   BitLayers thin = part(region, begin, end);
   for (int64_t k = begin; k < end; ++k) thin.layers[static_cast<size_t>(k - begin)].remove(excused.at(k));
   return thin;
+}
+
+BitLayers solid_without(const SolidLayers& layers, MaterialId support, int64_t begin, int64_t end) {
+  BitLayers solid = part(layers.solid, begin, end);
+  if (support != 0)
+    for (int64_t k = begin; k < end; ++k)
+      solid.layers[static_cast<size_t>(k - begin)].remove(layers.of_material.at(support).at(k));
+  return solid;
+}
+
+MaterialId id_of(const Sampling& sampling, const std::string& name) {
+  const auto found = std::ranges::find(sampling.materials, name, &SliceMaterial::name);
+  return found == sampling.materials.end() ? MaterialId{0} : found->id;
 }
 
 std::vector<PrintCheck> print_checks(const CheckLimits& limits, const Sampling& sampling) {
@@ -137,8 +152,14 @@ std::vector<PrintCheck> print_checks(const CheckLimits& limits, const Sampling& 
     if (material == 0 || (near == 0 && rule.near != "surface")) continue;
     checks.push_back(neighbour_check(rule, material, near, voxel_mm));
   }
-  checks.push_back(hollow_check());
-  checks.push_back(bodies_check());
+  const MaterialId support = id_of(sampling, limits.support);
+  if (limits.overhang_degrees) {
+    checks.push_back(island_check(*limits.overhang_degrees, voxel_mm));
+    checks.push_back(overhang_check(*limits.overhang_degrees, voxel_mm));
+  }
+  if (limits.is_vat) checks.push_back(cup_check());
+  checks.push_back(hollow_check(support));
+  checks.push_back(bodies_check(support));
   return checks;
 }
 

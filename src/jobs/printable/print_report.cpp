@@ -1,6 +1,7 @@
 #include "jobs/printable/print_report.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text/text.h"
 #include "jobs/slice/channel_counts.h"
@@ -77,7 +78,42 @@ std::string picture(const PrintFinding& finding, const compile::Plan& plan, cons
   return compile::marked_layer(request.lattice, colour, flags);
 }
 
+// Returns the volume that each material gains, less what it loses.
+std::vector<std::pair<std::string, double>> gained_mm3(const compile::Correction& correction,
+                                                       const compile::SliceRequest& request) {
+  std::vector<std::pair<std::string, double>> volumes;
+  for (const compile::SliceMaterial& material : request.materials) {
+    const auto gained = correction.gained.find(material.id);
+    if (gained == correction.gained.end()) continue;
+    volumes.emplace_back(material.name, static_cast<double>(gained->second) * compile::voxel_mm3(request.lattice));
+  }
+  return volumes;
+}
+
 }  // namespace
+
+DataList describe(const std::vector<compile::Correction>& corrections, const compile::SliceRequest& request) {
+  DataList list;
+  for (const compile::Correction& correction : corrections) {
+    DataMembers gained;
+    for (const auto& [name, mm3] : gained_mm3(correction, request)) gained.emplace_back(name, mm3);
+    list.emplace_back(
+        DataMembers{{"kind", correction.kind}, {"text", correction.text}, {"gained_mm3", std::move(gained)}});
+  }
+  return list;
+}
+
+void tell_corrections(const Events& events, const std::vector<compile::Correction>& corrections,
+                      const compile::SliceRequest& request) {
+  if (events.wants_data()) return events.event("corrected", {{"corrections", describe(corrections, request)}});
+  if (corrections.empty()) events.print("nothing of this has one correction that is well defined\n");
+  for (const compile::Correction& correction : corrections) {
+    std::vector<std::string> volumes;
+    for (const auto& [name, mm3] : gained_mm3(correction, request))
+      volumes.push_back(name + (mm3 < 0 ? " -" : " +") + format_rounded(std::abs(mm3)) + " mm3");
+    events.print(correction.text + ": " + join(volumes, ", ") + "\n");
+  }
+}
 
 void tell_findings(const Events& events, const CheckedPart& part, const voxel::Lattice& lattice) {
   if (events.wants_data()) {

@@ -131,29 +131,14 @@ std::string reference() {
   return text;
 }
 
-struct NodesChoices {
-  std::string node;
-  ListChoices list;
-
-  static const options::Spec<NodesChoices>& options() {
-    using namespace options;
-    static const options::Spec<NodesChoices> spec{
-        option("node", &NodesChoices::node, kind::text, "A node's name, as in a design", "NAME"),
-        group(&NodesChoices::list)};
-    return spec;
-  }
-};
-
-int show_nodes(const NodesChoices& a, Session& session) {
-  if (!a.list.markdown && !a.node.empty()) return show_node(a.node, session);
-  return list_or_print<list_nodes, reference>(a.list, session);
-}
+constexpr OneThing one_node{"node", "A node's name, as in a design"};
 
 }  // namespace
 
 JobKind nodes_kind() {
-  return job_kind<NodesChoices>("nodes", "List what a design can be made of, or explain one node or operator",
-                                "Examples:\n  ombre nodes\n  ombre nodes sphere\n", show_nodes);
+  return one_or_all_kind<one_node, show_node, list_nodes, reference>(
+      "nodes", "List what a design can be made of, or explain one node or operator",
+      "Examples:\n  ombre nodes\n  ombre nodes sphere\n");
 }
 
 }  // namespace ombre::jobs

@@ -4,6 +4,7 @@
 
 #include "base/text/record.h"
 #include "base/text/text.h"
+#include "calibration/calibration.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
 #include "jobs/reference/list_or_page.h"
@@ -48,6 +49,11 @@ std::string describe(const voxel::Printer& printer) {
                                " mm, fail under " + format_number(printer.smallest_feature->fails_mm) + " mm");
   for (const voxel::ForbiddenNeighbour& rule : printer.forbidden_neighbours)
     text += row("keep apart", rule.material + " and " + rule.near + ", by " + format_number(rule.within_mm) + " mm");
+  if (printer.overhang_degrees)
+    text += row("overhang", "at most " + format_number(*printer.overhang_degrees) + " degrees from the vertical");
+  if (printer.is_vat) text += row("vat", "layers are made in a bath of resin");
+  text += row("needs", join(printer.needs, " and "));
+  if (!printer.calibrations.empty()) text += row("calibrations", join(printer.calibrations, ", "));
   return text;
 }
 
@@ -120,32 +126,24 @@ std::string printers_reference() {
   return text +
          "\n## Members of a material\n\nA file of materials has a list of objects, `{\"materials\": [...]}`. Members "
          "that are not listed here are kept with the\nmaterial.\n\n" +
-         member_rows(design::material_members());
+         member_rows(design::material_members()) +
+         "\n## Members of a calibration\n\nA [calibration](../user/properties.md) is one object. A member that is not "
+         "listed here is an error.\n\n" +
+         member_rows(calibration::calibration_members()) + "\nAn input:\n\n" +
+         member_rows(calibration::input_members()) + "\nA point:\n\n" + member_rows(calibration::point_members()) +
+         "\nThe constants of a law:\n\n" + member_rows(calibration::constant_members()) +
+         "\n## Members of a calibration of inks\n\nA calibration with a `\"profile\"` gives the shares of "
+         "[inks](../user/colour.md) for colours.\n\n" +
+         member_rows(calibration::ink_members());
 }
 
-struct PrintersChoices {
-  std::string printer;
-  ListChoices list;
-
-  static const options::Spec<PrintersChoices>& options() {
-    using namespace options;
-    static const options::Spec<PrintersChoices> spec{option("printer", &PrintersChoices::printer, kind::text,
-                                                            "A profile's name, or the path of a .json file", "NAME"),
-                                                     group(&PrintersChoices::list)};
-    return spec;
-  }
-};
-
-int show_printers(const PrintersChoices& a, Session& session) {
-  if (!a.list.markdown && !a.printer.empty()) return show_printer(a.printer, session);
-  return list_or_print<list_printers, printers_reference>(a.list, session);
-}
+constexpr OneThing one_printer{"printer", "A profile's name, or the path of a .json file"};
 
 }  // namespace
 
 JobKind printers_kind() {
-  return job_kind<PrintersChoices>("printers", "List the printer profiles, or show one",
-                                   "Examples:\n  ombre printers\n  ombre printers j750\n", show_printers);
+  return one_or_all_kind<one_printer, show_printer, list_printers, printers_reference>(
+      "printers", "List the printer profiles, or show one", "Examples:\n  ombre printers\n  ombre printers j750\n");
 }
 
 }  // namespace ombre::jobs

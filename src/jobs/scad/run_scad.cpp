@@ -14,6 +14,7 @@
 #include "formats/containers/file.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
+#include "jobs/mesh/flavour_option.h"
 #include "jobs/scad/scad_files.h"
 #include "lang/openscad/csg_text.h"
 #include "lang/openscad/customizer.h"
@@ -53,11 +54,7 @@ struct ScadChoices {
         option("--materials", &ScadChoices::materials, kind::file, "A materials file, for scripts that say use <ombre>",
                "FILE"),
         flag("--no-overlap", &ScadChoices::no_overlap, "Where solids overlap, the first one keeps the space"),
-        choice(
-            "--flavour,--flavor", &ScadChoices::flavour, {"generic", "prusa", "bambu"},
-            "Program that a .3mf is for: generic (default), prusa or bambu: one object, with a volume and an extruder "
-            "for each part and colour",
-            "SLICER"),
+        compile::flavour_option(&ScadChoices::flavour),
         flag("--hardwarnings", &ScadChoices::stops_at_warnings, "Stop at the first warning")};
     return spec;
   }

@@ -24,6 +24,7 @@ DataMembers describe(const Channel& channel) {
   if (kind.last_shade == 0) return members;
   members.emplace_back("unit", channel.unit);
   members.emplace_back("range", DataList{channel.range.lo, channel.range.hi});
+  if (channel.samples > 0) members.emplace_back("samples", number(channel.samples));
   return members;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/system/stopwatch.h"
-#include "jobs/slice/cost_profile.h"
+#include "jobs/common/cost_profile.h"
 
 namespace ombre::compile {
 

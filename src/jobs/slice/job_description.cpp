@@ -47,11 +47,16 @@ Data images(const SliceRequest& request) {
   DataList flip;
   if (request.flip_x) flip.emplace_back("x");
   if (request.flip_y) flip.emplace_back("y");
-  return DataMembers{{"format", voxel::to_text(request.format)},
-                     {"files", request.files.text()},
-                     {"first_index", number(request.first_index)},
-                     {"empty_layers", request.drop_empty_layers ? "drop" : "keep"},
-                     {"flip", flip}};
+  DataMembers members{{"format", voxel::to_text(request.format)},
+                      {"files", request.files.text()},
+                      {"first_index", number(request.first_index)},
+                      {"empty_layers", request.drop_empty_layers ? "drop" : "keep"},
+                      {"flip", flip}};
+  if (const auto& exposure = request.exposure)
+    members.emplace_back("exposure", DataMembers{{"seconds", exposure->seconds},
+                                                 {"first_seconds", exposure->first_seconds},
+                                                 {"fade_layers", number(exposure->fade_layers)}});
+  return members;
 }
 
 // Describes the materials in the order of the palette of indexed images.
@@ -81,6 +86,8 @@ DataMembers describe_job(const SliceRequest& request) {
                   {"design_hash", request.design_hash},
                   {"printer", request.printer},
                   {"sampling", sampling(request)}};
+  if (!request.resolved.empty()) job.emplace_back("resolved", request.resolved);
+  if (!request.corrections.empty()) job.emplace_back("corrections", request.corrections);
   if (request.has_materials()) job.emplace_back("materials", materials(request));
   if (DataList others = describe_channels(request); !others.empty()) job.emplace_back("channels", std::move(others));
   job.emplace_back("images", images(request));

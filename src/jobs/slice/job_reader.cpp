@@ -12,7 +12,8 @@
 namespace ombre::compile {
 namespace {
 
-constexpr double most_voxels = 1e9;  // along an axis
+constexpr double most_voxels = 1e9;    // along an axis
+constexpr int most_points_along = 16;  // along an axis of a voxel
 constexpr NumberRange byte{0, 255, true}, voxel_count{1, most_voxels, true}, first_voxel{0, most_voxels, true};
 
 void read_pitch(Sampling& sampling, const Data& data, const MemberReader& reader) {
@@ -117,7 +118,8 @@ Record<voxel::Channel> channel_record() {
   using C = voxel::Channel;
   return Record<C>("a channel",
                    {field::text("name", &C::name).required(), field::value("type", &C::type, read_type).required(),
-                    field::value("unit", &C::unit, read_any_text), field::value("range", &C::range, read_range)});
+                    field::value("unit", &C::unit, read_any_text), field::value("range", &C::range, read_range),
+                    field::whole("samples", &C::samples, 1, most_points_along)});
 }
 
 void read_channels(DescribedJob& job, const Data& data, const MemberReader& reader) {
@@ -152,7 +154,8 @@ Record<voxel::Images> images_record() {
                     field::value("files", &I::files, read_pattern).required(),
                     field::whole("first_index", &I::first_index, -most_voxels, 2 * most_voxels).required(),
                     field::choice("empty_layers", &I::drop_empty_layers, {"keep", "drop"}).required(),
-                    field::special("flip", read_flip).required()});
+                    field::special("flip", read_flip).required(),
+                    field::object("exposure", &I::exposure, voxel::exposure_record())});
 }
 
 void read_checks(DescribedJob& job, const Data& data, const MemberReader& reader) {
@@ -162,6 +165,13 @@ void read_checks(DescribedJob& job, const Data& data, const MemberReader& reader
     if (!text.string()) return reader.fail_expected(text, "a text");
     job.request.check_texts.push_back(*text.string());
   }
+}
+
+// Keeps a list as it is written.
+Field<DescribedJob> list_field(const std::string& name, DataList SliceRequest::*member) {
+  return {name, [=](DescribedJob& job, const Data& data, const MemberReader& reader) {
+            if (const DataList* list = reader.list(data, name)) job.request.*member = *list;
+          }};
 }
 
 // Reads an object whose record is of a part of the request.
@@ -187,7 +197,8 @@ const Record<DescribedJob>& job_record() {
                  text_field("printer", &SliceRequest::printer).required(),
                  part_field("sampling", sampling_record()).required(), field::special("materials", read_materials),
                  field::special("channels", read_channels), part_field("images", images_record()).required(),
-                 field::special("checks", read_checks).required(),
+                 field::special("checks", read_checks).required(), list_field("resolved", &SliceRequest::resolved),
+                 list_field("corrections", &SliceRequest::corrections),
                  field::choice("status", &J::is_complete, {"unfinished", "complete"}),
                  Field<J>("totals", [](J& job, const Data& data, const MemberReader&) { job.totals = data; })})
           .knows({"format", "shades"})  // jobs of values had shades in an earlier version

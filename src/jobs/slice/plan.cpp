@@ -7,10 +7,13 @@
 #include "base/system/tasks.h"
 #include "base/text/text.h"
 #include "export/image_stack.h"
+#include "jobs/slice/coverage_layers.h"
+#include "jobs/slice/resolved_plan.h"
 #include "jobs/slice/seen_materials.h"
 #include "jobs/slice/value_layers.h"
 #include "questions/build.h"
 #include "questions/design_stages.h"
+#include "questions/region_survey.h"
 #include "voxel/image_kinds.h"
 #include "voxel/layers.h"
 
@@ -206,11 +209,24 @@ design::Design design_on(const design::Design& design, const voxel::Lattice& lat
   return with_stages(design::for_lattice(design, {lattice.origin, lattice.pitch}), loan);
 }
 
+// Warns of materials that images of coverage do not tell apart. Returns false, and adds a diagnostic, if they cannot be
+// found.
+bool warn_of_joined(const design::Design& design, const Box& box, int threads, const SourceRange& where,
+                    Diagnostics& diagnostics) {
+  const auto found = find_materials(design, box, threads, diagnostics);
+  if (found && found->names.size() > 1)
+    diagnostics.warning(where, "images of coverage show " + join(found->names, " and ") + " alike, as one material",
+                        "write " + spelled::option("--by", found->names.front()) + " for one of them");
+  return found.has_value();
+}
+
 std::optional<Plan> plan_value(const LoadedPtr& loaded, const PlanOptions& options, const Box& box,
                                const voxel::Lattice& lattice, Diagnostics& diagnostics) {
   const design::Design design = design_on(loaded->design, lattice, options);
   const auto channel = value_channel(design, box, *options.value, diagnostics);
   if (!channel || !images_take(options, *channel, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
+  if (is_coverage(*channel) && !warn_of_joined(design, box, options.threads, {loaded->source, 0, 0}, diagnostics))
+    return std::nullopt;
   Plan plan;
   plan.stages = stages_of(design);
   plan.request = base_request(options, lattice, design::hash(loaded->design), *channel);
@@ -222,6 +238,21 @@ std::optional<Plan> plan_value(const LoadedPtr& loaded, const PlanOptions& optio
   plan.samples = plan.regions;
   plan.producer = whole_layers(plan.regions, lattice);
   return plan;
+}
+
+// Keeps in the request how the design was resolved. Returns false, and adds diagnostics, if some values are out of
+// reach and the job does not take the nearest.
+bool take_resolution(Plan& plan, const design::Design& on_lattice, const Resolution& resolution,
+                     const PlanOptions& options, Diagnostics& diagnostics) {
+  if (resolution.steps.empty()) return true;
+  for (const ResolvedStep& step : resolution.steps) plan.request.resolved.push_back(describe(step));
+  if (options.resolving->takes_nearest) return true;
+  const size_t errors = diagnostics.error_count();
+  stages_of(on_lattice)
+      ->prepare({options.threads, options.memory_bytes, options.progress, options.stop, options.memory});
+  report_out_of_reach(on_lattice, plan.request.lattice, resolution.steps, options, {resolution.loaded->source, 0, 0},
+                      diagnostics);
+  return diagnostics.error_count() == errors;
 }
 
 // Removes materials from the request that no voxel has, if there seem to be more materials than the printer has: other
@@ -257,13 +288,21 @@ std::optional<Plan> plan_slice(const LoadedPtr& loaded, const PlanOptions& optio
   return box ? plan_over(loaded, *box, options, diagnostics) : std::nullopt;
 }
 
-std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const PlanOptions& options,
+std::optional<Plan> plan_over(const LoadedPtr& as_written, const Box& box, const PlanOptions& options,
                               Diagnostics& diagnostics) {
+  const auto resolution = resolve_for_job(as_written, options, diagnostics);
+  if (!resolution) return std::nullopt;
+  const LoadedPtr& loaded = resolution->loaded;
   const design::Design& design = loaded->design;
   const auto lattice = LatticePlanner(*loaded, options, box, diagnostics).run();
   if (!lattice) return std::nullopt;
   warn_of_features(options.printer, box.size(), {loaded->source, 0, 0}, diagnostics);
-  if (options.value) return plan_value(loaded, options, box, *lattice, diagnostics);
+  if (options.value) {
+    auto plan = plan_value(loaded, options, box, *lattice, diagnostics);
+    if (!plan || !take_resolution(*plan, design_on(design, *lattice, options), *resolution, options, diagnostics))
+      return std::nullopt;
+    return plan;
+  }
   const voxel::Channel materials;
   if (!images_take(options, materials, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
   const design::Design on_lattice = design_on(design, *lattice, options);
@@ -306,6 +345,8 @@ std::optional<Plan> plan_over(const LoadedPtr& loaded, const Box& box, const Pla
       return diffused_alone(program, voxel::part_of(lattice, region), seed, how, stop);
     };
   plan.producer = whole_layers(plan.regions, *lattice);
+  if (options.finds_short_periods) plan.periods = find_short_periods(built->materials.program, *lattice);
+  if (!take_resolution(plan, on_lattice, *resolution, options, diagnostics)) return std::nullopt;
   if (!prints_materials(plan, options, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
   warn_of_grays(request, {loaded->source, 0, 0}, diagnostics);
   return plan;

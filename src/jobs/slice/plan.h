@@ -7,6 +7,7 @@
 #include "jobs/common/plan_options.h"
 #include "jobs/slice/slice_request.h"
 #include "load/loaded.h"
+#include "questions/short_periods.h"
 #include "stages/job_stages.h"
 
 namespace ombre::compile {
@@ -18,6 +19,7 @@ struct Plan {
   RegionProducer samples;
   LayerProducer producer;  // gives whole layers, by `regions`
   JobStagesPtr stages;     // to be prepared before layers are made
+  ShortPeriods periods;    // of a job of materials, if its options ask for them
 };
 
 // Plans a job. Returns nothing, and adds diagnostics, when the design cannot be sliced with these options (does not

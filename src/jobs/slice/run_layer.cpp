@@ -128,8 +128,9 @@ int write_layer(const LayerChoices& a, const LayerPlan& layer_plan, Session& ses
   return done;
 }
 
-std::optional<LayerPlan> plan_job(const LayerChoices& a, const compile::PlanOptions& options, Session& session,
+std::optional<LayerPlan> plan_job(const LayerChoices& a, compile::PlanOptions options, Session& session,
                                   Diagnostics& diagnostics) {
+  if (!a.calibrations.apply(options, a.design.materials, diagnostics)) return std::nullopt;
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
   auto plan = loaded ? compile::plan_slice(loaded, options, diagnostics) : std::nullopt;
   if (!plan) return std::nullopt;

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/text/error.h"
+#include "base/text/file_ending.h"
 #include "jobs/check/emit.h"
 #include "jobs/common/events.h"
 #include "jobs/common/free_space.h"
@@ -9,8 +10,10 @@
 #include "jobs/common/job_kind.h"
 #include "jobs/common/job_steps.h"
 #include "jobs/common/session.h"
+#include "jobs/quick/quick_checks.h"
 #include "jobs/slice/job_description.h"
 #include "jobs/slice/plan_part.h"
+#include "jobs/slice/sl1_files.h"
 #include "jobs/slice/slice_choices.h"
 #include "jobs/slice/slice_report.h"
 #include "jobs/slice/stored_slices.h"
@@ -27,6 +30,7 @@ constexpr const char* slice_footer =
     "  ombre slice part.vcad                                0.1 mm voxels, or those of the design's root()\n"
     "  ombre slice part.vcad --printer j750 -o part/        for a printer (see: ombre printers)\n"
     "  ombre slice part.vcad -o part.zip                    the layers as an archive\n"
+    "  ombre slice part.vcad --printer prusa-sl1 -o part.sl1    masks with soft edges, for a vat printer\n"
     "  ombre slice part.vcad --dpi 600,300 --layer-height 0.027\n"
     "  ombre slice part.vcad -D wall=1.5 -D lid=false       set variables of the design\n"
     "  ombre slice part.vcad --layers 100:110               a few layers, named as in the whole job\n"
@@ -118,17 +122,39 @@ int emit(const SliceChoices& a, Session& session) {
   return take_steps(steps, session);
 }
 
+// Images of .sl1 archives show the whole display, in shades of gray.
+void use_sl1(const SliceChoices& a, compile::PlanOptions& options) {
+  constexpr int usual_samples = 4;
+  if (a.box)
+    throw WrongArgument("an .sl1 archive has images of the whole display; leave out " + spelled::option("--box"));
+  if (!options.whole_tray) options.place = voxel::Placement::center;
+  if (!options.value) options.value = compile::ValueChoice{"coverage", {}, 8, usual_samples};
+}
+
+// Warns of what a quick look at the job finds. Voxels that need stages are left to the job.
+void look(const compile::Plan& plan, const voxel::Printer& printer, Session& session) {
+  const compile::SliceRequest& request = plan.request;
+  warn_of_short_periods(session.events, plan.periods, request.lattice);
+  if (!request.has_materials() || plan.stages->has_whole_stages()) return;
+  std::map<std::string, MaterialId> materials;
+  for (const compile::SliceMaterial& material : request.materials) materials.emplace(material.name, material.id);
+  warn_of_neighbours(session.events, printer, materials, request.lattice, plan.samples, &session.stop);
+}
+
 std::optional<compile::Plan> plan(const SliceChoices& a, Session& session, Diagnostics& diagnostics) {
   auto options = plan_options(a.sampling, a.work, session, diagnostics, a.images);
   const compile::LoadedPtr loaded = options ? load_sliced(a, session, diagnostics) : nullptr;
   if (!loaded) return std::nullopt;
-  if (!options->printer.forbidden_neighbours.empty())
-    session.events.warn("slicing does not check which materials may be neighbours on " + options->printer.title +
-                        "; ombre check does");
+  if (!a.calibrations.apply(*options, a.design.materials, diagnostics)) return std::nullopt;
+  options->finds_short_periods = !a.unchecked;
   JobProgress progress(session.events);
   options->progress = &progress;
+  const bool is_sl1 = ending_of(a.output_folder()) == compile::sl1_ending;
+  if (is_sl1) use_sl1(a, *options);
   auto plan = compile::plan_slice(loaded, *options, diagnostics);
   if (!plan) return std::nullopt;
+  if (!a.unchecked) look(*plan, options->printer, session);
+  if (is_sl1) compile::check_sl1(plan->request, {loaded->source, 0, 0}, diagnostics);
   const voxel::TileBox region = compile::chosen_region(a.box, plan->request.lattice);
   return compile::part_of(std::move(*plan), region);
 }

@@ -16,18 +16,13 @@ FolderUse SliceChoices::folder_use() const {
   return resume ? FolderUse::resume : FolderUse::fresh;
 }
 
-namespace {
-
-// Returns nothing where all layers are wanted.
-std::optional<LayerRange> chosen_layers(const SliceChoices& choices, int64_t count) {
-  if (choices.layers.empty()) return std::nullopt;
-  if (const auto layers = parse_layer_range(choices.layers, count)) return layers;
-  throw options::WrongValue(spelled::option("--layers", choices.layers) + " selects none of the " +
+std::optional<LayerRange> chosen_layers(const std::string& wanted, int64_t count) {
+  if (wanted.empty()) return std::nullopt;
+  if (const auto layers = parse_layer_range(wanted, count)) return layers;
+  throw options::WrongValue(spelled::option("--layers", wanted) + " selects none of the " +
                             format_count(static_cast<unsigned long long>(count)) + " layers, which are 0:" +
                             std::to_string(count) + "; write for example " + spelled::option("--layers", "0:10"));
 }
-
-}  // namespace
 
 SliceOptions slice_options(const SliceChoices& choices, const Plan& plan) {
   SliceOptions options;
@@ -39,7 +34,7 @@ SliceOptions slice_options(const SliceChoices& choices, const Plan& plan) {
   options.stages = plan.stages;
   options.shard = choices.shard;
   const int64_t count = plan.request.lattice.count[2];
-  options.layers = chosen_layers(choices, count);
+  options.layers = chosen_layers(choices.layers, count);
   if (options.shard) options.layers = share_of(options.layers.value_or(LayerRange{0, count}), *options.shard);
   return options;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "jobs/check/emit.h"
+#include "jobs/common/calibration_options.h"
 #include "jobs/common/job_options.h"
 #include "jobs/common/shard_option.h"
 #include "jobs/slice/plan.h"
@@ -15,11 +16,12 @@ struct SliceChoices {
   DesignOptions design;
   SamplingOptions sampling;
   ImageOptions images;
+  CalibrationOptions calibrations;
   std::string folder, layers;
   std::optional<Box> box;
   std::optional<stores::Shard> shard;
   WorkOptions work;
-  bool force = false, resume = false, dry_run = false, strict = false;
+  bool force = false, resume = false, dry_run = false, strict = false, unchecked = false;
   std::string emit;
 
   static const options::Spec<SliceChoices>& options() {
@@ -28,6 +30,7 @@ struct SliceChoices {
         group(&SliceChoices::design),
         group(&SliceChoices::sampling),
         group(&SliceChoices::images),
+        group(&SliceChoices::calibrations),
         option(
             "-o,--output", &SliceChoices::folder, kind::file,
             "Folder for the layers, or a .zip archive of them (default: a folder with the design's name and _slices)",
@@ -52,6 +55,9 @@ struct SliceChoices {
         flag("--dry-run", &SliceChoices::dry_run,
              "Estimate time and memory of the job from a few layers, and write nothing"),
         flag("--strict", &SliceChoices::strict, "End with exit code 3 as soon as a check fails"),
+        flag("--unchecked", &SliceChoices::unchecked,
+             "Leave out the quick look before the job, which warns of formulas that repeat faster than voxels show\n"
+             "and of materials that may not be neighbours"),
         choice("--emit", &SliceChoices::emit, emit_forms(), "Print an intermediate form to stdout, and slice nothing",
                "FORM")};
     return spec;
@@ -61,6 +67,10 @@ struct SliceChoices {
   FolderUse folder_use() const;
 };
 
+// Returns the layers that a value of --layers selects; nothing if it is empty. Throws options::WrongValue if it selects
+// none.
+std::optional<LayerRange> chosen_layers(const std::string& wanted, int64_t count);
+
 // Returns the options for the plan of the same choices. Throws options::WrongValue when the layers are not among the
 // plan's.
 SliceOptions slice_options(const SliceChoices& choices, const Plan& plan);
@@ -69,6 +79,7 @@ struct LayerChoices {
   DesignOptions design;
   SamplingOptions sampling;
   ImageOptions images;
+  CalibrationOptions calibrations;
   std::string output, index;
   std::optional<double> z_mm;
   std::optional<Box> box;
@@ -81,6 +92,7 @@ struct LayerChoices {
         group(&LayerChoices::design),
         group(&LayerChoices::sampling),
         group(&LayerChoices::images),
+        group(&LayerChoices::calibrations),
         option("-o,--output", &LayerChoices::output, kind::file,
                "The image to write, - for stdout (default: the names of the design and of the layer's file)", "FILE"),
         option("--z", &LayerChoices::z_mm, kind::height, "The layer at this height of the design; mm", "MM"),

@@ -64,6 +64,19 @@ std::string emptiness_text(const compile::SliceRequest& request) {
 
 void append(DataMembers& members, DataMembers more) { std::ranges::move(more, std::back_inserter(members)); }
 
+// Returns for example "modulus to fractions of VeroClear, Agilus30Clr by agilus-vero-modulus (illustrative)".
+std::string step_text(const Data& step) {
+  const auto texts = [&](const char* name) {
+    std::vector<std::string> found;
+    if (const Data* list = step.find(name))
+      for (const Data& text : *list->list()) found.push_back(*text.string());
+    return join(found, ", ");
+  };
+  const std::string materials = texts("materials");
+  return texts("from") + " to " + *step.find("to")->string() + (materials.empty() ? "" : " of " + materials) + " by " +
+         *step.find("calibration")->string() + (*step.find("illustrative")->boolean() ? " (illustrative)" : "");
+}
+
 }  // namespace
 
 void tell_plan(const Events& events, const compile::SliceRequest& request, const compile::SliceOptions& options) {
@@ -75,6 +88,7 @@ void tell_plan(const Events& events, const compile::SliceRequest& request, const
              format_rounded(pitch[1].mm()) + " x " + format_rounded(pitch[2].mm()) + " mm");
   events.say(counted(nz, "layer") + " of " + std::to_string(nx) + " x " + std::to_string(ny) + ", " +
              format_count(request.lattice.voxels()) + " voxels; " + shown_text(request));
+  for (const Data& step : request.resolved) events.say(step_text(step));
   if (options.layers)
     events.say("layers " + std::to_string(options.layers->begin) + ':' + std::to_string(options.layers->end) +
                " of these");

@@ -11,10 +11,10 @@
 
 #include "base/system/progress.h"
 #include "formats/images/png.h"
+#include "jobs/common/cost_profile.h"
+#include "jobs/common/layer_range.h"
 #include "jobs/common/sampling_rules.h"
-#include "jobs/slice/cost_profile.h"
 #include "jobs/slice/layer_entry.h"
-#include "jobs/slice/layer_range.h"
 #include "stages/job_stages.h"
 #include "stores/folder_use.h"
 #include "stores/shard.h"
@@ -46,6 +46,8 @@ struct Sampling : SamplingRules {
       voxel::Channel{}};                  // channels of the layers; the first one is of materials if any is
   std::vector<SliceMaterial> materials;   // materials in use, by ascending id, without void
   std::vector<std::string> check_texts;   // one for each check of the program: a text for people about the failure
+  DataList resolved;                      // how properties were resolved, a step each, for job.json
+  DataList corrections;                   // changes of the voxels that a design gives, a step each, for job.json
   std::vector<std::string> check_places;  // places of the checks in the design, "part.vcad:3:1"; they decide no bytes
 
   bool has_materials() const;

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/system/assert.h"
 #include "base/text/error.h"
 #include "base/text/json.h"
 #include "jobs/slice/channel_counts.h"
 #include "jobs/slice/job_description.h"
+#include "jobs/slice/sl1_files.h"
 
 namespace ombre::compile {
 namespace {
@@ -56,7 +58,7 @@ constexpr const char* old_member = "shades";
 }  // namespace
 
 const stores::JobWords& slice_words() {
-  static const stores::JobWords words{"slice job", "layers", job_file, layer_member, ".png"};
+  static const stores::JobWords words{"slice job", std::string(job_format), "layers", job_file, layer_member, ".png"};
   return words;
 }
 
@@ -111,9 +113,13 @@ bool StoredSlices::accepts(const stores::Entry& entry) const {
   return std::equal(layer->files.begin(), layer->files.end(), names.begin(), names.end(), is_named);
 }
 
-bool StoredSlices::is_kind(const Data& description) const {
-  const Data* format = description.find("format");
-  return format && format->string() && format->string()->starts_with(job_format);
+std::vector<std::pair<std::string, std::string>> StoredSlices::further_files(const std::string& ending,
+                                                                             const stores::Entries& finished) const {
+  if (ending != sl1_ending) return {};
+  VoxelCounts counts = no_counts(request_);
+  for (const auto& [id, layer] : layers(finished)) counts.add(layer.counts);
+  const double shades = static_cast<double>(std::accumulate(counts.shades.begin(), counts.shades.end(), uint64_t{0}));
+  return sl1_files(request_, shades / 255 * voxel_mm3(request_.lattice));
 }
 
 std::optional<stores::NameTest> StoredSlices::files_of(const Data& description) const {

@@ -33,8 +33,9 @@ class StoredSlices : public stores::StoredJob {
   bool is_complete(const stores::Entries& finished) const override;
   void check_same(const std::string& folder, const DataMembers& there) const override;
   bool accepts(const stores::Entry& entry) const override;
+  std::vector<std::pair<std::string, std::string>> further_files(const std::string& ending,
+                                                                 const stores::Entries& finished) const override;
   bool owns(std::string_view name) const override { return files_.contains(name); }
-  bool is_kind(const Data& description) const override;
   std::optional<stores::NameTest> files_of(const Data& description) const override;
 
  private:

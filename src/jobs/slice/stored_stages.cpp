@@ -13,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* stages_format = "ombre stages";
 constexpr std::string_view stage_ending = ".stage";
 constexpr const char* made_from_member = "made_from";
 
@@ -29,11 +28,12 @@ const std::string* made_from_of(const stores::Entry& entry) {
 class StageJob : public stores::StoredJob {
  public:
   const stores::JobWords& words() const override {
-    static const stores::JobWords words{"set of stages", "stages", "stages.json", "stage", std::string(stage_ending)};
+    static const stores::JobWords words{"set of stages", "ombre stages", "stages",
+                                        "stages.json",   "stage",        std::string(stage_ending)};
     return words;
   }
   std::string description(const stores::Entries&) const override {
-    return print_json(DataMembers{{"format", std::string(stages_format) + ", version 1"}});
+    return print_json(DataMembers{{"format", words().format + ", version 1"}});
   }
   bool is_complete(const stores::Entries&) const override { return true; }
   void check_same(const std::string&, const DataMembers&) const override {}
@@ -41,10 +41,6 @@ class StageJob : public stores::StoredJob {
     return made_from_of(entry) && entry.files.size() == 1 && entry.files[0].name == file_name(entry.id);
   }
   bool owns(std::string_view name) const override { return name.ends_with(stage_ending); }
-  bool is_kind(const Data& description) const override {
-    const Data* format = description.find("format");
-    return format && format->string() && format->string()->starts_with(stages_format);
-  }
   std::optional<stores::NameTest> files_of(const Data&) const override {
     return [](std::string_view name) { return name.ends_with(stage_ending); };
   }

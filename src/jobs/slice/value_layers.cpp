@@ -7,6 +7,7 @@
 
 #include "base/text/error.h"
 #include "design/attributes.h"
+#include "jobs/slice/coverage_layers.h"
 #include "questions/question.h"
 #include "questions/region_survey.h"
 #include "voxel/fields.h"
@@ -177,6 +178,7 @@ std::optional<Channel> colour_channel(const design::Design& design, const ValueC
 
 std::optional<Channel> value_channel(const design::Design& design, const Box& box, const ValueChoice& choice,
                                      Diagnostics& diagnostics) {
+  if (choice.samples > 0) return coverage_channel(choice.samples);
   if (is_colour(design, choice.of)) return colour_channel(design, choice, diagnostics);
   const ChannelType type = voxel::number_type(choice.bits);
   Channel channel{choice.of, type, value_unit(design, choice.of), choice.range.value_or(Interval(0, 1))};
@@ -191,6 +193,7 @@ std::optional<Channel> value_channel(const design::Design& design, const Box& bo
 std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
                                            const std::vector<Channel>& channels, voxel::Evaluator evaluator,
                                            Diagnostics& diagnostics) {
+  if (is_coverage(channels.front())) return coverage_layers(design, lattice, channels.front(), evaluator, diagnostics);
   Question question(design);
   program::Outputs outputs;
   for (const Channel& channel : channels)
@@ -202,6 +205,7 @@ std::optional<RegionProducer> value_layers(const design::Design& design, const v
 }
 
 size_t value_working_bytes(const std::vector<Channel>& channels, const voxel::Lattice& lattice, int64_t layers) {
+  if (is_coverage(channels.front())) return coverage_working_bytes(channels.front(), lattice, layers);
   size_t bytes = 0;  // of a voxel of a strip: its numbers as they are evaluated, and as they are rounded
   for (const Channel& channel : channels)
     if (channel.type != ChannelType::material) bytes += numbers_of(channel) * (sizeof(float) + sizeof(uint16_t));

@@ -384,9 +384,12 @@ class DesignChecker {
 
 void compare_hash(const Stack& stack, const LoadedPtr& loaded, Findings& findings) {
   const std::string hash = design::hash(loaded->design).hex(), stated = stack.request().design_hash;
+  const std::string remedy = stack.request().resolved.empty()
+                                 ? ""
+                                 : "; the job resolved its properties, and ombre resolve -o writes that design";
   if (hash != stated)
-    findings.push_back(
-        {"design", loaded->path + " is another design than that of the job: its hash is " + hash + ", not " + stated});
+    findings.push_back({"design", loaded->path + " is another design than that of the job: its hash is " + hash +
+                                      ", not " + stated + remedy});
 }
 
 // Compares the materials of job.json with those of the design.
@@ -413,7 +416,8 @@ std::string share_text(double sampled, const voxel::Lattice& lattice, size_t lay
 }  // namespace
 
 std::optional<DesignCheck> check_design(const Stack& stack, const LayerReader& reader, const LoadedPtr& loaded,
-                                        const SampleChoice& choice, const CheckWork& work, Diagnostics& diagnostics) {
+                                        LayerRange layers, const SampleChoice& choice, const CheckWork& work,
+                                        Diagnostics& diagnostics) {
   const auto box = design_box(loaded->design, diagnostics);
   if (!box) return std::nullopt;
   DesignCheck result;
@@ -425,7 +429,7 @@ std::optional<DesignCheck> check_design(const Stack& stack, const LayerReader& r
   compare_materials(stack, loaded->design, design->materials(), result.findings);
   SampleChoice chosen = choice;
   chosen.whole_layers = stack.request().dither == voxel::Dither::diffusion && stack.request().has_materials();
-  std::vector<LayerSample> samples = choose_samples(stack.request().lattice, chosen);
+  std::vector<LayerSample> samples = choose_samples(stack.request().lattice, layers, chosen);
   double sampled = 0;
   for (const LayerSample& sample : samples)
     for (const LayerWindow& window : sample.windows)

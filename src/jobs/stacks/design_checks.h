@@ -21,9 +21,10 @@ struct DesignCheck {
   std::vector<std::string> unchecked;
 };
 
-// Compares samples of the stack with the design. Returns nothing, and adds diagnostics, if the design is wrong. Throws
-// Cancelled.
+// Compares samples of some layers of the stack with the design. Returns nothing, and adds diagnostics, if the design is
+// wrong. Throws Cancelled.
 std::optional<DesignCheck> check_design(const Stack& stack, const LayerReader& reader, const LoadedPtr& loaded,
-                                        const SampleChoice& choice, const CheckWork& work, Diagnostics& diagnostics);
+                                        LayerRange layers, const SampleChoice& choice, const CheckWork& work,
+                                        Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

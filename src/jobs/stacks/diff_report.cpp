@@ -173,6 +173,19 @@ void tell(const Events& events, const Changes& changes, const voxel::Lattice& la
   events.print(text + verdict(changes) + "\n");
 }
 
+// Returns a page whose pictures show the layers that change most.
+template <class Changes, class Picture>
+std::string page_of(const compile::DiffChoices& choices, const Changes& changes, const voxel::Lattice& lattice,
+                    const std::string& heading, const Picture& picture_of_layer) {
+  ReportPage page(choices.first + " and " + choices.second + ": " + verdict(changes));
+  page.add_list("Changes", change_lines(changes, lattice));
+  if (changes.layers.empty()) return page.html();
+  page.add_heading(heading);
+  for (size_t n = 0; n < shown_layers(changes); ++n)
+    page.add_picture(layer_text(changes.layers[n], lattice), picture_of_layer(changes.layers[n].layer));
+  return page.html();
+}
+
 }  // namespace
 
 void tell_changes(const Events& events, const MaterialChanges& changes, const voxel::Lattice& lattice) {
@@ -186,27 +199,18 @@ void tell_changes(const Events& events, const ValueChanges& changes, const voxel
 std::string changes_page(const compile::DiffChoices& choices, const MaterialChanges& changes,
                          const compile::ComparedSolid& a, const compile::ComparedSolid& b,
                          const voxel::Lattice& lattice) {
-  ReportPage page(choices.first + " and " + choices.second + ": " + verdict(changes));
-  page.add_list("Changes", change_lines(changes, lattice));
-  if (changes.layers.empty()) return page.html();
-  page.add_heading("Layers that change most: lost in red, gained in blue, of another material in orange");
-  for (size_t n = 0; n < shown_layers(changes); ++n)
-    page.add_picture(layer_text(changes.layers[n], lattice),
-                     picture_of_changes(a, b, changes, lattice, changes.layers[n].layer));
-  return page.html();
+  return page_of(choices, changes, lattice,
+                 "Layers that change most: lost in red, gained in blue, of another material in orange",
+                 [&](int64_t layer) { return picture_of_changes(a, b, changes, lattice, layer); });
 }
 
 std::string changes_page(const compile::DiffChoices& choices, const ValueChanges& changes,
                          const compile::ComparedValues& a, const compile::ComparedValues& b,
                          const voxel::Lattice& lattice) {
-  ReportPage page(choices.first + " and " + choices.second + ": " + verdict(changes));
-  page.add_list("Changes", change_lines(changes, lattice));
-  if (changes.layers.empty()) return page.html();
-  page.add_heading("Layers of " + a.channels.front().name +
-                   " that change most: less in red, more in blue, other colours in orange");
-  for (size_t n = 0; n < shown_layers(changes); ++n)
-    page.add_picture(layer_text(changes.layers[n], lattice), picture_of_values(a, b, lattice, changes.layers[n].layer));
-  return page.html();
+  return page_of(
+      choices, changes, lattice,
+      "Layers of " + a.channels.front().name + " that change most: less in red, more in blue, other colours in orange",
+      [&](int64_t layer) { return picture_of_values(a, b, lattice, layer); });
 }
 
 }  // namespace ombre::jobs

@@ -12,26 +12,28 @@ constexpr int64_t window_voxels = 128;  // along x and y
 
 class SampleChooser {
  public:
-  SampleChooser(const voxel::Lattice& lattice, const SampleChoice& choice)
-      : count_(lattice.count), choice_(choice), random_(choice.seed), left_(choice.voxels) {}
+  SampleChooser(const voxel::Lattice& lattice, LayerRange layers, const SampleChoice& choice)
+      : count_(lattice.count), layers_(layers), choice_(choice), random_(choice.seed), left_(choice.voxels) {}
 
   std::vector<LayerSample> run() {
     const double layer = static_cast<double>(count_[0]) * static_cast<double>(count_[1]);
-    const bool takes_all = choice_.all || layer * static_cast<double>(count_[2]) <= left_;
-    for (int64_t k = 0; takes_all && k < count_[2]; ++k) take_layer(k);
+    const bool takes_all = choice_.all || layer * static_cast<double>(layers_.end - layers_.begin) <= left_;
+    for (int64_t k = layers_.begin; takes_all && k < layers_.end; ++k) take_layer(k);
     if (takes_all) return list();
     for (const int64_t border : choice_.borders)
       for (const int64_t k : {border - 1, border})
-        if (k >= 0 && k < count_[2]) take_layer(k);
+        if (k >= layers_.begin && k < layers_.end) take_layer(k);
     const double for_layers = choice_.whole_layers ? left_ : left_ / 2;
-    for (double used = 0; used + layer <= for_layers; used += layer) take_layer(below(count_[2]));
-    if (choice_.whole_layers && samples_.empty()) take_layer(below(count_[2]));
+    for (double used = 0; used + layer <= for_layers; used += layer) take_layer(any_layer());
+    if (choice_.whole_layers && samples_.empty()) take_layer(any_layer());
     if (!choice_.whole_layers) take_windows();
     return list();
   }
 
  private:
   int64_t below(int64_t limit) { return static_cast<int64_t>(random_() % static_cast<uint64_t>(limit)); }
+
+  int64_t any_layer() { return layers_.begin + below(layers_.end - layers_.begin); }
 
   void take_layer(int64_t k) {
     if (!whole_.insert(k).second) return;
@@ -42,7 +44,7 @@ class SampleChooser {
   void take_windows() {
     constexpr int most_tries = 10'000;
     for (int tries = 0; left_ > 0 && tries < most_tries; ++tries) {
-      const int64_t k = below(count_[2]);
+      const int64_t k = any_layer();
       const int64_t i = below(count_[0]) / window_voxels * window_voxels;
       const int64_t j = below(count_[1]) / window_voxels * window_voxels;
       if (whole_.contains(k) || !windows_.insert({k, i, j}).second) continue;
@@ -60,6 +62,7 @@ class SampleChooser {
   }
 
   std::array<int64_t, 3> count_;
+  LayerRange layers_;
   const SampleChoice& choice_;
   std::mt19937_64 random_;
   double left_;
@@ -70,8 +73,8 @@ class SampleChooser {
 
 }  // namespace
 
-std::vector<LayerSample> choose_samples(const voxel::Lattice& lattice, const SampleChoice& choice) {
-  return SampleChooser(lattice, choice).run();
+std::vector<LayerSample> choose_samples(const voxel::Lattice& lattice, LayerRange layers, const SampleChoice& choice) {
+  return SampleChooser(lattice, layers, choice).run();
 }
 
 }  // namespace ombre::compile

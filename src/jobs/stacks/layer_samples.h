@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "jobs/common/layer_range.h"
 #include "jobs/slice/layer.h"
 
 namespace ombre::compile {
@@ -22,7 +23,8 @@ struct LayerSample {
   std::vector<LayerWindow> windows;
 };
 
-// Returns samples by ascending layers: all layers if they have few voxels, else whole layers and windows of others.
-std::vector<LayerSample> choose_samples(const voxel::Lattice& lattice, const SampleChoice& choice);
+// Returns samples of some layers of a lattice, by ascending layers: all of them if they have few voxels, else whole
+// layers and windows of others.
+std::vector<LayerSample> choose_samples(const voxel::Lattice& lattice, LayerRange layers, const SampleChoice& choice);
 
 }  // namespace ombre::compile

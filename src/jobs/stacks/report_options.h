@@ -15,11 +15,12 @@ struct ReportOptions {
   std::string file;
   bool force = false;
 
-  // `help` says what the page shows.
-  static options::Spec<ReportOptions> options(const std::string& help) {
+  // `help` says what the page shows, `replaces` what --force replaces.
+  static options::Spec<ReportOptions> options(const std::string& help,
+                                              const std::string& replaces = "Replace an existing report") {
     using namespace options;
     return {option("--report", &ReportOptions::file, kind::file, help + ": an .html file", "FILE"),
-            flag("--force", &ReportOptions::force, "Replace an existing report")};
+            flag("--force", &ReportOptions::force, replaces)};
   }
 };
 

@@ -15,6 +15,7 @@ namespace ombre::jobs {
 namespace {
 
 using compile::VerifyChoices;
+using compile::VerifyRequest;
 
 constexpr const char* verify_footer =
     "It reads all images, and compares sizes, pitch, colours and counts with job.json, and hashes with the journal.\n"
@@ -24,7 +25,8 @@ constexpr const char* verify_footer =
     "  ombre verify part_slices\n"
     "  ombre verify part_slices --design part.vcad --report report.html\n"
     "  ombre verify part_slices --design part.vcad --all\n"
-    "  ombre verify part_slices --design part.vcad --plan plan.json --seed 7\n";
+    "  ombre verify part_slices --design part.vcad --plan plan.json --seed 7\n"
+    "  ombre verify part_slices --design part.vcad --all --layers 0:500     one of several processes\n";
 
 // Returns the first layers of all shares but the first.
 std::vector<int64_t> borders_of(const std::string& plan, Diagnostics& diagnostics) {
@@ -40,31 +42,25 @@ std::vector<int64_t> borders_of(const std::string& plan, Diagnostics& diagnostic
   return borders;
 }
 
-// A design and the choice of voxels that are compared with the stack.
-struct Compared {
-  compile::LoadedPtr design;  // null if none was given
-  compile::SampleChoice choice;
-};
-
-std::optional<Compared> plan(const VerifyChoices& a, Session& session, Diagnostics& diagnostics) {
-  Compared compared;
-  compared.choice.all = a.all;
-  compared.choice.seed = a.seed;
-  if (a.voxels) compared.choice.voxels = *a.voxels;
-  compared.choice.borders = borders_of(a.plan, diagnostics);
+std::optional<VerifyRequest> plan(const VerifyChoices& a, Session& session, Diagnostics& diagnostics) {
+  VerifyRequest request{a.stack, a.layers, nullptr, {}, session.program};
+  request.choice.all = a.all;
+  request.choice.seed = a.seed;
+  if (a.voxels) request.choice.voxels = *a.voxels;
+  request.choice.borders = borders_of(a.plan, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   if (!a.design.design.empty()) {
-    compared.design = load_design(a.design, session, diagnostics, a.work.threads);
-    if (!compared.design) return std::nullopt;
+    request.design = load_design(a.design, session, diagnostics, a.work.threads);
+    if (!request.design) return std::nullopt;
   }
-  return compared;
+  return request;
 }
 
-int run(const VerifyChoices& a, const Compared& compared, Session& session) {
+int run(const VerifyChoices& a, const VerifyRequest& request, Session& session) {
   JobProgress progress(session.events, Counted::steps);
   const compile::CheckWork work{a.work.threads, a.work.memory_bytes, &progress, &session.stop};
   Diagnostics diagnostics;
-  const auto result = compile::verify(a.stack, compared.design, compared.choice, session.program, work, diagnostics);
+  const auto result = compile::verify(request, work, diagnostics);
   progress.finish();
   session.events.diagnose(diagnostics);
   if (!result) return wrong_input;
@@ -76,7 +72,7 @@ int run(const VerifyChoices& a, const Compared& compared, Session& session) {
   return result->findings().empty() ? done : check_failed;
 }
 
-int verify(const VerifyChoices& a, Session& session) { return take_report_steps<Compared>(a, session, plan, run); }
+int verify(const VerifyChoices& a, Session& session) { return take_report_steps<VerifyRequest>(a, session, plan, run); }
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "base/text/text.h"
 #include "jobs/slice/channel_counts.h"
 #include "jobs/slice/job_description.h"
+#include "jobs/slice/sl1_files.h"
 #include "jobs/slice/stored_slices.h"
 #include "stores/journal_folder.h"
 #include "stores/shard.h"
@@ -27,8 +28,8 @@ struct LayerCheck {
 
 class StackChecker {
  public:
-  StackChecker(const Stack& stack, const LayerReader& reader, const CheckWork& work)
-      : stack_(stack), reader_(reader), work_(work), counts_(reader.counted().size()) {
+  StackChecker(const Stack& stack, LayerRange layers, const LayerReader& reader, const CheckWork& work)
+      : stack_(stack), layers_(layers), reader_(reader), work_(work), counts_(reader.counted().size()) {
     for (const auto& [layer, entry] : stack.entries)
       for (const stores::StoredFile& file : entry.files) file_of_hash_.emplace(file.hash, file.name);
   }
@@ -37,12 +38,15 @@ class StackChecker {
     find_extra_files();
     const auto produce = [&](size_t n) {
       if (work_.stop && work_.stop->requested()) throw Cancelled();
-      return check(static_cast<int64_t>(n));
+      return check(layers_.begin + static_cast<int64_t>(n));
     };
     const auto consume = [&](size_t n, LayerCheck& layer) { take(n, layer); };
     constexpr size_t window = 64;
-    run_ordered<LayerCheck>(static_cast<size_t>(stack_.layer_count()), work_.threads, window, produce, consume);
-    check_totals();
+    run_ordered<LayerCheck>(static_cast<size_t>(layers_.end - layers_.begin), work_.threads, window, produce, consume);
+    if (layers_ == LayerRange{0, stack_.layer_count()})
+      check_totals();
+    else
+      result_.unchecked.push_back("other layers than " + to_text(layers_) + ", and totals, are not checked");
     return std::move(result_);
   }
 
@@ -54,7 +58,7 @@ class StackChecker {
     uint64_t others = 0;
     for (const std::string& name : stack_.names) {
       if (name == job_file || name == stores::journal_file || stores::is_of_shard(name)) continue;
-      if (stack_.files.contains(name)) continue;
+      if (stack_.files.contains(name) || is_sl1_file(name)) continue;
       if (name.ends_with(slice_words().file_ending))
         result_.findings.push_back({"extra", name + " is in the folder, but no layer of the job has that name"});
       else
@@ -143,7 +147,7 @@ class StackChecker {
     result_.files += layer.files;
     result_.bytes += layer.bytes;
     for (size_t i = 0; i < layer.counts.size(); ++i) counts_[i] += layer.counts[i];
-    if (work_.progress) work_.progress->update({n + 1, static_cast<uint64_t>(stack_.layer_count())});
+    if (work_.progress) work_.progress->update({n + 1, static_cast<uint64_t>(layers_.end - layers_.begin)});
   }
 
   // Compares the totals of job.json with the sums of the journal, and with what the images show.
@@ -182,6 +186,7 @@ class StackChecker {
   void add_total(const std::string& text) { result_.findings.push_back({"totals", text}); }
 
   const Stack& stack_;
+  LayerRange layers_;
   const LayerReader& reader_;
   const CheckWork& work_;
   std::multimap<std::string, std::string> file_of_hash_;
@@ -201,8 +206,8 @@ CheckWork fitting(CheckWork work, const voxel::Lattice& lattice) {
   return work;
 }
 
-StackCheck check_stack(const Stack& stack, const LayerReader& reader, const CheckWork& work) {
-  return StackChecker(stack, reader, work).run();
+StackCheck check_stack(const Stack& stack, LayerRange layers, const LayerReader& reader, const CheckWork& work) {
+  return StackChecker(stack, layers, reader, work).run();
 }
 
 std::optional<std::vector<Shown>> read_layer(const Stack& stack, const LayerReader& reader, int64_t layer) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/system/progress.h"
+#include "jobs/common/layer_range.h"
 #include "jobs/stacks/shown_layer.h"
 #include "jobs/stacks/stack.h"
 
@@ -28,8 +29,8 @@ struct StackCheck {
   std::vector<std::string> unchecked;  // what could not be checked, each as a sentence without a full stop
 };
 
-// Reads all images of the stack. Throws Cancelled.
-StackCheck check_stack(const Stack& stack, const LayerReader& reader, const CheckWork& work);
+// Reads all images of some layers of the stack. Totals are compared if these are all layers. Throws Cancelled.
+StackCheck check_stack(const Stack& stack, LayerRange layers, const LayerReader& reader, const CheckWork& work);
 
 // Returns what the images of one layer show, channel by channel; nothing if they are not there or cannot be read.
 std::optional<std::vector<Shown>> read_layer(const Stack& stack, const LayerReader& reader, int64_t layer);

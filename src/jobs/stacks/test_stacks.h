@@ -73,11 +73,11 @@ class StackTest : public Slice {
     return layer;
   }
 
-  Verification verified(const LoadedPtr& design, const SampleChoice& choice = {}) {
+  Verification verified(const LoadedPtr& design, const SampleChoice& choice = {}, const std::string& layers = "") {
     Diagnostics diagnostics;
     CheckWork work;
     work.threads = 2;
-    auto result = verify(folder(), design, choice, "ombre test", work, diagnostics);
+    auto result = verify({folder(), layers, design, choice, "ombre test"}, work, diagnostics);
     EXPECT_TRUE(result) << to_text(diagnostics);
     return std::move(*result);
   }

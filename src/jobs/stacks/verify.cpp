@@ -1,5 +1,7 @@
 #include "jobs/stacks/verify.h"
 
+#include "jobs/slice/slice_choices.h"
+
 #include <iterator>
 
 namespace ombre::compile {
@@ -20,20 +22,25 @@ std::vector<std::string> Verification::unchecked() const {
   return all;
 }
 
-std::optional<Verification> verify(const std::string& folder, const LoadedPtr& design, const SampleChoice& choice,
-                                   const std::string& program, const CheckWork& work, Diagnostics& diagnostics) {
+std::optional<Verification> verify(const VerifyRequest& request, const CheckWork& work, Diagnostics& diagnostics) {
   Verification result;
-  const Stack stack = open_stack(folder, result.journals);
+  const Stack stack = open_stack(request.stack, result.journals);
   const LayerReader reader(stack.request());
   result.program = stack.request().program;
   result.layer_count = stack.layer_count();
+  const LayerRange all{0, stack.layer_count()}, layers = chosen_layers(request.layers, all.end).value_or(all);
   const CheckWork fits = fitting(work, stack.request().lattice);
-  result.stack = check_stack(stack, reader, fits);
-  if (!design) return result;
-  result.design = check_design(stack, reader, design, choice, fits, diagnostics);
+  result.stack = check_stack(stack, layers, reader, fits);
+  if (!request.design) return result;
+  if (!stack.request().corrections.empty()) {
+    result.design.emplace().unchecked.emplace_back(
+        "the job has corrections, so its voxels are not compared with those of the design");
+    return result;
+  }
+  result.design = check_design(stack, reader, request.design, layers, request.choice, fits, diagnostics);
   if (!result.design) return std::nullopt;
-  if (result.program != program)
-    result.design->unchecked.push_back("the stack is by " + result.program + ", and this is " + program +
+  if (result.program != request.program)
+    result.design->unchecked.push_back("the stack is by " + result.program + ", and this is " + request.program +
                                        ", which may give other voxels");
   return result;
 }

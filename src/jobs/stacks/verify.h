@@ -18,9 +18,16 @@ struct Verification {
   Findings journals;
 };
 
-// Verifies the stack in a folder, with a design unless it is null. Returns nothing, and adds diagnostics, if the design
-// is wrong. `program` is this one. Throws Error and Cancelled.
-std::optional<Verification> verify(const std::string& folder, const LoadedPtr& design, const SampleChoice& choice,
-                                   const std::string& program, const CheckWork& work, Diagnostics& diagnostics);
+struct VerifyRequest {
+  std::string stack;    // folder or archive
+  std::string layers;   // a value of --layers; empty: all
+  LoadedPtr design;     // null: the stack is verified by itself
+  SampleChoice choice;  // voxels that are compared with the design
+  std::string program;  // this one
+};
+
+// Verifies a stack. Returns nothing, and adds diagnostics, if the design is wrong. Throws Error, Cancelled, and
+// options::WrongValue if the stack has none of the layers.
+std::optional<Verification> verify(const VerifyRequest& request, const CheckWork& work, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -23,7 +23,7 @@ inline options::Spec<DesignOptions> optional_design() {
 }
 
 struct VerifyChoices {
-  std::string stack, plan;
+  std::string stack, layers, plan;
   jobs::ReportOptions report;
   DesignOptions design;
   std::optional<double> voxels;
@@ -35,6 +35,8 @@ struct VerifyChoices {
     using namespace options;
     static const options::Spec<VerifyChoices> spec{
         option("stack", &VerifyChoices::stack, kind::file, "Folder or .zip archive of a slice job", "STACK").required(),
+        option("--layers", &VerifyChoices::layers, kind::text,
+               "Look at these layers alone: a:b as in Python (b excluded), a:, :b or a", "A:B"),
         group(&VerifyChoices::design, optional_design()),
         option("--voxels", &VerifyChoices::voxels, kind::number,
                "The most voxels that are evaluated again, layers at borders of shares apart (default 2e7)", "N")

@@ -71,6 +71,23 @@ TEST_F(Verify, FindsOneVoxel) {
   EXPECT_EQ(all.design->pictures.size(), 1U);
 }
 
+TEST_F(Verify, ChecksSomeLayersAlone) {
+  const LoadedPtr loaded = load(graded_text);
+  write_stack(loaded, [](const Plan& plan, int64_t k) {
+    return k != 12 ? right_layer(plan, k)
+                   : changed_layer(right_layer(plan, k), [](auto& voxels, int64_t) { std::ranges::reverse(voxels); });
+  });
+  for (const char* others : {":12", "13:"}) {
+    const Verification without = verified(loaded, {}, others);
+    EXPECT_EQ(texts(without), "") << others;
+    EXPECT_FALSE(without.unchecked().empty()) << others;
+  }
+  const Verification with = verified(loaded, {}, "10:15");
+  EXPECT_EQ(with.stack.layers, 5);
+  EXPECT_EQ(with.design->voxels, uint64_t{28} * 20 * 5);
+  EXPECT_EQ(with.findings().size(), 1U) << texts(with);
+}
+
 TEST_F(Verify, FindsExchangedLayers) {
   const LoadedPtr loaded = load(graded_text);
   write_stack(loaded, [](const Plan& plan, int64_t k) { return right_layer(plan, k == 4 ? 9 : k == 9 ? 4 : k); });
@@ -197,13 +214,14 @@ TEST_F(Verify, JobsAreReadAsTheyAreDescribed) {
 
 TEST(LayerSamples, AreTheSameForASeedAndDoNotOverlap) {
   const voxel::Lattice lattice{{0, 0, 0}, {Pitch{1, 10}, Pitch{1, 10}, Pitch{1, 10}}, {1000, 700, 500}};
+  const LayerRange all{0, 500};
   SampleChoice choice;
   choice.voxels = 3e6;
   choice.borders = {100};
   std::set<std::array<int64_t, 3>> seen;
   double voxels = 0;
   bool has_border = false;
-  for (const LayerSample& sample : choose_samples(lattice, choice))
+  for (const LayerSample& sample : choose_samples(lattice, all, choice))
     for (const LayerWindow& window : sample.windows) {
       EXPECT_TRUE(seen.insert({sample.layer, window.lo[0], window.lo[1]}).second);
       voxels += static_cast<double>((window.hi[0] - window.lo[0]) * (window.hi[1] - window.lo[1]));
@@ -212,9 +230,9 @@ TEST(LayerSamples, AreTheSameForASeedAndDoNotOverlap) {
   EXPECT_TRUE(has_border);
   EXPECT_GE(voxels, 3e6);
   EXPECT_LT(voxels, 3e6 + 128 * 128);
-  const auto first = choose_samples(lattice, choice), again = choose_samples(lattice, choice);
+  const auto first = choose_samples(lattice, all, choice), again = choose_samples(lattice, all, choice);
   choice.seed = 1;
-  const auto other = choose_samples(lattice, choice);
+  const auto other = choose_samples(lattice, all, choice);
   const auto layer_list = [](const std::vector<LayerSample>& samples) {
     std::vector<int64_t> layers;
     for (const LayerSample& sample : samples) layers.push_back(sample.layer);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "base/system/temporary.h"
 #include "lang/engine/loader.h"
 #include "lang/engine/scope.h"
@@ -36,12 +37,10 @@ class Evaluation {
   struct Stopped {};
 
   // Removes the special variables that were set during its life.
-  class SpecialsMark {
+  class SpecialsMark : NotCopied {
    public:
     explicit SpecialsMark(Evaluation& evaluation) : specials_(evaluation.specials_), size_(specials_.size()) {}
     ~SpecialsMark() { specials_.resize(size_); }
-    SpecialsMark(const SpecialsMark&) = delete;
-    SpecialsMark& operator=(const SpecialsMark&) = delete;
     size_t size() const { return size_; }
 
    private:

@@ -1,5 +1,7 @@
 #include "lang/engine/interpret.h"
 
+#include <algorithm>
+
 #include "lang/engine/interpreter.h"
 
 namespace ombre::lang {
@@ -39,13 +41,16 @@ Interpreter::Nodes Interpreter::run() {
   Nodes nodes;
   try {
     const Unit& main = program_.units.front();
+    for (const std::string& name : options_.needed)
+      if (!program_.names->contains(name)) report_missing(Severity::error, name, "that could get what is found", main);
+    const auto is_needed = [&](const std::string& name) {
+      return std::ranges::find(options_.needed, name) != options_.needed.end();
+    };
     for (const Definition& definition : options_.definitions) {
-      if (!program_.names->contains(definition.name))
+      if (!program_.names->contains(definition.name) && !is_needed(definition.name))
         report_missing(Severity::warning, definition.name, "that -D could set", main);
       overrides_[program_.names->intern(definition.name)] = from_data(definition.value, meter_);
     }
-    for (const std::string& name : options_.needed)
-      if (!program_.names->contains(name)) report_missing(Severity::error, name, "that could get what is found", main);
     const ScopePtr& scope = unit_scope(main);
     try {
       run_actions(main.plan, scope, nodes);

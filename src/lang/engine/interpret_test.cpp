@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "base/text/error.h"
 #include "base/text/test_cases.h"
 #include "lang/engine/test_vocabulary.h"
@@ -117,14 +119,21 @@ TEST(Interpret, Recursion) {
   )");
 }
 
-TEST(Interpret, IncludeAndUse) {
+// Returns options for scripts that find these files, by path and text.
+Options with_files(const std::map<std::string, std::string>& files) {
   Options options;
-  options.read_file = [](const std::string& path) -> std::optional<std::string> {
-    if (path == "lib/a.vcad") return "include <b.vcad> w = 2; module m() show(w, b); function f(x) = x + w; cube(1);";
-    if (path == "lib/b.vcad") return "b = 7;";
-    if (path == "top.vcad") return "module top() cube(9);";
-    return std::nullopt;
+  options.read_file = [files](const std::string& path) -> std::optional<std::string> {
+    const auto found = files.find(path);
+    return found == files.end() ? std::nullopt : std::optional(found->second);
   };
+  return options;
+}
+
+TEST(Interpret, IncludeAndUse) {
+  const Options options =
+      with_files({{"lib/a.vcad", "include <b.vcad> w = 2; module m() show(w, b); function f(x) = x + w; cube(1);"},
+                  {"lib/b.vcad", "b = 7;"},
+                  {"top.vcad", "module top() cube(9);"}});
   EXPECT_EQ(run_script("include <lib/a.vcad> w = 5; m(); show(f(1));", options).nodes, "cube(1) show(5,7) show(6)");
   EXPECT_EQ(run_script("use <lib/a.vcad>\n w = 5; m(); show(f(1));", options).nodes, "show(2,7) show(3)");
   EXPECT_EQ(run_script("use <lib/a.vcad> use <top.vcad> top();", options).nodes, "cube(9)");
@@ -152,13 +161,10 @@ TEST(Interpret, CyclesOfIncludesAreReported) {
 }
 
 TEST(Interpret, FilesMayUseEachOther) {
-  Options options;
-  options.read_file = [](const std::string& path) -> std::optional<std::string> {
-    if (path == "a") return "use <b> use <a> k = 3; module plate() { show(k, twice(k)); } module both() { stack(); }";
-    if (path == "b") return "use <a> include <c> function twice(v) = 2 * v; module stack() { plate(); }";
-    if (path == "c") return "use <b> module other() { stack(); }";
-    return std::nullopt;
-  };
+  const Options options =
+      with_files({{"a", "use <b> use <a> k = 3; module plate() { show(k, twice(k)); } module both() { stack(); }"},
+                  {"b", "use <a> include <c> function twice(v) = 2 * v; module stack() { plate(); }"},
+                  {"c", "use <b> module other() { stack(); }"}});
   EXPECT_EQ(run_script("use <a> both();", options).nodes, "show(3,6)");
   EXPECT_EQ(run_script("use <b> other();", options).nodes, "show(3,6)");
   EXPECT_EQ(run_script("include <b> other();", options).nodes, "show(3,6)");

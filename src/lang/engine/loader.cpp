@@ -33,20 +33,27 @@ class Loader {
   }
 
  private:
+  // A file that was found, and the name by which it is known while it is being read.
+  struct Found {
+    SourcePtr source;
+    std::string known_as;
+  };
+
   Unit& unit(const SourcePtr& source) {
     const Temporary begin(unit_begin_, open_.size());
     Unit& result = program_.units.emplace_back();
     result.path = source->name();
     result.has_words = dialect_ == Dialect::openscad && is_vcad(source->name());
     units_[normal(source->name())] = &result;  // before its files are read, since these may use it in turn
-    splice(source, result);
+    splice({source, dialect_ == Dialect::openscad ? "" : normal(source->name())}, result);
     if (dialect_ == Dialect::vcad) warn_of_replaced(result.plan, diagnostics_);
     return result;
   }
 
   // Adds a file's statements to the unit, with the statements of included files in their places.
-  void splice(const SourcePtr& source, Unit& into) {
-    open_.push_back(opened_as(source->name()));
+  void splice(const Found& found, Unit& into) {
+    const SourcePtr& source = found.source;
+    open_.push_back(found.known_as);
     program_.files.push_back(parse_deferred(source, program_.names, dialect_of(source->name()), diagnostics_));
     const ast::File& file = program_.files.back();
     for (const ast::StatementPtr& statement : file.statements) {
@@ -64,25 +71,23 @@ class Loader {
       return;
     }
     if (is_font(include)) return find_font(include);
-    SourcePtr source = find(include);
-    if (!source) return;
-    const std::string path = normal(source->name());
+    const Found found = find(include);
+    if (!found.source) return;
     if (include.is_use) {
-      if (const auto known = units_.find(path); known != units_.end()) {
+      if (const auto known = units_.find(normal(found.source->name())); known != units_.end()) {
         into.uses.push_back(known->second);
         return;
       }
     }
-    if (!may_open(include, path)) return;
-    if (!include.is_use) return splice(source, into);
-    into.uses.push_back(&unit(source));
+    if (!may_open(include, found.known_as)) return;
+    if (!include.is_use) return splice(found, into);
+    into.uses.push_back(&unit(found.source));
   }
 
   bool may_open(const ast::Include& include, const std::string& path) {
     std::string message, hint;
     Code code = Code::limit;
-    if (!include.is_use && find_open(path) != open_.end()) {
-      if (dialect_ == Dialect::openscad) return cannot_open(include);
+    if (!include.is_use && is_open(path)) {
       message = '"' + path + "\" includes itself" + way_round(path);
       hint = "move what both need into a third file";
       code = Code::script;
@@ -99,15 +104,11 @@ class Loader {
     return false;
   }
 
-  // Returns the path by which a file is known while it is being read. OpenSCAD forgets the first file of a unit.
-  std::string opened_as(const std::string& path) const {
-    return dialect_ == Dialect::openscad && open_.size() == unit_begin_ ? "" : normal(path);
-  }
-
   // Returns the place of the file among those of the unit that are being read.
   std::vector<std::string>::const_iterator find_open(const std::string& path) const {
     return std::find(open_.begin() + static_cast<std::ptrdiff_t>(unit_begin_), open_.end(), path);
   }
+  bool is_open(const std::string& path) const { return find_open(path) != open_.end(); }
 
   // Returns the files between, for a message: ", through a.vcad and b.vcad".
   std::string way_round(const std::string& path) const {
@@ -166,21 +167,43 @@ class Loader {
     return places;
   }
 
-  SourcePtr find(const ast::Include& include) {
+  // Returns the places of a file that an OpenSCAD script includes, each with the name by which the file is known while
+  // it is being read. As in OpenSCAD 2021.01, a path with a folder may also begin in the working directory. By this
+  // path the file has a name of its own, so that it may include itself once more.
+  std::vector<std::pair<std::string, std::string>> named_places(const ast::Include& include) const {
+    const std::vector<std::string> places = this->places(include);
+    std::vector<std::pair<std::string, std::string>> named{{places.front(), whole_path(places.front())}};
+    for (const std::string& path : places)
+      if (path != places.front() && path != include.path) named.emplace_back(path, whole_path(path));
+    if (fs::path(include.path).has_parent_path()) named.emplace_back(include.path, include.path);
+    return named;
+  }
+
+  Found find_unopened(const ast::Include& include) {
+    for (const auto& [path, known_as] : named_places(include)) {
+      if (is_open(known_as)) continue;
+      if (auto text = read_(path)) return {make_source(path, std::move(*text)), known_as};
+    }
+    cannot_open(include);
+    return {};
+  }
+
+  Found find(const ast::Include& include) {
     if (include.path.empty()) {
       diagnostics_.error(Code::syntax, include.span.range(), "there is no path between < and >");
-      return nullptr;
+      return {};
     }
+    if (dialect_ == Dialect::openscad && !include.is_use) return find_unopened(include);
     const std::vector<std::string> places = this->places(include);
     for (const std::string& path : places)
-      if (auto text = read_(path)) return make_source(path, std::move(*text));
+      if (auto text = read_(path)) return {make_source(path, std::move(*text)), normal(path)};
     if (dialect_ == Dialect::openscad) {
       cannot_open(include);
-      return nullptr;
+      return {};
     }
     diagnostics_.error(Code::file_missing, include.path_span.range(), "there is no file \"" + include.path + '"',
                        "looked for " + places_text(include, places), {{"file", include.path}});
-    return nullptr;
+    return {};
   }
 
   static std::string places_text(const ast::Include& include, std::vector<std::string> places) {
@@ -189,6 +212,12 @@ class Loader {
     return join(places, " and ");
   }
 
+  // Returns the path from the root, without links.
+  static std::string whole_path(const std::string& path) {
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
+    return error ? normal(path) : whole.generic_string();
+  }
   static std::string normal(const std::string& path) { return fs::path(path).lexically_normal().generic_string(); }
 
   const Limits& limits_;

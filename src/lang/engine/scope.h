@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "lang/engine/value.h"
 
 namespace ombre::lang {
@@ -129,12 +130,10 @@ struct Closure {
 
 // The scopes that closures capture. Closures and scopes may refer to each other in rings and long chains, so all of
 // them are also owned here and cleared one by one.
-class CapturedScopes {
+class CapturedScopes : NotCopied {
  public:
   explicit CapturedScopes(const Limits& limits) : limits_(limits) {}
   ~CapturedScopes();
-  CapturedScopes(const CapturedScopes&) = delete;
-  CapturedScopes& operator=(const CapturedScopes&) = delete;
 
   void add(const ScopePtr& scope);
 

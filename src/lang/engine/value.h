@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/system/not_copied.h"
 #include "base/text/data.h"
 #include "lang/engine/meter.h"
 #include "lang/syntax/ast.h"
@@ -92,26 +93,22 @@ bool holds_object(const Value& value);  // the value itself, or an element of a 
 // Suggests what to write in place of a value that cannot be used.
 std::string_view hint_for(const Value& found);
 
-struct Text {
+struct Text : NotCopied {
   static constexpr uint64_t overhead = 32;  // added for each string, so that the number of short ones is limited, too
 
   Text(std::string t, const ast::String* o, Meter& m) : text(std::move(t)), origin(o), meter(m) {
     meter.claim_text(text.size() + overhead);
   }
   ~Text() { meter.release_text(text.size() + overhead); }
-  Text(const Text&) = delete;
-  Text& operator=(const Text&) = delete;
 
   std::string text;
   const ast::String* origin;  // the literal, or null
   Meter& meter;
 };
 
-struct List {
+struct List : NotCopied {
   List(std::vector<Value> i, const ast::List* o, Meter& m);  // its elements were counted by the meter before
   ~List() { meter.release_elements(items.size()); }
-  List(const List&) = delete;
-  List& operator=(const List&) = delete;
 
   std::vector<Value> items;
   const ast::List* origin;  // the literal whose elements are those of the list, one by one, or null
@@ -135,12 +132,10 @@ struct Range {
 };
 
 // Collects the elements of a list within the limits.
-class ListBuilder {
+class ListBuilder : NotCopied {
  public:
   explicit ListBuilder(Meter& meter) : meter_(meter) {}
   ~ListBuilder() { meter_.release_elements(items_.size()); }
-  ListBuilder(const ListBuilder&) = delete;
-  ListBuilder& operator=(const ListBuilder&) = delete;
 
   void reserve(size_t size) { items_.reserve(size); }
   void push(Value value) {
@@ -155,13 +150,11 @@ class ListBuilder {
 };
 
 // A value with named members, which OpenSCAD calls an object. Its builder sees to it that each name occurs once.
-struct Record {
+struct Record : NotCopied {
   using Members = std::vector<std::pair<std::string, Value>>;  // in the order in which they were set first
 
   Record(Members m, uint64_t bytes, Meter& counter);
   ~Record();
-  Record(const Record&) = delete;
-  Record& operator=(const Record&) = delete;
 
   const Value* find(const std::string& name) const;  // null if there is none
 
@@ -174,12 +167,10 @@ struct Record {
 };
 
 // Collects members within the limits.
-class RecordBuilder {
+class RecordBuilder : NotCopied {
  public:
   explicit RecordBuilder(Meter& meter) : meter_(meter) {}
   ~RecordBuilder();
-  RecordBuilder(const RecordBuilder&) = delete;
-  RecordBuilder& operator=(const RecordBuilder&) = delete;
 
   void set(const std::string& name, Value value);  // an older value of the name is replaced in its place
   void set_all(const Record& other);

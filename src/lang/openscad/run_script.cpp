@@ -3,10 +3,10 @@
 #include <pthread.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 
+#include "base/system/environment.h"
 #include "base/text/error.h"
 #include "lang/openscad/overwritten.h"
 #include "lang/openscad/script_evaluator.h"
@@ -172,15 +172,9 @@ std::optional<std::string> syntax_tree(const SourcePtr& source, const Options& o
 
 std::vector<std::string> library_folders() {
   std::vector<std::string> folders;
-  if (const char* listed = std::getenv("OPENSCADPATH")) {
-    std::string text = listed;
-    for (size_t at = 0; at <= text.size();) {
-      const size_t end = std::min(text.find(':', at), text.size());
-      if (end > at) folders.push_back(text.substr(at, end - at));
-      at = end + 1;
-    }
-  }
-  if (const char* home = std::getenv("HOME"))
+  for (const std::string& folder : split(environment("OPENSCADPATH"), ':'))
+    if (!folder.empty()) folders.push_back(folder);
+  if (const std::string home = environment("HOME"); !home.empty())
     folders.push_back((fs::path(home) / ".local/share/OpenSCAD/libraries").generic_string());
   folders.emplace_back("/usr/share/openscad/libraries");
   return folders;

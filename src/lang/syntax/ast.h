@@ -57,35 +57,42 @@ struct Name {
   bool is_special() const { return symbol->front() == '$'; }
 };
 
-struct Expr {
-  enum class Kind : uint8_t {
-    undef,
-    boolean,
-    number,
-    string,
-    variable,
-    range,
-    list,
-    unary,
-    chain,
-    power,
-    conditional,
-    call,
-    index,
-    member,
-    function,
-    prefix,
-    generate_for,
-    generate_loop,
-    generate_if,
-    generate_each
-  };
-
-  Expr(Kind k, Span s) : kind(k), span(s) {}
-  virtual ~Expr() = default;
+// A node of the tree of a script: its kind, which tells its type, and where it stands.
+template <class KindOfNode>
+struct Node {
+  using Kind = KindOfNode;
+  Node(Kind k, Span s) : kind(k), span(s) {}
+  virtual ~Node() = default;
 
   Kind kind;
   Span span;
+};
+
+enum class ExprKind : uint8_t {
+  undef,
+  boolean,
+  number,
+  string,
+  variable,
+  range,
+  list,
+  unary,
+  chain,
+  power,
+  conditional,
+  call,
+  index,
+  member,
+  function,
+  prefix,
+  generate_for,
+  generate_loop,
+  generate_if,
+  generate_each
+};
+
+struct Expr : Node<ExprKind> {
+  using Node::Node;
 };
 using ExprPtr = std::unique_ptr<Expr>;
 
@@ -273,28 +280,25 @@ class Modifiers {
   std::array<char, 5> list_{};
 };
 
-struct Statement {
-  enum class Kind : uint8_t {
-    assign,
-    function,
-    module,
-    include,
-    group,
-    call,
-    loop,
-    let,
-    assertion,
-    echo,
-    condition,
-    deferred
-  };
+enum class StatementKind : uint8_t {
+  assign,
+  function,
+  module,
+  include,
+  group,
+  call,
+  loop,
+  let,
+  assertion,
+  echo,
+  condition,
+  deferred
+};
 
-  Statement(Kind k, Span s) : kind(k), span(s) {}
-  virtual ~Statement() = default;
+struct Statement : Node<StatementKind> {
+  using Node::Node;
 
-  Kind kind;
   Modifiers modifiers;
-  Span span;
 
   bool has(char modifier) const { return modifiers.has(modifier); }
 };

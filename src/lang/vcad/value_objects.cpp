@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/system/not_copied.h"
 #include "base/text/text.h"
 
 namespace ombre::lang {
@@ -19,15 +20,13 @@ constexpr uint64_t object_bytes = 1024;  // counted for each object, so that the
 
 Value output_value(const NodePtr& node, size_t output, const ValueMaker& maker, Meter& meter);
 
-class ValueObject final : public Object {
+class ValueObject final : public Object, NotCopied {
  public:
   ValueObject(NodePtr node, size_t output, std::optional<Expression> number, const ValueMaker& maker, Meter& meter)
       : node_(std::move(node)), output_(output), number_(std::move(number)), maker_(maker), meter_(meter) {
     meter_.claim_text(object_bytes);
   }
   ~ValueObject() override { meter_.release_text(object_bytes); }
-  ValueObject(const ValueObject&) = delete;
-  ValueObject& operator=(const ValueObject&) = delete;
 
   const std::optional<Expression>& number() const { return number_; }
   bool is_mixture() const { return node_ && node_->type().outputs[output_].type.form == OutputForm::mixture; }
@@ -202,15 +201,13 @@ std::optional<Value> ValueObject::mixed(std::span<const Value> operands, Meter& 
 }
 
 // A solid on which values are measured, or which is part of another solid.
-class SolidObject final : public Object {
+class SolidObject final : public Object, NotCopied {
  public:
   SolidObject(NodePtr node, const ValueMaker& maker, Meter& meter)
       : node_(std::move(node)), maker_(maker), meter_(meter) {
     meter_.claim_text(object_bytes);
   }
   ~SolidObject() override { meter_.release_text(object_bytes); }
-  SolidObject(const SolidObject&) = delete;
-  SolidObject& operator=(const SolidObject&) = delete;
 
   Form form() const override { return Form::solid; }
   std::string describe() const override { return "a " + node_->type().name; }

@@ -8,10 +8,13 @@ using namespace design;
 
 Box CellMap::reach(const Box& where, double margin) const {
   if (!region.node) return where;
-  const Box wider = where.expanded(margin);
-  const Box box =
-      region.node->type().is_solid() ? region.node->bounds(wider) : region.node->output_bounds(region.output, wider);
-  return intersect(box.expanded(margin), where);
+  if (region.node->type().is_solid()) return region.node->bounds(where, margin);
+  // g of a region is the greatest distance to one of its faces. Beyond a corner of three faces at right angles the
+  // distance to the region is sqrt(3) times as large. In a sector of a pipe it is up to sqrt(10) times as large: half
+  // way from the axis to the inner wall, on the other side of the axis.
+  constexpr double of_corners = 3.1622776601683795;
+  const double reached = margin > 0 ? of_corners * margin : margin;
+  return intersect(region.node->output_bounds(region.output, where.expanded(reached)).expanded(reached), where);
 }
 
 Field CellMap::cut(Field distance, const Inputs& in, const Point& p) const {

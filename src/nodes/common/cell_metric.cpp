@@ -34,6 +34,10 @@ Slope folded_into_cell(const Slope& place) {
   return {abs(from_centre(place[0])), abs(from_centre(place[1])), abs(from_centre(place[2]))};
 }
 
+Slope from_centre_of_cell(const Slope& place) {
+  return {from_centre(place[0]), from_centre(place[1]), from_centre(place[2])};
+}
+
 CellMetric CellMetric::at(const CellMap& map, const Point& p, bool is_folded) {
   CellMetric metric{edges_of(map, p)};
   if (!is_folded || map.is_perpendicular) return metric;

@@ -9,6 +9,8 @@ namespace ombre::nodes {
 // A place folded into the eighth of a cell with positive coordinates, measured from the cell's centre: each coordinate
 // runs from 0 to 0.5.
 Slope folded_into_cell(const Slope& place);
+// A place measured from the centre of its cell: each coordinate runs from -0.5 to 0.5.
+Slope from_centre_of_cell(const Slope& place);
 
 // The edges of a cell at a point as vectors in mm, in space or, if they are perpendicular, in their own directions.
 struct CellMetric {

@@ -27,21 +27,73 @@ std::vector<Vec3> second_derivatives(const std::vector<Vec3>& points, const std:
   return second;
 }
 
+// Solves a symmetric tridiagonal system whose equation number n has the coefficients beside[n - 1], diagonal[n] and
+// beside[n] (Thomas' algorithm).
+template <class Value>
+std::vector<Value> solved(const std::vector<double>& diagonal, const std::vector<double>& beside,
+                          std::vector<Value> right) {
+  const size_t count = diagonal.size();
+  std::vector<double> above(count, 0);
+  for (size_t n = 0; n < count; ++n) {
+    const double below = n > 0 ? beside[n - 1] : 0;
+    const double left = 1 / (diagonal[n] - (n > 0 ? below * above[n - 1] : 0));
+    if (n + 1 < count) above[n] = left * beside[n];
+    right[n] = left * (n > 0 ? right[n] - below * right[n - 1] : right[n]);
+  }
+  for (size_t n = count - 1; n-- > 0;) right[n] = right[n] - above[n] * right[n + 1];
+  return right;
+}
+
+// Returns the second derivatives at the knots of the periodic cubic spline through points, of which the last is the
+// first. The system is tridiagonal but for two corners (Sherman and Morrison's formula).
+std::vector<Vec3> periodic_second_derivatives(const std::vector<Vec3>& points, const std::vector<double>& widths) {
+  const size_t count = widths.size();
+  const double corner = widths[count - 1];
+  std::vector<double> diagonal, corners(count, 0);
+  std::vector<Vec3> right;
+  for (size_t n = 0; n < count; ++n) {
+    const double before = widths[(n + count - 1) % count], after = widths[n];
+    diagonal.push_back(2 * (before + after));
+    right.push_back((6 / after) * (points[n + 1] - points[n]) -
+                    (6 / before) * (points[n] - points[(n + count - 1) % count]));
+  }
+  const double moved = -diagonal[0];
+  diagonal[0] -= moved;
+  diagonal[count - 1] -= corner * corner / moved;
+  corners[0] = moved;
+  corners[count - 1] = corner;
+  std::vector<Vec3> second = solved(diagonal, widths, right);
+  const std::vector<double> by = solved(diagonal, widths, corners);
+  const Vec3 share =
+      (1 / (1 + by[0] + corner / moved * by[count - 1])) * (second[0] + (corner / moved) * second[count - 1]);
+  for (size_t n = 0; n < count; ++n) second[n] = second[n] - by[n] * share;
+  second.push_back(second.front());
+  return second;
+}
+
+// Turns a vector that is perpendicular to the axis about it.
+Vec3 turned(Vec3 v, Vec3 axis, double angle) { return std::cos(angle) * v + std::sin(angle) * cross(axis, v); }
+
 }  // namespace
 
-CurveFrames::CurveFrames(std::vector<Vec3> points, Vec3 toward, Ends ends) : ends_(ends) {
+CurveFrames::CurveFrames(std::vector<Vec3> points, const CurveRule& rule) : rule_(rule) {
   make_sections(points);
-  make_nodes(toward);
+  make_nodes();
+  if (rule.ends == CurveRule::Ends::closed) close_frames();
   find_tightest();
-  points.push_back(toward);
-  content_ = hash_bytes((ends == Ends::cut ? "cut curve frames " : "curve frames ") +
+  points.push_back(rule.toward);
+  content_ = hash_bytes("curve frames " + std::to_string(static_cast<int>(rule.ends)) + ' ' +
+                        std::to_string(static_cast<int>(rule.frame)) + ' ' +
                         std::string(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Vec3)));
 }
 
-void CurveFrames::make_sections(const std::vector<Vec3>& points) {
+void CurveFrames::make_sections(std::vector<Vec3> points) {
+  const bool is_closed = rule_.ends == CurveRule::Ends::closed;
+  if (is_closed) points.push_back(points.front());
   std::vector<double> widths;
   for (size_t n = 1; n < points.size(); ++n) widths.push_back(ombre::length(points[n] - points[n - 1]));
-  const std::vector<Vec3> second = second_derivatives(points, widths);
+  const std::vector<Vec3> second =
+      is_closed ? periodic_second_derivatives(points, widths) : second_derivatives(points, widths);
   double begin = 0;
   for (size_t n = 0; n < widths.size(); ++n) {
     const double h = widths[n];
@@ -51,7 +103,8 @@ void CurveFrames::make_sections(const std::vector<Vec3>& points) {
   }
 }
 
-void CurveFrames::make_nodes(Vec3 toward) {
+void CurveFrames::make_nodes() {
+  const Vec3 toward = rule_.toward;
   for (size_t n = 0; n < sections_.size(); ++n)
     for (size_t part = n == 0 ? 0 : 1; part <= nodes_per_section; ++part) {
       const Section& section = sections_[n];
@@ -73,6 +126,13 @@ void CurveFrames::make_nodes(Vec3 toward) {
       }
       nodes_.push_back(node);
     }
+}
+
+// Spreads the angle that is left between the first and the last frame along the curve.
+void CurveFrames::close_frames() {
+  const Vec3 tangent = nodes_.back().tangent, from = nodes_.back().normal, to = nodes_.front().normal;
+  turn_ = std::atan2(dot(cross(from, to), tangent), dot(from, to)) / length();
+  for (Node& node : nodes_) node.normal = turned(node.normal, node.tangent, turn_ * node.along);
 }
 
 CurveFrames::Moving CurveFrames::at(double parameter, size_t section) const {
@@ -189,14 +249,12 @@ CurveFrames::Place CurveFrames::place(Vec3 p) const {
     least = squared;
     nearest = n;
   }
-  const double t = nearest_parameter(p, nearest);
-  const size_t from = t < nodes_[nearest].parameter && nearest > 0 ? nearest - 1 : nearest;
-  const size_t section = from + 1 < nodes_.size() ? nodes_[from + 1].section : nodes_[from].section;
-  const Moving moving = at(t, section);
-  const Vec3 way = p - moving.at, tangent = moving.tangent(), normal = moved_normal(nodes_[from], moving.at, tangent);
-  Place found = framed(nodes_[from].along + arc(nodes_[from].parameter, t, section), way, tangent, normal,
-                       1 - dot(way, moving.curvature()), ombre::length(way));
-  if (ends_ == Ends::cut) return found;
+  Place found = place_near(p, nearest);
+  if (rule_.ends == CurveRule::Ends::closed && nearest == 0) {
+    const Place other = place_near(p, nodes_.size() - 1);
+    return other[distance] < found[distance] ? other : found;
+  }
+  if (rule_.ends != CurveRule::Ends::straight) return found;
   const bool is_before = dot(p - nodes_.front().at, nodes_.front().tangent) < 0;
   const bool is_after = dot(p - nodes_.back().at, nodes_.back().tangent) > 0;
   for (const auto& [is_beyond, end] : {std::pair{is_before, &nodes_.front()}, {is_after, &nodes_.back()}}) {
@@ -205,6 +263,21 @@ CurveFrames::Place CurveFrames::place(Vec3 p) const {
     if (beyond[distance] < found[distance]) found = beyond;
   }
   return found;
+}
+
+CurveFrames::Place CurveFrames::place_near(Vec3 p, size_t nearest) const {
+  constexpr double straight = 1e-9;  // least curvature with a normal of Frenet, per mm
+  const double t = nearest_parameter(p, nearest);
+  const size_t from = t < nodes_[nearest].parameter && nearest > 0 ? nearest - 1 : nearest;
+  const size_t section = from + 1 < nodes_.size() ? nodes_[from + 1].section : nodes_[from].section;
+  const Moving moving = at(t, section);
+  const Vec3 way = p - moving.at, tangent = moving.tangent(), curvature = moving.curvature();
+  const double onward = arc(nodes_[from].parameter, t, section);
+  Vec3 normal = moved_normal(nodes_[from], moving.at, tangent);
+  if (turn_ != 0) normal = turned(normal, tangent, turn_ * onward);
+  if (rule_.frame == CurveRule::Frame::frenet && ombre::length(curvature) > straight)
+    normal = cross((1 / ombre::length(curvature)) * curvature, tangent);
+  return framed(nodes_[from].along + onward, way, tangent, normal, 1 - dot(way, curvature), ombre::length(way));
 }
 
 double CurveFrames::sample(int channel, Vec3 p) const { return place(p)[static_cast<size_t>(channel)]; }
@@ -228,8 +301,29 @@ Interval CurveFrames::range(int channel, const Box& box) const {
   const double bend = farthest / least_radius_ * more;
   if (farthest >= reach_ || bend >= 1) return Interval::everything();
   if (channel == stretch) return {1 - bend, 1 + bend};
-  const double value = middle[static_cast<size_t>(channel)], by = channel == along ? radius / (1 - bend) : radius;
-  return {value - by, value + by};
+  if (channel != along && rule_.frame == CurveRule::Frame::frenet) return {-farthest, farthest};
+  const double turning = channel == along ? 0 : std::abs(turn_) * farthest;
+  const double value = middle[static_cast<size_t>(channel)];
+  const double by = channel == along ? radius / (1 - bend) : radius * (1 + turning / (1 - bend));
+  const bool passes_start =
+      channel == along && rule_.ends == CurveRule::Ends::closed && (value < by || value + by > length());
+  return passes_start ? Interval(-rounding_mm, length() + rounding_mm) : Interval(value - by, value + by);
+}
+
+std::shared_ptr<CurveFrames> smooth_curve(const design::Points& points, const CurveRule& rule,
+                                          const design::Reader& reader) {
+  std::vector<Vec3> way;
+  for (const Vec3& point : points.at)
+    if (way.empty() || !(point == way.back())) way.push_back(point);
+  const bool is_closed = rule.ends == CurveRule::Ends::closed;
+  if (is_closed && way.size() > 1 && way.front() == way.back()) way.pop_back();
+  constexpr size_t most_points = 1000;
+  const size_t least_points = is_closed ? 3 : 2;
+  if (way.size() >= least_points && way.size() <= most_points)
+    return std::make_shared<CurveFrames>(std::move(way), rule);
+  reader.refuse(std::string(reader.node) + " needs " + std::to_string(least_points) + " to 1000 different points",
+                "write for example " + spelled::parameter("points", "[(0, 0, 0), (10, 0, 0), (15, 8, 0)]"));
+  return nullptr;
 }
 
 }  // namespace ombre::nodes

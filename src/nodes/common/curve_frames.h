@@ -5,23 +5,34 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "base/math/box.h"
+#include "design/spec.h"
 #include "program/field_source.h"
 
 namespace ombre::nodes {
 
-// A natural cubic spline through points, which may continue straight beyond its ends. Frames are parallel transported
-// (W. Wang and others, "Computation of rotation minimizing frames", ACM Transactions on Graphics 27, 2008).
+// The rule says what a curve is like at its ends, and how its frames move.
+struct CurveRule {
+  enum class Ends : uint8_t { straight, cut, closed };  // continues straight, ends, or returns to the first point
+  enum class Frame : uint8_t { parallel, frenet };
+  Vec3 toward{0, 0, 1};  // the second normal at the start, as far as it is perpendicular to the curve
+  Ends ends = Ends::straight;
+  Frame frame = Frame::parallel;
+};
+
+// A cubic spline through points: natural, or periodic if it is closed. Frames are parallel transported (W. Wang and
+// others, "Computation of rotation minimizing frames", ACM Transactions on Graphics 27, 2008); along a closed curve
+// they also turn by the same angle for each mm, so that they meet at its start. The second normal of Frenet's frames
+// points to the centre of curvature; where the curve is straight, they are those that are transported.
 class CurveFrames final : public program::FieldSource {
  public:
-  // The curve needs two points at least, each different from the one before. The second normal is `toward` at the
-  // start, as far as it is perpendicular to the curve.
-  enum class Ends : uint8_t { straight, cut };
-  CurveFrames(std::vector<Vec3> points, Vec3 toward, Ends ends = Ends::straight);
+  // The curve needs two points at least, or three if it is closed, each different from the one before.
+  CurveFrames(std::vector<Vec3> points, const CurveRule& rule);
 
   // Limits ranges of channels to points at most this far from the curve, where the nearest point changes continuously.
   void set_reach(double mm) { reach_ = mm; }
@@ -78,14 +89,16 @@ class CurveFrames final : public program::FieldSource {
   };
   using Place = std::array<double, channel_count>;
 
-  void make_sections(const std::vector<Vec3>& points);
-  void make_nodes(Vec3 toward);
+  void make_sections(std::vector<Vec3> points);
+  void make_nodes();
+  void close_frames();
   void find_tightest();
   Moving at(double parameter, size_t section) const;
   double arc(double from, double to, size_t section) const;
   Vec3 moved_normal(const Node& from, Vec3 to, Vec3 tangent) const;
   double nearest_parameter(Vec3 p, size_t node) const;
   Place place(Vec3 p) const;
+  Place place_near(Vec3 p, size_t node) const;
   Place place_beyond(Vec3 p, const Node& end) const;
   static Place framed(double s, Vec3 way, Vec3 tangent, Vec3 normal, double stretched, double away);
 
@@ -94,8 +107,14 @@ class CurveFrames final : public program::FieldSource {
   double least_radius_ = std::numeric_limits<double>::infinity();
   Vec3 tightest_;
   double reach_ = 0;
-  Ends ends_;
+  double turn_ = 0;  // of a closed curve's frames, radians for each mm
+  CurveRule rule_;
   Hash content_;
 };
+
+// Returns a node's curve through 2 to 1000 points, or from 3 if it is closed, of which equal neighbours count once.
+// Reports other numbers of points and returns null.
+std::shared_ptr<CurveFrames> smooth_curve(const design::Points& points, const CurveRule& rule,
+                                          const design::Reader& reader);
 
 }  // namespace ombre::nodes

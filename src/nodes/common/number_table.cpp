@@ -4,52 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "base/math/key_place.h"
+#include "base/math/monotone_cubic.h"
 #include "base/system/assert.h"
 #include "base/text/text.h"
 
 namespace ombre::nodes {
 namespace {
-
-// The position of an input among its keys: from key `below` the share `share` of the way to the next key.
-struct Between {
-  size_t below = 0;
-  double share = 0;
-};
-
-Between between(const std::vector<double>& keys, double at) {
-  if (!(at > keys.front()) || keys.size() == 1) return {};
-  if (at >= keys.back()) return {keys.size() - 2, 1};
-  const auto above = std::upper_bound(keys.begin(), keys.end(), at);
-  const auto below = static_cast<size_t>(above - keys.begin()) - 1;
-  return {below, (at - keys[below]) / (keys[below + 1] - keys[below])};
-}
-
-// Slopes at the keys of a single input, as in SciPy's PchipInterpolator: by Fritsch and Butland, and at the ends by the
-// one-sided three-point rule in C. Moler, "Numerical computing with MATLAB", 2004.
-double end_slope(double h0, double h1, double m0, double m1) {
-  const double slope = ((2 * h0 + h1) * m0 - h0 * m1) / (h0 + h1);
-  if (slope * m0 <= 0) return 0;
-  return m0 * m1 <= 0 && std::abs(slope) > 3 * std::abs(m0) ? 3 * m0 : slope;
-}
-
-std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
-  const size_t count = x.size();
-  std::vector<double> slopes(count, 0), h, m;
-  for (size_t n = 0; n + 1 < count; ++n) {
-    h.push_back(x[n + 1] - x[n]);
-    m.push_back((y[n + 1] - y[n]) / h.back());
-  }
-  if (count == 1) return slopes;
-  if (count == 2) return {m[0], m[0]};
-  for (size_t n = 1; n + 1 < count; ++n) {
-    if (m[n - 1] * m[n] <= 0) continue;
-    const double a = 2 * h[n] + h[n - 1], b = h[n] + 2 * h[n - 1];
-    slopes[n] = (a + b) / (a / m[n - 1] + b / m[n]);
-  }
-  slopes.front() = end_slope(h[0], h[1], m[0], m[1]);
-  slopes.back() = end_slope(h[count - 2], h[count - 3], m[count - 2], m[count - 3]);
-  return slopes;
-}
 
 class Table final : public program::FieldSource {
  public:
@@ -77,11 +38,11 @@ class Table final : public program::FieldSource {
   }
 
   double sample(int channel, Vec3 p) const override {
-    std::array<Between, 3> at;
+    std::array<KeyPlace, 3> at;
     for (size_t axis = 0; axis < keys_.axes.size(); ++axis) {
       const double input = p[static_cast<int>(axis)];
       if (std::isnan(input)) return input;
-      at[axis] = between(keys_.axes[axis], input);
+      at[axis] = place_among(keys_.axes[axis], input);
       if (mode_ == TableMode::step) at[axis] = {at[axis].below + (at[axis].share >= 1 ? 1 : 0), 0};
     }
     return mode_ == TableMode::cubic ? cubic(static_cast<size_t>(channel), at[0])
@@ -95,7 +56,8 @@ class Table final : public program::FieldSource {
       const Interval input = box.axis(static_cast<int>(axis));
       if (std::isnan(input.lo) || std::isnan(input.hi) || input.is_everything()) return Interval::everything();
       const std::vector<double>& list = keys_.axes[axis];
-      keys[axis] = {between(list, input.lo).below, std::min(between(list, input.hi).below + 1, list.size() - 1)};
+      keys[axis] = {place_among(list, input.lo).below,
+                    std::min(place_among(list, input.hi).below + 1, list.size() - 1)};
     }
     Interval found = Interval(Box::inf, -Box::inf);
     widen(found, static_cast<size_t>(channel), keys, 0, 0);
@@ -104,7 +66,7 @@ class Table final : public program::FieldSource {
 
  private:
   // Interpolates over the inputs from `axis` on. `offset` is the combined position of the keys of the inputs before.
-  double linear(size_t output, const std::array<Between, 3>& at, size_t axis, size_t offset) const {
+  double linear(size_t output, const std::array<KeyPlace, 3>& at, size_t axis, size_t offset) const {
     if (axis == keys_.axes.size()) return keys_.values[output][offset];
     const size_t next = offset * keys_.axes[axis].size() + at[axis].below;
     const double low = linear(output, at, axis + 1, next);
@@ -113,15 +75,10 @@ class Table final : public program::FieldSource {
     return at[axis].share == 1 ? high : low + at[axis].share * (high - low);
   }
 
-  double cubic(size_t output, const Between& at) const {
+  double cubic(size_t output, const KeyPlace& at) const {
     const std::vector<double>&x = keys_.axes[0], &y = keys_.values[output], &slope = slopes_[output];
     if (x.size() == 1) return y[0];
-    const size_t n = at.below;
-    const double h = x[n + 1] - x[n], t = at.share, s = 1 - t;
-    const double value =
-        y[n] * (1 + 2 * t) * s * s + y[n + 1] * t * t * (1 + 2 * s) + h * t * s * (slope[n] * s - slope[n + 1] * t);
-    // Enforces monotonicity against rounding errors.
-    return std::clamp(value, std::min(y[n], y[n + 1]), std::max(y[n], y[n + 1]));
+    return cubic_between(x, y, slope, at.below, at.share);
   }
 
   void widen(Interval& found, size_t output, const std::array<std::pair<size_t, size_t>, 3>& keys, size_t axis,

@@ -24,6 +24,7 @@ struct Lattice {
   std::optional<std::vector<Edge>> edges;
   MaterialName material;
   CellMap map;
+  std::optional<Number> joint;
 
   static Spec<Lattice> spec() {
     return {
@@ -36,27 +37,44 @@ struct Lattice {
          {"radius", &Lattice::radius, "Radius of the struts; t runs from 0 to 1 along each",
           with_variables({"t"}, unit::positive_mm)},
          {"edges", &Lattice::edges,
-          "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm"},
+          "Edges in place of a cell: [[from, to], ...] or [[from, to, radius], ...], with points in mm; with a map, "
+          "points of a cell from 0 to 1 along u, v and w"},
          {"material", &Lattice::material, "Its material"},
          {"map", &Lattice::map,
           "A map of cells, such as cylinder_cells, whose region the struts fill; their radius in mm holds to first "
-          "order where cells are bent"}},
+          "order where cells are bent"},
+         {"joint", &Lattice::joint, "Radius of balls at the ends of struts, in the cells of a map; none: no balls",
+          unit::positive_mm}},
         no_inputs,
         "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");",
         {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
-          Interval(0, 1)}}};
+          Interval(0, 1)},
+         {"struts", &Lattice::struts,
+          "Its struts as edges: of the unit cell, whose centre is the origin, or as they were given"}}};
+  }
+
+  std::vector<Edge> struts() const {
+    if (cell == "none") return edges.value_or(std::vector<Edge>{});
+    std::vector<Edge> found;
+    for (const Strut& strut : of_cell()) found.push_back({strut.start, strut.end});
+    return found;
   }
 
   bool makes_nothing() const { return cell == "none" && edges && edges->empty(); }
 
   bool complete(const Reader& reader) {
     const bool is_cell = !(cell == "none"), has_edges = edges && !edges->empty();
-    if (map.is_given() && (!is_cell || size || !find_unit_cell(cell.text())->is_mirrored))
-      return reader.refuse(
-          "lattice with a map needs a unit cell with mirror planes, and no size",
-          "write for example " + spelled::parameter("cell", "\"bcc\"") + "; the map says how large cells are");
+    if (map.is_given() && size)
+      return reader.refuse("lattice has both a map and the size of its cells",
+                           "leave out size: the map says how large cells are");
+    if (joint && !map.is_given())
+      return reader.refuse("lattice has joints but no map of cells",
+                           "write for example " + spelled::parameter("map", "box_cells((5, 5, 5))") +
+                               ", or add spheres at the ends of its struts");
+    if (map.is_given() && has_edges && !lies_in_cell(reader)) return false;
     if (is_cell != has_edges) {
       segments_ = is_cell ? of_cell() : of_edges();
+      if (map.is_given()) prepare_cell();
       return true;
     }
     return reader.refuse(
@@ -182,7 +200,10 @@ struct Lattice {
     const Lattice& lattice_;
   };
 
-  bool is_mirrored() const { return !(cell == "none") && find_unit_cell(cell.text())->is_mirrored; }
+  bool is_mirrored() const {
+    if (cell == "none") return is_mirrored_graph_;
+    return find_unit_cell(cell.text())->is_mirrored;
+  }
   // True if all octants are equal, so that only one is evaluated.
   bool is_folded() const { return is_mirrored() && (radius.constant() || map.is_given()); }
 
@@ -195,8 +216,85 @@ struct Lattice {
 
   std::vector<Strut> of_edges() const {
     std::vector<Strut> struts;
-    for (const Edge& edge : *edges) struts.push_back({{edge.start, edge.end}, edge.radius});
+    const Vec3 centre = map.is_given() ? Vec3{0.5, 0.5, 0.5} : Vec3{};
+    for (const Edge& edge : *edges) struts.push_back({{edge.start - centre, edge.end - centre}, edge.radius});
     return struts;
+  }
+
+  bool lies_in_cell(const Reader& reader) const {
+    const Box cell_box = Box{{0, 0, 0}, {1, 1, 1}}.expanded(1e-9);
+    for (const Edge& edge : *edges)
+      if (!cell_box.contains(edge.start) || !cell_box.contains(edge.end))
+        return reader.refuse("an edge of lattice leaves the cell of its map",
+                             "write points from (0, 0, 0) to (1, 1, 1), the corners of the cell");
+    return true;
+  }
+
+  // Makes what struts on a map need: whether an eighth of the cell stands for all of it, else the struts of
+  // neighbouring cells that reach into this one.
+  void prepare_cell() {
+    is_mirrored_graph_ = cell == "none" && has_mirror_planes();
+    if (!is_mirrored()) segments_ = with_neighbours();
+  }
+
+  static Vec3 flipped(Vec3 p, int axis) {
+    p[axis] = 0 - p[axis];
+    return p;
+  }
+  // Returns true if the halves of the cell are mirror images along each axis, and no strut crosses a mirror plane.
+  bool has_mirror_planes() const {
+    constexpr double tolerance = 1e-9;
+    const auto is_same = [](const Strut& a, Vec3 start, Vec3 end, double own_radius) {
+      return length(a.start - start) < tolerance && length(a.end - end) < tolerance && a.own_radius == own_radius;
+    };
+    for (const Strut& strut : segments_)
+      for (int axis = 0; axis < 3; ++axis) {
+        if (std::min(strut.start[axis], strut.end[axis]) < -tolerance &&
+            std::max(strut.start[axis], strut.end[axis]) > tolerance)
+          return false;
+        if (std::ranges::none_of(segments_, [&](const Strut& other) {
+              return is_same(other, flipped(strut.start, axis), flipped(strut.end, axis), strut.own_radius);
+            }))
+          return false;
+      }
+    return true;
+  }
+
+  // Returns the struts of this cell and those of its neighbours that come nearer to it than half a cell, each once.
+  std::vector<Strut> with_neighbours() const {
+    const Box near = Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}.expanded(reach_in_cells());
+    std::vector<Strut> found;
+    const auto is_known = [&](const Strut& strut) {
+      return std::ranges::any_of(found, [&](const Strut& other) {
+        const bool is_forth = length(other.start - strut.start) + length(other.end - strut.end) < 1e-9;
+        const bool is_back = length(other.start - strut.end) + length(other.end - strut.start) < 1e-9;
+        return (is_forth || is_back) && other.own_radius == strut.own_radius;
+      });
+    };
+    for (int n = 0; n < 27; ++n) {
+      const int cell = (n + 13) % 27, row = cell / 3 % 3, layer = cell / 9;  // 0 comes first
+      const Vec3 by{cell % 3 - 1.0, row - 1.0, layer - 1.0};
+      for (const Strut& strut : segments_) {
+        const Strut moved{{strut.start + by, strut.end + by}, strut.own_radius};
+        if (intersect(hull(Box{moved.start, moved.start}, Box{moved.end, moved.end}), near).is_empty()) continue;
+        if (!is_known(moved)) found.push_back(moved);
+      }
+    }
+    return found;
+  }
+
+  // Returns how far a strut can reach, in cells. Struts as thick as cells leave no gaps, so half a cell is enough.
+  double reach_in_cells() const {
+    constexpr double most = 0.5;
+    if (!map.is_perpendicular || !map.region.node) return most;
+    const Box box = map.reach(design_space(), 0);
+    const Interval thick = radius.range(box, {{"t", {0, 1}}});
+    const double ball = joint ? joint->range(box).hi : 0;
+    double greatest = std::max(thick.hi, ball);
+    for (const Strut& strut : segments_) greatest = std::max(greatest, strut.own_radius);
+    const double least = std::min({map.size.x.range(box).lo, map.size.y.range(box).lo, map.size.z.range(box).lo});
+    const double reach = greatest / least * (1 + 1e-6);
+    return reach > 0 && reach < most ? reach : most;
   }
 
   // Cells of a map have the size 1.
@@ -232,19 +330,51 @@ struct Lattice {
     Field distance, along;  // from the nearest strut's surface, and the position along that strut
   };
   OnMap nearest_on_map(const Point& p) const {
-    const CellMetric metric = CellMetric::at(map, p, true);
-    const Slope place = folded_into_cell(map.place_at(p));
-    const double* constant = radius.constant();
+    const CellMetric metric = CellMetric::at(map, p, is_folded());
+    const Slope at = map.place_at(p), place = is_folded() ? folded_into_cell(at) : from_centre_of_cell(at);
+    const bool same = has_same_radii();
     OnMap found;
     Field least;
     for (const Strut* strut : struts_here()) {
       const auto [along, squared] = nearest_of_strut(metric, place, strut->start, strut->end);
-      const Field measure = constant ? squared : sqrt(squared) - strut->radius_at(p, radius, along);
+      const Field measure = same ? squared : sqrt(squared) - strut->radius_at(p, radius, along);
       found.along = least ? select(less(measure, least), along, found.along) : along;
       least = least ? min(measure, least) : measure;
     }
-    found.distance = constant ? sqrt(least) - *constant : least;
+    found.distance = same ? sqrt(least) - *radius.constant() : least;
+    if (const auto squared = joint ? squared_to_joint(metric, place) : std::nullopt)
+      found.distance = min(found.distance, sqrt(*squared) - (*joint)(p));
     return found;
+  }
+
+  bool has_same_radii() const {
+    return radius.constant() && std::ranges::all_of(segments_, [](const Strut& s) { return s.own_radius == 0; });
+  }
+
+  // Returns true if struts do more at this end of one than go on straight.
+  bool is_joint(Vec3 end) const {
+    constexpr double tolerance = 1e-9;
+    std::vector<Vec3> ways;
+    for (const Strut& strut : segments_)
+      for (const auto& [from, to] : {std::pair(strut.start, strut.end), std::pair(strut.end, strut.start)})
+        if (length(from - end) < tolerance) ways.push_back((1 / length(to - from)) * (to - from));
+    return ways.size() != 2 || length(ways[0] + ways[1]) > tolerance;
+  }
+
+  // Returns the squared distance to the nearest joint, or nothing if all struts go straight on.
+  std::optional<Field> squared_to_joint(const CellMetric& metric, const Slope& place) const {
+    std::vector<Vec3> ends;
+    for (const Strut* strut : struts_here())
+      for (const Vec3 end : {strut->start, strut->end})
+        if (is_joint(end) && std::ranges::none_of(ends, [&](Vec3 other) { return length(other - end) < 1e-9; }))
+          ends.push_back(end);
+    if (ends.empty()) return std::nullopt;
+    std::vector<Field> squared;
+    for (const Vec3 end : ends) {
+      const Slope way = metric.way(Slope{place[0] - end.x, place[1] - end.y, place[2] - end.z});
+      squared.push_back(dot_without_zeros(way, way));
+    }
+    return program::fold(squared, program::min);
   }
 
   std::optional<PartFields> table(const Inputs& in, PartQuery query, const Point& p) const {
@@ -262,6 +392,7 @@ struct Lattice {
   }
 
   std::vector<Strut> segments_;
+  bool is_mirrored_graph_ = false;  // of edges on a map
 };
 
 }  // namespace

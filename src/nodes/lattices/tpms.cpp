@@ -179,6 +179,42 @@ struct Waves {
   }
 };
 
+const Surface& surface_called(const Choice& name) {
+  for (const Surface& one : surfaces())
+    if (name == one.name) return one;
+  return surfaces().front();  // the reader accepts no other name
+}
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// The function of a surface at a place among cells, as a value that formulas mix and change.
+struct TpmsValue {
+  Choice surface = "gyroid";
+  CellMap map;
+
+  static Spec<TpmsValue> spec() {
+    return {
+        "tpms_value",
+        "The function of a triply periodic minimal surface in the cells of a map: 0 on the surface, with one sign on "
+        "each side. Formulas mix such values before tpms makes walls of them.",
+        {{"surface", &TpmsValue::surface, "Name of the surface", one_of(surface_names())},
+         {"map", &TpmsValue::map, "A map of cells, such as box_cells", required()}},
+        no_inputs,
+        "m = box_cells((6, 6, 6), min=(0, 0, 0), max=(24, 12, 6)); t = m.place.x/4; tpms(map=m, thickness=0.5, "
+        "material=\"red\", equation=(1 - t)*tpms_value(\"gyroid\", m) + t*tpms_value(\"schwarz_p\", m));",
+        {{"value", &TpmsValue::value, "Value of the function, which has no unit"}}};
+  }
+
+  Field value(const Ask& ask) const {
+    const Slope at = map.place_at(ask.p);
+    const Waves x(at[0] * turn), y(at[1] * turn), z(at[2] * turn);
+    Field sum = ask.p.constant(0);
+    for (const Term& term : surface_called(surface).terms)
+      sum = sum + x.value(term.x) * y.value(term.y) * z.value(term.z) * term.factor;
+    return sum;
+  }
+};
+
 struct Tpms {
   Choice surface = "gyroid";
   Choice kind = "sheet";
@@ -188,6 +224,7 @@ struct Tpms {
   MaterialName material;
   CellMap map;
   std::optional<double> density;
+  std::optional<Number> equation;
 
   static Spec<Tpms> spec() {
     return {
@@ -205,7 +242,11 @@ struct Tpms {
           "Share of a cell that is filled; it takes the place of the level of a solid, or of the thickness of a sheet "
           "in cells of constant size",
           from_to(0.01, 0.99)},
-         {"map", &Tpms::map, "A map of cells, such as cylinder_cells, whose region it fills; none: x, y and z"}},
+         {"map", &Tpms::map, "A map of cells, such as cylinder_cells, whose region it fills; none: x, y and z"},
+         {"equation", &Tpms::equation,
+          "A formula in place of the surface's function. In it u, v and w are the place among cells; its period along "
+          "each is 1",
+          with_variables({"u", "v", "w"})}},
         no_inputs,
         "intersection() { cube(20); tpms(\"gyroid\", cell=(10, 10, 10), thickness=1, material=\"red\"); }"};
   }
@@ -215,6 +256,10 @@ struct Tpms {
       return reader.refuse("tpms has both a map and the size of its cells",
                            "leave out cell: the map says how large cells are");
     if (!density) return true;
+    if (equation)
+      return reader.refuse("the density of a formula's surface is not known",
+                           "write " + std::string(kind == "sheet" ? "the thickness" : "the level") +
+                               ", and measure the density with ombre characterise");
     const bool is_flat = !map.is_given() && (!cell.along || design::is_constant(*cell.along)) && level.constant();
     if (kind == "sheet" && !is_flat)
       return reader.refuse("the density of a sheet needs cells of constant size, and a constant level",
@@ -245,23 +290,19 @@ struct Tpms {
   }
 
  private:
-  static constexpr double turn = 2 * std::numbers::pi;
-
   struct Sample {
     Field value, squared_slope;  // function minus the level, and its squared gradient in 1/mm^2
   };
 
+  // The place u, v and w among cells.
+  Slope place(const Point& p) const {
+    if (map.is_given()) return map.place_at(p);
+    return {p.x / period(0)(p), p.y / period(1)(p), p.z / period(2)(p)};
+  }
   // The phases along the axes of the cell.
   std::array<Field, 3> phases(const Point& p) const {
-    if (map.is_given()) {
-      const Slope at = map.place_at(p);
-      return {at[0] * turn, at[1] * turn, at[2] * turn};
-    }
-    return {phase(p, 0), phase(p, 1), phase(p, 2)};
-  }
-  Field phase(const Point& p, int axis) const {
-    const Field x = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-    return x / period(axis)(p) * turn;
+    const Slope at = place(p);
+    return {at[0] * turn, at[1] * turn, at[2] * turn};
   }
   Number period(int axis) const {
     if (!cell.along) return 10;
@@ -288,13 +329,30 @@ struct Tpms {
     return *at;
   }
 
-  const Surface& chosen() const {
-    for (const Surface& one : surfaces())
-      if (surface == one.name) return one;
-    return surfaces().front();  // the reader accepts no other name
+  const Surface& chosen() const { return surface_called(surface); }
+
+  Field function_value(const Point& p, const Slope& at) const {
+    const expr::Variables variables = [&](std::string_view name) -> std::optional<Field> {
+      return name == "u"   ? std::optional(at[0])
+             : name == "v" ? std::optional(at[1])
+             : name == "w" ? std::optional(at[2])
+                           : std::nullopt;
+    };
+    return equation->at(p, variables) - level(p);
+  }
+
+  // Uses the slopes of the map if the formula depends on space through u, v and w alone.
+  Sample at_function(const Point& p) const {
+    const Slope at = place(p);
+    const Field value = function_value(p, at);
+    const auto by = map.is_given() ? program::gradient(value, Point::of(at[0], at[1], at[2])) : std::nullopt;
+    if (by) return {value, floored(nodes::squared_slope(map, *by, p))};
+    const Slope slope = slope_at([&](const Point& q) { return function_value(q, place(q)); }, p);
+    return {value, floored(dot_without_zeros(slope, slope))};
   }
 
   Sample at(const Point& p) const {
+    if (equation) return at_function(p);
     const auto phase_at = phases(p);
     const Waves x(phase_at[0]), y(phase_at[1]), z(phase_at[2]);
     Field value = -level(p), by_x = p.constant(0), by_y = by_x, by_z = by_x;  // derivatives by the phases
@@ -331,7 +389,7 @@ struct Tpms {
       return {slope[0] * turn, slope[1] * turn, slope[2] * turn};
     }
     const Number length = period(static_cast<int>(axis));
-    if (!length.constant()) return slope_at([&](const Point& q) { return phase(q, static_cast<int>(axis)); }, p);
+    if (!length.constant()) return slope_at([&](const Point& q) { return phases(q)[axis]; }, p);
     Slope result{p.constant(0), p.constant(0), p.constant(0)};
     result[axis] = p.constant(turn / *length.constant());
     return result;
@@ -344,5 +402,6 @@ struct Tpms {
 }  // namespace
 
 void add_tpms(Registry& registry) { registry.add<Tpms>("lattices"); }
+void add_tpms_values(Registry& registry) { registry.add<TpmsValue>("cells"); }
 
 }  // namespace ombre::nodes

@@ -13,6 +13,9 @@ Field (*const greatest)(Field, Field) = program::max;
 Domain overlap_choices() { return one_of({"mix", "first", "last"}); }
 constexpr std::string_view overlap_doc =
     "Composition where children overlap: mix, the mean of all, or that of the first or last child";
+constexpr std::string_view union_overlap_doc =
+    "Composition where children overlap: mix, the mean of all; that of the first or last child; or blend, a mean "
+    "weighted by depth, also across seams";
 
 constexpr std::string_view blend_doc = "Radius of the fillet, or size of the chamfer, along seams; 0: sharp seams";
 constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat bevel";
@@ -66,10 +69,7 @@ struct Union {
   static Spec<Union> spec() {
     return {"union",
             "The union of its children: all points that are in at least one of them.",
-            {{"materials", &Union::materials,
-              "Composition where children overlap: mix, the mean of all; that of the first or last child; or blend, a "
-              "mean weighted by depth, also across seams",
-              one_of({"mix", "first", "last", "blend"})},
+            {{"materials", &Union::materials, union_overlap_doc, one_of({"mix", "first", "last", "blend"})},
              {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Union::join, join_doc, join_choices()},
              {"attributes", &Union::attribute_words, attributes_doc, attribute_rules()}},

@@ -91,7 +91,21 @@ struct VoxelBlend {
   }
 };
 
-struct Convolve {
+// A filter of compositions and attributes whose sums are made by the stage of the node.
+template <class Node>
+struct Filter {
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return filtered_composition(in, p, demand, node().stage, node().count_void);
+  }
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return filtered_attribute(in, name, p, demand, node().stage, node().attributes);
+  }
+
+ private:
+  const Node& node() const { return static_cast<const Node&>(*this); }
+};
+
+struct Convolve : Filter<Convolve> {
   Kernel kernel;
   bool count_void = false;
   std::vector<std::string> attributes;
@@ -123,13 +137,6 @@ struct Convolve {
     stage = make_linear_stage(inputs[0], use, key, [filter = LinearFilter::of(kernel)](Vec3) { return filter; });
     return true;
   }
-
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return filtered_composition(in, p, demand, stage, count_void);
-  }
-  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return filtered_attribute(in, name, p, demand, stage, attributes);
-  }
 };
 
 // The width of a Gaussian: in mm along all axes, or in voxels along each.
@@ -158,7 +165,7 @@ bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& 
 
 LinearFilter gaussian_in(const Width& width, Vec3 cell_mm) { return LinearFilter::gaussian(width.in_cells(cell_mm)); }
 
-struct Gaussian {
+struct Gaussian : Filter<Gaussian> {
   double sigma = 0;
   std::optional<Vec3> sigma_voxels;
   bool count_void = false;
@@ -184,13 +191,6 @@ struct Gaussian {
     stage = make_linear_stage(inputs[0], {true, count_void, attributes, pitch}, "gaussian " + width.key(),
                               [width](Vec3 cell_mm) { return gaussian_in(width, cell_mm); });
     return true;
-  }
-
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return filtered_composition(in, p, demand, stage, count_void);
-  }
-  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return filtered_attribute(in, name, p, demand, stage, attributes);
   }
 };
 

@@ -23,7 +23,16 @@ Box level_reach(const Inputs& in, const Box& where, double level) {
   return intersect(in.reach(0, where.expanded(depth), 0).expanded(-depth), where);
 }
 
-struct Offset {
+// A solid whose surface is a level of its child's distance.
+struct OfLevel {
+  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
+    warn_of_implicit_distance(reader, *inputs[0], std::string(reader.node));
+    return true;
+  }
+  Metric metric(const Inputs& in) const { return level_metric(in); }
+};
+
+struct Offset : OfLevel {
   Number distance_mm = 1;
 
   static Spec<Offset> spec() {
@@ -36,12 +45,6 @@ struct Offset {
             "offset(2) { cube(6, \"red\"); }"};
   }
 
-  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
-    warn_of_implicit_distance(reader, *inputs[0], "offset");
-    return true;
-  }
-
-  Metric metric(const Inputs& in) const { return level_metric(in); }
   Box reach(const Inputs& in, const Box& where, double margin) const {
     return level_reach(in, where, margin + distance_mm.range(where).hi);
   }
@@ -61,7 +64,7 @@ struct Offset {
   }
 };
 
-struct Shell {
+struct Shell : OfLevel {
   Number thickness = 1;
   Choice side = "inward";
 
@@ -75,12 +78,6 @@ struct Shell {
             "shell(1) { sphere(8, \"red\"); }"};
   }
 
-  bool complete(const Reader& reader, const std::vector<NodePtr>& inputs) const {
-    warn_of_implicit_distance(reader, *inputs[0], "shell");
-    return true;
-  }
-
-  Metric metric(const Inputs& in) const { return level_metric(in); }
   Box reach(const Inputs& in, const Box& where, double margin) const {
     return level_reach(in, where, margin + outward_share() * thickness.range(where).hi);
   }

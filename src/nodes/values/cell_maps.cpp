@@ -112,7 +112,12 @@ struct AroundAxis : CellOutputs<T> {
   }
   Field cut_to_sector(Field g, const Point& q) const {
     if (sweep == 360) return g;
-    return program::max(g, abs(q.y) * std::cos(half_angle()) - q.x * std::sin(half_angle()));
+    const double sine = std::sin(half_angle()), cosine = std::cos(half_angle());
+    const Field side = abs(q.y) * cosine - q.x * sine;
+    if (sweep >= 180) return program::max(g, side);
+    // Behind the axis, where the sides of the sector meet, the axis is nearest.
+    const Field ahead = q.x * cosine + abs(q.y) * sine;
+    return program::max(g, select(less(ahead, q.constant(0)), length(q.x, q.y), side));
   }
   // Returns a box around the part of the sector with these distances from the axis and these heights.
   Box sector_box(Interval rho, Interval z) const {

@@ -38,14 +38,8 @@ struct CurveCells : CellOutputs<CurveCells> {
   }
 
   bool complete(const Reader& reader) {
-    std::vector<Vec3> way;
-    for (const Vec3& point : points.at)
-      if (way.empty() || !(point == way.back())) way.push_back(point);
-    constexpr size_t most_points = 1000;
-    if (way.size() < 2 || way.size() > most_points)
-      return reader.refuse("curve_cells needs 2 to 1000 different points",
-                           "write for example " + spelled::parameter("points", "[(0, 0, 0), (10, 0, 0), (15, 8, 0)]"));
-    curve = std::make_shared<CurveFrames>(std::move(way), toward);
+    curve = smooth_curve(points, {toward, CurveRule::Ends::straight}, reader);
+    if (!curve) return false;
     curve->set_reach(reach() * (1 + 1e-9));
     return fits(reader) && find_counts(reader, {curve->length(), width, depth}, size, count, counts);
   }

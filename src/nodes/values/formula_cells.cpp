@@ -1,10 +1,8 @@
 // Maps of cells that formulas give, for example for spacing that changes along an axis.
 #include "base/text/text.h"
-#include "design/lowering.h"
 #include "nodes/common/cell_map.h"
+#include "nodes/common/made_fields.h"
 #include "nodes/values/cell_outputs.h"
-#include "program/evaluate.h"
-#include "program/passes/passes.h"
 
 namespace ombre::nodes {
 namespace {
@@ -73,10 +71,7 @@ struct FormulaCells : CellOutputs<FormulaCells> {
   }
 
   Field outside(const Ask& ask) const { return ask.in.distance_to(region, ask.p); }
-  Box region_within(const Box& where) const {
-    return region.node->type().is_solid() ? region.node->bounds(where)
-                                          : region.node->output_bounds(region.output, where);
-  }
+  Box region_within(const Box& where) const { return box_of(region, where); }
 
  private:
   static bool uses_other_map(const Number& number) {
@@ -101,31 +96,21 @@ struct FormulaCells : CellOutputs<FormulaCells> {
     const Box box = region_within(design_space());
     if (!box.is_bounded() || box.size().x >= design_limit_mm) return true;
     std::vector<NodePtr> roots{NodePtr(NodePtr(), region.node)};
-    for (const Number& number : {u, v, w})
-      if (number.expression())
-        for (const NodePtr& node : nodes_of(*number.expression())) roots.push_back(node);
+    for (const Number& number : {u, v, w}) add_nodes_of(number, roots);
     if (of.is_given()) roots.push_back(NodePtr(NodePtr(), of.from.node));
-    LoweringContext context(reader.materials, roots);
-    program::Builder builder;
-    Lowering lowering(context, builder);
-    const Point p = Point::origin_frame(builder);
-    const Field outside = region.node->type().is_solid() ? lowering.distance(*region.node, p)
-                                                         : lowering.answer(*region.node, region.output, p).numbers[0];
-    const Field turns = dot_without_zeros(slope(p, 0), cross_without_zeros(slope(p, 1), slope(p, 2)));
-    context.finish_bodies();
-    const program::Program whole = program::inline_bodies(builder.finish({{"outside", outside}, {"turns", turns}}));
-    std::vector<Interval> ranges;
-    evaluate_intervals(whole, box, ranges);
-    const program::Program program = program::expand_parts(whole, ranges, program::Precision::reference);
+    const MadeFields fields(reader, roots, box, [&](Lowering& lowering, const Point& p) {
+      const Field turns = dot_without_zeros(slope(p, 0), cross_without_zeros(slope(p, 1), slope(p, 2)));
+      return std::vector{outside_of(lowering, region, p), turns};
+    });
     std::vector<double> values;
     std::optional<double> first;
     for (int n = 0; n < side * side * side; ++n) {
       const int i = n % side, j = n / side % side, k = n / side / side;
       const Vec3 f{(i + 0.5) / side, (j + 0.5) / side, (k + 0.5) / side}, s = box.size();
       const Vec3 at = box.lo + Vec3{f.x * s.x, f.y * s.y, f.z * s.z};
-      program::evaluate_point(program, at, values);
-      if (values[program.outputs[0]] > 0) continue;
-      const double turn = values[program.outputs[1]];
+      const std::vector<double> found = fields.at(at, values);
+      if (found[0] > 0) continue;
+      const double turn = found[1];
       if (!first) first = turn;
       if (turn * *first > 0) continue;
       return reader.refuse("cells of formula_cells are folded or have no volume at (" + format_rounded(at.x) + ", " +

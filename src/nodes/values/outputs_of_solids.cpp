@@ -1,6 +1,7 @@
 // Outputs of solids as values, and outputs that are solids as solids.
 #include "base/text/text.h"
 #include "design/spec.h"
+#include "nodes/common/made_fields.h"
 
 namespace ombre::nodes {
 namespace {
@@ -58,9 +59,7 @@ struct SolidOf {
   }
 
   Metric metric() const { return is_node() ? solid.node->metric() : Metric::implicit(); }
-  Box bounds(const Box& where) const {
-    return is_node() ? solid.node->bounds(where) : solid.node->output_bounds(solid.output, where);
-  }
+  Box reach(const Inputs&, const Box& where, double margin) const { return box_of(solid, where, margin); }
   Field distance(const Inputs& in, const Point& p) const { return in.distance_to(solid, p); }
   Field membership(const Inputs& in, const Point& p, Border border) const {
     return border == Border::included ? in.inside_of(solid, p) : at_most(in.distance_to(solid, p), 0, border);

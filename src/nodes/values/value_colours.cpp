@@ -6,10 +6,11 @@
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
+#include "ink/profile.h"
 #include "nodes/common/field_math.h"
 #include "nodes/common/mixtures.h"
 #include "nodes/common/solid_values.h"
-#include "nodes/values/colour_mixer.h"
+#include "nodes/values/colour_table.h"
 #include "nodes/values/texture_source.h"
 
 namespace ombre::nodes {
@@ -238,6 +239,47 @@ struct Texture {
   }
 };
 
+struct SurfaceColour {
+  FilePath path;
+  std::string image;
+  program::SourceField source;  // read when the node is made
+
+  static Spec<SurfaceColour> spec() {
+    return {
+        "surface_colour",
+        "The colour of the nearest point of a mesh file's surface.",
+        {{"path", &SurfaceColour::path,
+          "A mesh file: .ply, .obj or .off with colours at its vertices, or with texture coordinates; relative to "
+          "the script, then to the working directory",
+          required()},
+         {"texture", &SurfaceColour::image, "A PNG file for the texture coordinates; none: colours of the vertices"}},
+        no_inputs,
+        "cube(20, colour_mixture(surface_colour(\"models/painted_ball.ply\").colour, [\"red\", \"green\", "
+        "\"blue\", \"white\", \"black\"]));",
+        {{"colour", &SurfaceColour::colour, "Red, green and blue, from 0 to 1 (sRGB)"},
+         {"alpha", &SurfaceColour::alpha, "Opacity, from 0 to 1", Interval(0, 1)}}};
+  }
+
+  bool complete(const Reader& reader) {
+    if (!reader.loader) return reader.refuse("meshes cannot be read here");
+    SurfaceColoursRequest request{path, {image, {}}};
+    source = reader.loader->source(request, reader);
+    path = request.file;
+    if (source) path.content = source->content();  // that of both files
+    return source != nullptr;
+  }
+
+  VectorField colour(const Ask& ask) const {
+    return {channel(ask, "red"), channel(ask, "green"), channel(ask, "blue")};
+  }
+  Field alpha(const Ask& ask) const { return channel(ask, "alpha"); }
+
+ private:
+  Field channel(const Ask& ask, const char* name) const {
+    return ask.p.builder().source(source, source->channel(name), ask.p.x, ask.p.y, ask.p.z);
+  }
+};
+
 // Returns a mixture by shares. Shares that are negative or NaN count as 0. If all do, the result is the first material
 // alone, and the check `none` is set.
 Composition by_shares(const Ask& ask, const SharedList<MaterialName>& materials, const std::vector<Field>& shares,
@@ -327,7 +369,7 @@ struct ColourMixture {
   }
 
   bool complete(const Reader& reader) {
-    constexpr size_t most = ColourMixer::most_materials;
+    constexpr size_t most = ink::ColourMixer::most_materials;
     if (materials.empty())
       return reader.refuse("colour_mixture needs a material", "write for example [\"red\", \"white\"]");
     if (materials.size() > most)
@@ -337,7 +379,7 @@ struct ColourMixture {
       const auto& [red, green, blue, alpha] = name.material->colour;
       colours.push_back({linear_of_srgb(red / 255.0), linear_of_srgb(green / 255.0), linear_of_srgb(blue / 255.0)});
     }
-    table = make_colour_table(ColourMixer(colours), colours.size());
+    table = make_colour_table(ink::ColourMixer(colours), colours.size());
     return true;
   }
 
@@ -368,10 +410,76 @@ struct ColourMixture {
   }
 };
 
+struct InkMixture {
+  Numbers3 wanted;
+  FilePath profile;
+  SharedList<MaterialName> materials;
+  Choice intent = "relative";
+  bool black_point = true;
+  size_t inks = 0;  // set when the node is made, like the table
+  program::SourceField table;
+
+  static Spec<InkMixture> spec() {
+    return {
+        "ink_mixture",
+        "The mixture of inks that shows a colour by an ICC output profile of the machine.",
+        {{"colour", &InkMixture::wanted, "Red, green and blue from 0 to 1 (sRGB)", required()},
+         {"profile", &InkMixture::profile,
+          "An ICC output profile; relative to the script, then to the working directory", required()},
+         {"materials", &InkMixture::materials,
+          "The material of each of the profile's inks, in its order (CMYK: cyan, magenta, yellow, black); then the one "
+          "that takes what they leave, white",
+          required()},
+         {"intent", &InkMixture::intent, "Rule for colours that the inks do not show", one_of(ink::intent_names())},
+         {"black_point", &InkMixture::black_point, "Map black to the darkest that the inks show"}},
+        no_inputs,
+        "cube(20, ink_mixture(texture(\"models/leaf.png\", 20).colour, \"models/made_up_inks.icc\", [\"cyan\", "
+        "\"magenta\", \"yellow\", \"white\"]));",
+        {{"mixture", &InkMixture::mixture,
+          "The mixture. Shares of inks that add up to more than 1 are divided by their sum"},
+         {"difference", &InkMixture::difference, "Visible difference from the colour (CIEDE2000)", Interval(0, 1e6)}}};
+  }
+
+  bool complete(const Reader& reader) {
+    if (!reader.loader) return reader.refuse("ICC profiles cannot be read here");
+    InkRequest request{profile, intent, black_point};
+    const auto made = reader.loader->source(request, reader);
+    profile = request.profile;
+    if (!made) return false;
+    inks = made->inks;
+    if (materials.size() != inks + 1)
+      return reader.refuse("the profile has " + std::to_string(inks) + " inks (" + made->space + "), and " +
+                               std::to_string(materials.size()) + " materials are given",
+                           "give one for each ink, and last the one that takes what they leave");
+    table = make_colour_source(made->values);
+    return true;
+  }
+
+  Composition mixture(const Ask& ask) const {
+    std::vector<Field> shares;
+    Field rest = ask.p.constant(1);
+    for (size_t n = 0; n < inks; ++n) {
+      shares.push_back(channel(ask, n));
+      rest = rest - shares.back();
+    }
+    shares.push_back(max(rest, 0.0));
+    return by_shares(ask, materials, shares,
+                     "the colour of ink_mixture is no finite number, only its first material is taken there");
+  }
+
+  Field difference(const Ask& ask) const { return channel(ask, inks); }
+
+ private:
+  Field channel(const Ask& ask, size_t n) const {
+    const Colour at = colour_at(wanted, ask.p);
+    return ask.p.builder().source(table, static_cast<int>(n), at[0], at[1], at[2]);
+  }
+};
+
 }  // namespace
 
 void add_value_colours(Registry& registry) {
-  registry.add<ColourValue, ColourDifference, Texture, MixMany, ColourMixture>("values");
+  registry.add<ColourValue, ColourDifference, Texture, MixMany, ColourMixture, InkMixture, SurfaceColour>("values");
 }
 
 }  // namespace ombre::nodes

@@ -186,7 +186,7 @@ struct PointDistance {
           "point_distance needs a point",
           "write for example " + spelled::either("point_distance([[0, 0, 0]])", "\"points\": [[0, 0, 0]]",
                                                  "ombre.point_distance([[0, 0, 0]])"));
-    return load_path({points.at, true}, source, reader);
+    return load_path({points.at, PathKind::separate}, source, reader);
   }
 
   Field distance(const Ask& ask) const { return channel_of(source, "distance", ask.p); }
@@ -220,7 +220,7 @@ struct PathDistance {
                            "write for example " + spelled::either("path_distance([[0, 0, 0], [10, 0, 0]])",
                                                                   "\"points\": [[0, 0, 0], [10, 0, 0]]",
                                                                   "ombre.path_distance([[0, 0, 0], [10, 0, 0]])"));
-    return load_path({std::move(way), false}, source, reader);
+    return load_path({std::move(way)}, source, reader);
   }
 
   Field distance(const Ask& ask) const { return channel_of(source, "distance", ask.p); }
@@ -230,16 +230,27 @@ struct PathDistance {
 struct CurveDistance {
   Points points;
   Vec3 toward{0, 0, 1};
+  bool is_closed = false;
+  Choice frame = "parallel";
   std::shared_ptr<CurveFrames> curve;  // made with the node
 
   static Spec<CurveDistance> spec() {
     return {
         "curve_distance",
         "The distance to a smooth curve through points, the position of the nearest point along it, and a frame that "
-        "moves along the curve without turning around it.",
+        "moves along the curve.",
         {{"points", &CurveDistance::points, "Two to 1000 different points", required(unit::points)},
          {"toward", &CurveDistance::toward,
-          "Direction of the frame's normal at the start, as far as it is perpendicular to the curve"}},
+          "Direction of the frame's normal at the start, as far as it is perpendicular to the curve"},
+         {"closed", &CurveDistance::is_closed,
+          "Continues the curve from the last point to the first. The frame then turns evenly around the curve by as "
+          "much "
+          "as is needed to meet itself"},
+         {"frame", &CurveDistance::frame,
+          "How the normal moves: parallel, without turning around the curve; or frenet, towards the centre of "
+          "curvature, "
+          "and where the curve is straight as with parallel",
+          one_of({"parallel", "frenet"})}},
         no_inputs,
         "sphere(8, mix(\"red\", \"blue\", curve_distance([[-6, 0, 0], [0, 5, 0], [6, 0, 0]]).along));",
         {{"distance", &CurveDistance::distance, "mm", Interval(0, 4 * design_limit_mm)},
@@ -252,15 +263,10 @@ struct CurveDistance {
   }
 
   bool complete(const Reader& reader) {
-    std::vector<Vec3> way;
-    for (const Vec3& point : points.at)
-      if (way.empty() || !(point == way.back())) way.push_back(point);
-    constexpr size_t most_points = 1000;
-    if (way.size() < 2 || way.size() > most_points)
-      return reader.refuse("curve_distance needs 2 to 1000 different points",
-                           "write for example " + spelled::parameter("points", "[(0, 0, 0), (10, 0, 0), (15, 8, 0)]"));
-    curve = std::make_shared<CurveFrames>(std::move(way), toward, CurveFrames::Ends::cut);
-    return true;
+    const auto ends = is_closed ? CurveRule::Ends::closed : CurveRule::Ends::cut;
+    const auto moves = frame == "frenet" ? CurveRule::Frame::frenet : CurveRule::Frame::parallel;
+    curve = smooth_curve(points, {toward, ends, moves}, reader);
+    return curve != nullptr;
   }
 
   Field distance(const Ask& ask) const { return read(ask.p, CurveFrames::distance); }

@@ -7,7 +7,7 @@ import { EditorPane } from "./editor";
 import {
   copyLink, deleteDesign, downloadBundle, downloadMesh, duplicateDesign, makeDesign, newFolder, openableEndings, openChosen, renameDesign, takeDroppedFiles, watchDownloads,
 } from "./files";
-import { GraphView } from "./graph";
+import { GraphView } from "./graph/graph";
 import { watchView } from "./kept";
 import { KeysDialog, listenToKeys } from "./keys";
 import { Menu } from "./menu";

@@ -1,6 +1,6 @@
 // The editor of a design's text, with its mistakes.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab, undoDepth } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, indentWithTab, redo, undo, undoDepth } from "@codemirror/commands";
 import { pythonLanguage } from "@codemirror/lang-python";
 import { bracketMatching, indentOnInput, indentUnit, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
@@ -116,6 +116,10 @@ function makeEditor(parent: HTMLElement): EditorView {
       if ((view.dom.dataset.file ?? "") === from) view.dom.dataset.file = to;
     },
     write: (from, to, insert) => view.dispatch({ changes: { from, to, insert } }),
+    apply: (steps, isTyping) =>
+      view.dispatch(...steps.map((changes) => ({ changes, sequential: true, userEvent: isTyping ? "input.type" : "input" }))),
+    undo: () => undo(view),
+    redo: () => redo(view),
     reveal(from, to) {
       view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
       view.focus();

@@ -1,23 +1,17 @@
 // The panel of examples, with their pictures.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { listExamples, openExample } from "./files";
 import { useSearch } from "./search";
-import { connection } from "./session/connection";
+import { useWhenSeen } from "./seen";
+import { Reply, connection } from "./session/connection";
 import { useStore } from "./store";
 
 // The picture of an example, which is asked for when it comes into view.
 function ExamplePicture({ name }: { name: string }) {
-  const place = useRef<HTMLSpanElement>(null);
   const [url, setUrl] = useState("");
-  useEffect(() => {
-    const observer = new IntersectionObserver(async ([entry]) => {
-      if (!entry.isIntersecting) return;
-      observer.disconnect();
-      const reply = await connection.ask("example_picture", { name }).answer.catch(() => undefined);
-      if (reply?.bytes) setUrl(URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })));
-    });
-    observer.observe(place.current!);
-    return () => observer.disconnect();
+  const place = useWhenSeen<HTMLSpanElement>(() => {
+    const show = (reply: Reply) => reply.bytes && setUrl(URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })));
+    connection.ask("example_picture", { name }).answer.then(show, () => undefined);
   }, [name]);
   useEffect(() => () => URL.revokeObjectURL(url), [url]);
   return <span class="picture" ref={place}>{url && <img src={url} alt={`The example ${name}`} />}</span>;

@@ -12,7 +12,7 @@ export function useSearch<T>(list: T[], textOf: (entry: T) => string, noun: stri
         Search
         <input type="search" value={words} onInput={(e) => setWords(e.currentTarget.value)} />
       </label>
-      <p class="hint" role="status">{found.length} {noun}</p>
+      <p class="hint" role="status">{found.length} {found.length === 1 ? noun.replace(/s$/, "") : noun}</p>
     </>
   );
   return { found, field };

@@ -19,10 +19,14 @@ interface Look {
 export const layerAt = (plan: Plan, z: number) =>
   Math.max(0, Math.min(plan.count[2] - 1, Math.floor((z - plan.origin_mm[2]) / plan.pitch_mm[2])));
 
+const coarsest = 12;
 function levelFor(plan: Plan, scale: number): number {
   const pixel = Math.min(plan.pitch_mm[0], plan.pitch_mm[1]);
-  return Math.max(0, Math.min(12, Math.floor(Math.log2(scale / Math.min(devicePixelRatio, 2) / pixel))));
+  return Math.max(0, Math.min(coarsest, Math.floor(Math.log2(scale / Math.min(devicePixelRatio, 2) / pixel))));
 }
+
+// How much longer along x and y the voxels of a first picture are: 2^3 times, so that it takes a 64th of the time.
+const coarser = 3;
 
 function fit(plan: Plan, canvas: HTMLCanvasElement): Look {
   const size = [0, 1].map((n) => plan.count[n] * plan.pitch_mm[n]);
@@ -37,6 +41,7 @@ class Painter {
   tiles = new Tiles(() => this.paint());
   look?: Look;
   private before?: { plan: Plan; tiles: Tile[] }; // the last complete layer
+  private shown: { of: string; levels: number[] } = { of: "", levels: [] };
   constructor(private canvas: HTMLCanvasElement) {}
 
   paint() {
@@ -46,18 +51,35 @@ class Painter {
     canvas.width = Math.round(canvas.clientWidth * ratio);
     canvas.height = Math.round(canvas.clientHeight * ratio);
     const level = levelFor(state.plan, look.scale);
-    const plan = this.tiles.plan(level);
     const layer = layerAt(state.plan, state.z);
     canvas.dataset.state = "drawing";
-    const tiles = plan ? this.tiles.want(level, layer, this.places(plan)) : [];
+    const { plan, tiles } = this.tilesOf(level, layer);
     const isComplete = plan !== undefined && tiles.every((tile) => tile.picture || tile.problem);
+    const first = isComplete || (plan && tiles.length === 1) ? { tiles: [] } : this.tilesOf(Math.min(coarsest, level + coarser), layer);
+    this.tiles.want([...first.tiles, ...tiles]);
     if (!isComplete && this.before) this.draw(this.before.plan, this.before.tiles);
+    if (first.plan) this.draw(first.plan, first.tiles);
     if (plan) this.draw(plan, tiles);
+    this.note(layer, [...first.tiles, ...tiles]);
     if (!isComplete) return;
     this.before = { plan: plan!, tiles };
     const problem = tiles.find((tile) => tile.problem)?.problem;
     if (problem && state.planProblem !== problem) set({ planProblem: problem });
     Object.assign(canvas.dataset, { state: "ready", layer, level, design: state.design?.design });
+  }
+
+  // Returns the tiles in view of the job with voxels 2^level times as long along x and y.
+  private tilesOf(level: number, layer: number): { plan?: Plan; tiles: Tile[] } {
+    const plan = this.tiles.plan(level);
+    return { plan, tiles: plan ? this.tiles.find(level, layer, this.places(plan)) : [] };
+  }
+
+  // Lists in the page which levels of a layer were shown, in their order.
+  private note(layer: number, tiles: Tile[]) {
+    const of = `${state.design?.design} ${layer}`;
+    if (this.shown.of !== of) this.shown = { of, levels: [] };
+    for (const { picture, level } of tiles) if (picture && !this.shown.levels.includes(level)) this.shown.levels.push(level);
+    this.canvas.dataset.levels = this.shown.levels.join(" ");
   }
 
   // Forgets the layer of another file.

@@ -1,5 +1,6 @@
 // The state of the page. Components read it, and are drawn again when it changes.
 import { useEffect, useState } from "preact/hooks";
+import type { ScriptGraph } from "./session/graph";
 
 export interface Diagnostic {
   severity: "note" | "warning" | "error";
@@ -90,7 +91,7 @@ export interface NodeType {
   name: string;
   category: string;
   sentence: string;
-  parameters: { name: string; doc: string; kind: string; widget: string; unit: string; required: boolean; default: unknown; choices: string[] }[];
+  parameters: { name: string; doc: string; kind: string; widget: string; unit: string; required: boolean; default: unknown; written_default?: string; choices: string[] }[];
   inputs: { least: number; most: number | null };
   gives: string;
   outputs: { name: string; doc: string; type: string }[];
@@ -246,6 +247,9 @@ export interface State {
   isBusy: boolean;
   problem: string; // problem of the evaluation as a whole
   notice: string; // the result or problem of an action, such as a download
+  graph?: ScriptGraph; // of the last text without mistakes
+  graphProblem: string; // why an edit of the graph was not made
+  graphMade?: number; // place in the text of what an edit has just added
   diagnostics: Diagnostic[];
   echo: string[];
   variables: Variable[];
@@ -313,6 +317,7 @@ export let state: State = {
   isBusy: false,
   problem: "",
   notice: "",
+  graphProblem: "",
   diagnostics: [],
   echo: [],
   variables: [],

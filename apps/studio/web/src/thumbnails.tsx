@@ -1,6 +1,7 @@
 // Small pictures of nodes. The server makes them one at a time, for visible entries, so that other questions wait for
 // one of them at most.
 import { useEffect, useRef, useState } from "preact/hooks";
+import { useWhenSeen } from "./seen";
 import { connection } from "./session/connection";
 import { state } from "./store";
 
@@ -32,26 +33,17 @@ async function work() {
 // Shows the previous picture until there is a new one.
 export function Thumbnail({ node, type }: { node: number; type: string }) {
   const design = state.design!.design;
-  const place = useRef<HTMLSpanElement>(null);
   const [url, setUrl] = useState("");
   const known = useRef("");
-  useEffect(() => {
+  const place = useWhenSeen<HTMLSpanElement>(() => {
     const wanted: Wanted = { design, node, show: (made) => {
       URL.revokeObjectURL(known.current);
       known.current = made;
       setUrl(made);
     } };
-    const observer = new IntersectionObserver(([entry]) => {
-      if (!entry.isIntersecting) return;
-      observer.disconnect();
-      waiting.push(wanted);
-      work();
-    });
-    observer.observe(place.current!);
-    return () => {
-      observer.disconnect();
-      waiting = waiting.filter((other) => other !== wanted);
-    };
+    waiting.push(wanted);
+    work();
+    return () => (waiting = waiting.filter((other) => other !== wanted));
   }, [design, node]);
   useEffect(() => () => URL.revokeObjectURL(known.current), []);
   return <span ref={place} class="thumbnail" style={size}>{url && <img src={url} alt={`What ${type} makes`} {...size} />}</span>;

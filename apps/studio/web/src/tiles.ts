@@ -9,15 +9,18 @@ const mostPlans = 50,
   mostAtOnce = 6;
 
 export interface Tile {
-  picture?: ImageBitmap;
-  problem?: string; // a tile with a problem is not requested again
+  key: string;
+  level: number;
+  layer: number;
   x: number; // place of its first pixel, at its level
   y: number;
+  picture?: ImageBitmap;
+  problem?: string; // a tile with a problem is not requested again
 }
 
 export class Tiles {
   private kept = new Map<string, Tile>();
-  private wanted: { key: string; members: Record<string, number>; tile: Tile }[] = [];
+  private wanted: Tile[] = [];
   private atWork = new Map<string, () => void>();
   private plans = new Map<string, Plan | "requested">();
 
@@ -49,35 +52,35 @@ export class Tiles {
     return `${state.design?.design} ${JSON.stringify(state.options)} ${level}`;
   }
 
-  // Returns the tiles of these numbers. Missing ones are requested, and requests for others are cancelled.
-  want(level: number, layer: number, places: [number, number][]): Tile[] {
-    const tiles: Tile[] = [];
-    this.wanted = [];
-    const keys = new Set<string>();
-    for (const [column, row] of places) {
+  // Returns the tiles of these numbers, with what is known of them.
+  find(level: number, layer: number, places: [number, number][]): Tile[] {
+    return places.map(([column, row]) => {
       const key = `${this.key(level)} ${layer} ${column} ${row}`;
-      keys.add(key);
-      let tile = this.kept.get(key);
-      if (!tile) tile = { x: column * tileSize, y: row * tileSize };
+      const tile = this.kept.get(key) ?? { key, level, layer, x: column * tileSize, y: row * tileSize };
       this.kept.delete(key);
       this.kept.set(key, tile);
-      if (!tile.picture && !tile.problem && !this.atWork.has(key))
-        this.wanted.push({ key, tile, members: { level, layer, x: tile.x, y: tile.y, width: tileSize, height: tileSize } });
-      tiles.push(tile);
-    }
+      return tile;
+    });
+  }
+
+  // Requests the missing ones of these tiles in their order, and cancels requests for others.
+  want(tiles: Tile[]) {
+    this.wanted = tiles.filter((tile) => !tile.picture && !tile.problem && !this.atWork.has(tile.key));
+    const keys = new Set(tiles.map((tile) => tile.key));
     for (const [key, cancel] of this.atWork) if (!keys.has(key)) cancel();
     while (this.kept.size > mostKept) {
       const oldest = this.kept.keys().next().value!;
       this.kept.delete(oldest);
     }
     this.ask();
-    return tiles;
   }
 
   private ask() {
     while (this.wanted.length > 0 && this.atWork.size < mostAtOnce && connection.isOpen) {
-      const { key, members, tile } = this.wanted.shift()!;
-      const question = connection.ask("tile", { design: state.design!.design, ...state.options, ...members });
+      const tile = this.wanted.shift()!;
+      const { key, level, layer, x, y } = tile;
+      const place = { level, layer, x, y, width: tileSize, height: tileSize };
+      const question = connection.ask("tile", { design: state.design!.design, ...state.options, ...place });
       this.atWork.set(key, question.cancel);
       question.answer
         .then((reply) => createImageBitmap(new Blob([reply.bytes as BlobPart], { type: "image/png" })))

@@ -41,7 +41,7 @@ export async function openFile(file: string) {
     forgetLoads();
     const linked = link?.file === file ? link : undefined;
     link = undefined;
-    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], opacity: {}, values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, camera: undefined, cut: undefined, diagnostics: [], echo: [], variables: [], plan: undefined,
+    set({ file, kind, table: "", by: "", palette: "", range: undefined, rotate: [0, 0, 0], opacity: {}, values: {}, filesByEnding: {}, presets: [], preset: "", presetsProblem: "", conflict: undefined, design: undefined, graph: undefined, graphProblem: "", camera: undefined, cut: undefined, diagnostics: [], echo: [], variables: [], plan: undefined,
           planProblem: "", probe: undefined, probeBefore: undefined, measure: undefined, saved: "saved", saveProblem: "", problem: "", notice: "", z: NaN, isOld: false, isBusy: false, isRunning: false,
           ...keptView(file), ...linked?.view, ...(linked?.tab ? { view: linked.tab } : {}) });
     keepLastFile(file);
@@ -108,7 +108,7 @@ export async function deleteOpenFile(): Promise<string> {
 
 function closeFile() {
   beginWithNothing();
-  set({ file: "", kind: "", design: undefined, plan: undefined, variables: [], values: {}, diagnostics: [], conflict: undefined, camera: undefined, saved: "saved", isOld: false });
+  set({ file: "", kind: "", design: undefined, graph: undefined, plan: undefined, variables: [], values: {}, diagnostics: [], conflict: undefined, camera: undefined, saved: "saved", isOld: false });
   editor!.replace("");
 }
 

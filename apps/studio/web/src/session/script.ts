@@ -5,6 +5,10 @@ export interface Editor {
   text(): string;
   replace(text: string): void;
   write(from: number, to: number, text: string): void;
+  // Makes steps of replacements, each of the text that the one before has made, as one step for undo.
+  apply(steps: { from: number; to: number; insert: string }[][], isTyping: boolean): void;
+  undo(): void;
+  redo(): void;
   reveal(from: number, to: number): void;
   setDiagnostics(): void;
   rename(from: string, to: string): void; // what is kept of a file belongs to its new name

@@ -1,0 +1,98 @@
+"""Lattices that turn into others in space."""
+from __future__ import annotations
+
+from typing import Any
+
+import ombre
+from pyvcad import FloatAttribute, Vec3Attribute
+from pyvcad._arguments import length, number
+from pyvcad._cell_maps import control
+from pyvcad._resolvers import numbers_of
+from pyvcad._tree import Binary, Node, as_node
+
+
+def ramp(lo: float, hi: float, axis: str = "x", smooth: bool = False,
+         coordinates: Vec3Attribute | None = None) -> FloatAttribute:
+    """0 below lo, 1 above hi, between them along a line, or with `smooth` along a curve that starts and ends level.
+
+    Args:
+        axis: "x", "y" or "z"; "u", "v" or "w" with coordinates=map.logical_position.
+        coordinates: what the axis counts, in place of the place in mm.
+    """
+    low, high = number(lo), number(hi)
+    if not low < high:
+        raise ValueError(f"ramp: expected lo below hi, found {low:g} and {high:g}")
+    if axis not in tuple("xyzuvw"):
+        raise ValueError(f'ramp, axis: expected "x", "y" or "z", or "u", "v" or "w", found {axis!r}')
+    if axis in "uvw" and coordinates is None:
+        raise TypeError(f'ramp: the axis "{axis}" is one of a map; write coordinates=map.logical_position')
+    place = Vec3Attribute("x", "y", "z") if coordinates is None else coordinates
+    share = place.component("xyzuvw".index(axis) % 3).normalize(low, high).clamp(0, 1)
+    return share * share * (3 - 2 * share) if smooth else share
+
+
+class Mix(Binary):
+    """Two bodies, of which the weight says how much there is of the right one; distances and attributes are mixed."""
+
+    def __init__(self, left: Any, right: Any, weight: Any, region: Node | None = None, half_width: float = 0.0) -> None:
+        super().__init__(left, right)
+        self._weight, self._region, self._half_width = weight, region, half_width
+
+    def _inputs(self) -> list[Node]:
+        return [*super()._inputs(), *([self._region] if self._region else [])]
+
+    def _replace(self, of: Any) -> None:
+        super()._replace(of)
+        if self._region:
+            self._region = of(self._region)
+
+    def _composing(self) -> list[Node]:
+        return super()._inputs()
+
+    def _share(self, solids: list[ombre.Solid]) -> Any:
+        """The weight of the right body, from 0 to 1, as a value."""
+        if self._region is None:
+            return ombre.formula(ombre.clamp(0, control(self._weight), 1)).value
+        return ombre.formula(ombre.clamp(0, 0.5 + ombre.distance_to(solids[2]).distance / (2 * self._half_width), 1)).value
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        left, right, share = solids[0], solids[1], self._share(solids)
+        places = [ombre.distance_to(solid) for solid in (left, right)]
+        corners = [solid.bounds for solid in (left, right)]
+        low, high = ([pick(axis) for axis in zip(*(corner[n] for corner in corners))] for n, pick in ((0, min), (1, max)))
+        mixed = (1 - share) * places[0].distance + share * places[1].distance
+        material = ombre.mix(ombre.composition_of(left), ombre.composition_of(right), share)
+        whole: ombre.Solid = ombre.function(mixed, material, min=low, max=high)
+        names = [node.attribute_list() for node in super()._inputs()]
+        for name in sorted({*names[0], *names[1]} - {"volume_fractions"}):
+            whole = self._with_mixed(whole, name, [solid for solid, own in zip((left, right), names) if name in own],
+                                     share, places)
+        return whole
+
+    @staticmethod
+    def _with_mixed(whole: ombre.Solid, name: str, solids: list[ombre.Solid], share: Any, places: Any) -> ombre.Solid:
+        numbers = [numbers_of(solid, name) for solid in solids]
+        if len(numbers) == 2:
+            in_left, in_right = places[0].inside > 0.5, places[1].inside > 0.5
+            values = [ombre.formula(ombre.where(in_left & in_right, (1 - share) * a + share * b,
+                                                ombre.where(in_left, a, b))).value for a, b in zip(*numbers)]
+        else:
+            values = numbers[0]
+        if len(values) == 1:
+            return ombre.attribute(whole, name, values[0])
+        return ombre.attribute(whole, name, values, type="colour" if len(values) == 4 else "vector")
+
+
+def mix(left: Any, right: Any, weight: Any = None, region: Any = None, half_width: float | None = None) -> Mix:
+    """A body between two: mix(left, right, weight), 0 for the left and 1 for the right one.
+
+    Or mix(left, right, region=node, half_width=2): the left one inside of the region and the right one outside, with a
+    band of half_width mm to both sides of its surface.
+    """
+    if (weight is None) == (region is None):
+        raise TypeError("mix: expected either a weight, or a region and a half_width")
+    if region is None:
+        return Mix(as_node(left), as_node(right), weight)
+    if half_width is None:
+        raise TypeError("mix: a region needs the half_width of the band about its surface, mm")
+    return Mix(as_node(left), as_node(right), None, as_node(region), length(half_width))

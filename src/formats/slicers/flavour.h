@@ -1,0 +1,33 @@
+// The programs that 3MF files are written for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ombre::formats {
+
+// The target program of a 3MF file; slicers read the material of a region from their own files inside of it.
+enum class SlicerFlavour : uint8_t {
+  generic,  // any program: an object for each body, together one part, with the settings of PrusaSlicer and Bambu
+            // Studio
+  prusa,    // PrusaSlicer: a project of one object, whose bodies are ranges of its triangles
+  bambu,    // Bambu Studio: a project of one object, whose bodies are components
+  orca,     // OrcaSlicer: as for Bambu Studio
+};
+
+// Words for options, in the order of the enumeration, and the names of the programs.
+std::vector<std::string> flavour_words();
+std::string flavour_word(SlicerFlavour flavour);
+std::string_view program_of(SlicerFlavour flavour);
+
+inline bool is_project(SlicerFlavour flavour) { return flavour != SlicerFlavour::generic; }
+inline bool is_of_bambu(SlicerFlavour flavour) {
+  return flavour == SlicerFlavour::bambu || flavour == SlicerFlavour::orca;
+}
+
+// Number of filaments that a project can have, with mixtures.
+inline constexpr size_t most_filaments = 16;
+
+}  // namespace ombre::formats

@@ -1,0 +1,140 @@
+// Tests of the files that slicers read besides the mesh.
+#include <gtest/gtest.h>
+
+#include "base/text/json.h"
+#include "formats/mesh/test_documents.h"
+#include "formats/slicers/bambu_project.h"
+#include "formats/slicers/height_ranges.h"
+#include "formats/slicers/known_keys.h"
+#include "formats/slicers/painting.h"
+#include "formats/slicers/project_filaments.h"
+#include "formats/slicers/prusa_project.h"
+#include "formats/slicers/slicer_settings.h"
+
+namespace ombre::formats {
+namespace {
+
+using namespace test;
+
+// The codes are those that PrusaSlicer and Bambu Studio write for whole triangles.
+TEST(Painting, CodesOfWholeTriangles) {
+  EXPECT_EQ(paint_code(1), "4");
+  EXPECT_EQ(paint_code(2), "8");
+  EXPECT_EQ(paint_code(3), "0C");
+  EXPECT_EQ(paint_code(4), "1C");
+  EXPECT_EQ(paint_code(16), "DC");
+  for (uint32_t extruder = 1; extruder <= most_painted; ++extruder) {
+    const auto paint = read_paint(paint_code(extruder));
+    ASSERT_TRUE(paint);
+    EXPECT_EQ(paint->extruder, extruder);
+    EXPECT_FALSE(paint->is_divided);
+  }
+}
+
+TEST(Painting, DividedTrianglesHaveTheirLargestPart) {
+  EXPECT_TRUE(read_paint("841")->is_divided);
+  EXPECT_FALSE(read_paint("441")->is_divided);
+  // The fourth of these quarters is cut in two: its one half has extruder 1, all else extruder 2.
+  EXPECT_EQ(read_paint("8888413")->extruder, 2u);
+  EXPECT_EQ(read_paint("00EC")->extruder, 17u);
+  for (const char* wrong : {"", "1", "G", "C", "44"}) EXPECT_FALSE(read_paint(wrong)) << wrong;
+}
+
+TEST(Settings, HaveTheNamesOfTheirSlicer) {
+  EXPECT_EQ(key_in(SlicerFlavour::bambu, "infill_speed"), "sparse_infill_speed");
+  EXPECT_EQ(key_in(SlicerFlavour::orca, "fuzzy_skin_point_dist"), "fuzzy_skin_point_distance");
+  EXPECT_EQ(key_in(SlicerFlavour::bambu, "sparse_infill_density"), "sparse_infill_density");
+  EXPECT_EQ(key_in(SlicerFlavour::prusa, "sparse_infill_density"), "");
+  EXPECT_EQ(key_in(SlicerFlavour::orca, "gyroid_optimized"), "gyroid_optimized");
+  EXPECT_EQ(key_in(SlicerFlavour::bambu, "gyroid_optimized"), "");
+  EXPECT_EQ(key_in(SlicerFlavour::prusa, ""), "");
+  EXPECT_EQ(scope_of(SlicerFlavour::bambu, "layer_height"), KeyScope::object);
+  EXPECT_EQ(scope_of(SlicerFlavour::prusa, "fill_density"), KeyScope::body);
+  EXPECT_FALSE(scope_of(SlicerFlavour::prusa, "temperature"));
+  EXPECT_FALSE(scope_of(SlicerFlavour::prusa, "fill"));
+  ASSERT_TRUE(slicer_key_of("infill_density"));
+  EXPECT_EQ(slicer_key_of("infill_density")->prusa, "fill_density");
+  EXPECT_FALSE(slicer_key_of("modulus"));
+  EXPECT_FALSE(slicer_key_of(""));
+}
+
+// A key of the table that a program does not know would be lost.
+TEST(Settings, KnowTheKeysOfTheirTable) {
+  for (const SlicerKey& row : slicer_keys()) {
+    EXPECT_TRUE(row.prusa.empty() || scope_of(SlicerFlavour::prusa, row.prusa)) << row.prusa;
+    for (const SlicerFlavour flavour : {SlicerFlavour::bambu, SlicerFlavour::orca})
+      EXPECT_TRUE(row.bambu.empty() || scope_of(flavour, row.bambu)) << row.bambu;
+  }
+}
+
+TEST(Filaments, AreThoseOfTheBodies) {
+  MeshDocument document = pair();
+  EXPECT_EQ(project_filaments(document)[1].name, "clear blue");
+  document.bodies[1].settings = {{"extruder", "4"}};
+  const std::vector<Filament> filaments = project_filaments(document);
+  ASSERT_EQ(filaments.size(), 4u);
+  EXPECT_EQ(filaments[0].name, "red");
+  EXPECT_EQ(filaments[2].name, "filament 3");
+  EXPECT_EQ(filaments[3].name, "clear blue");
+}
+
+TEST(Filaments, TypesAreWordsOfNames) {
+  EXPECT_EQ(filament_type({"PETG black"}), "PETG");
+  EXPECT_EQ(filament_type({"soft TPU 85A"}), "TPU");
+  EXPECT_EQ(filament_type({"PAPER"}), "PLA");
+  EXPECT_EQ(filament_type({"red"}), "PLA");
+}
+
+MeshDocument mixed() {
+  MeshDocument document = pair();
+  document.project.filaments = {{"red", {255, 0, 0, 255}}, {"blue", {0, 0, 255, 255}}};
+  document.project.mixtures = {{"1 to 2", {85, 0, 170, 255}, {{1, 1}, {2, 2}}}};
+  return document;
+}
+
+Data parsed(const std::string& text) {
+  Diagnostics diagnostics;
+  return parse_json(make_source("json", text), diagnostics).value();
+}
+
+TEST(PrusaProject, HasAValueForEachFilament) {
+  const std::string text = prusa_project(mixed());
+  EXPECT_NE(text.find("; nozzle_diameter = 0.4,0.4\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("; filament_colour = #FF0000;#0000FF\n"), std::string::npos);
+  EXPECT_NE(text.find("; filament_settings_id = \"red\";\"blue\"\n"), std::string::npos);
+}
+
+TEST(PrusaProject, MixturesAreVirtualExtruders) {
+  const Data json = parsed(prusa_mixtures(mixed()));
+  EXPECT_EQ(*json.find("version")->number(), 1);
+  const Data& mixture = json.find("virtual_extruders")->list()->at(0);
+  EXPECT_EQ(*mixture.find("id")->number(), 3);
+  EXPECT_EQ(*mixture.find("kind")->string(), "fullspectrum");
+  EXPECT_EQ(*mixture.find("components")->list()->at(1).find("ratio")->number(), 2);
+}
+
+TEST(BambuProject, MixturesAreFilaments) {
+  const Data json = parsed(bambu_project(mixed(), SlicerFlavour::bambu));
+  const auto values = [&](const char* key) {
+    std::string all;
+    for (const Data& value : *json.find(key)->list()) all += *value.string() + '|';
+    return all;
+  };
+  EXPECT_EQ(values("filament_colour"), "#FF0000|#0000FF|#5500AA|");
+  EXPECT_EQ(values("filament_is_mixed"), "0|0|1|");
+  EXPECT_EQ(values("filament_mixed_components"), "||1,2|");
+  EXPECT_EQ(values("filament_mixed_sublayer_ratios"), "||0.3333,0.6667|");
+  EXPECT_FALSE(parsed(bambu_project(pair(), SlicerFlavour::bambu)).find("filament_is_mixed"));
+}
+
+TEST(HeightRanges, HaveTheWordsOfTheirSlicer) {
+  MeshDocument document = pair();
+  EXPECT_EQ(height_ranges(document, SlicerFlavour::prusa, 1), "");
+  document.project.ranges = {{0, 2.5, {{"fill_density", "10%"}, {"layer_height", "0.2"}}}};
+  const std::string text = height_ranges(document, SlicerFlavour::orca, 3);
+  EXPECT_NE(text.find("<object id=\"3\">\n<range min_z=\"0\" max_z=\"2.5\">"), std::string::npos) << text;
+  EXPECT_NE(text.find("<option opt_key=\"sparse_infill_density\">10%</option>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ombre::formats

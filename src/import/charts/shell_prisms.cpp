@@ -1,0 +1,178 @@
+#include "import/charts/shell_prisms.h"
+
+#include <cmath>
+
+#include "base/math/math.h"
+
+namespace ombre::importing {
+
+namespace {
+
+// Shares of the shell's height by which prisms reach beyond it, so that its border lies within.
+constexpr double beyond = 1e-3;
+constexpr double most_slabs = 16;
+
+Interval around(std::initializer_list<double> values) { return {std::min(values), std::max(values)}; }
+
+// Returns the least value of a quadratic polynomial in an interval.
+double least_of(const std::array<double, 3>& c, Interval t) {
+  const auto at = [&](double v) { return c[0] + v * (c[1] + v * c[2]); };
+  double least = std::min(at(t.lo), at(t.hi));
+  if (c[2] > 0) least = std::min(least, at(std::clamp(-c[1] / (2 * c[2]), t.lo, t.hi)));
+  return least;
+}
+double greatest_of(std::array<double, 3> c, Interval t) {
+  for (double& v : c) v = -v;
+  return -least_of(c, t);
+}
+
+using Intervals = std::array<Interval, 3>;
+
+Intervals moving(Vec3 from, Vec3 by, Interval t) {
+  Intervals all;
+  for (int n = 0; n < 3; ++n) all[static_cast<size_t>(n)] = around({from[n] + t.lo * by[n], from[n] + t.hi * by[n]});
+  return all;
+}
+Interval minus(Interval a, Interval b) { return math::subtract(a, b); }
+Intervals cross_of(const Intervals& a, const Intervals& b) {
+  using math::multiply;
+  return {minus(multiply(a[1], b[2]), multiply(a[2], b[1])), minus(multiply(a[2], b[0]), multiply(a[0], b[2])),
+          minus(multiply(a[0], b[1]), multiply(a[1], b[0]))};
+}
+
+}  // namespace
+
+Prism::Prism(const Shell& shell, const Corners& corners) {
+  const auto [a, b, c] = corners;
+  x0_ = shell.patch.points[a];
+  e1_ = shell.patch.points[b] - x0_;
+  e2_ = shell.patch.points[c] - x0_;
+  w0_ = shell.ways[a];
+  m1_ = shell.ways[b] - w0_;
+  m2_ = shell.ways[c] - w0_;
+  c0_ = cross(e1_, e2_);
+  c1_ = cross(e1_, m2_) + cross(m1_, e2_);
+  c2_ = cross(m1_, m2_);
+}
+
+Box Prism::box(Interval heights) const {
+  Box box;
+  for (const double t : {heights.lo, heights.hi})
+    for (const auto& [b, c] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(0.0, 1.0)}) {
+      const Vec3 p = point({b, c, t});
+      box = hull(box, Box{p, p});
+    }
+  return box;
+}
+
+// The point lies in the plane of the triangle at its height, which is a cubic equation. Between the heights it has one
+// root if the signs at both differ, as they do for points of the prism.
+bool Prism::find(Vec3 p, Interval heights, PrismPlace& place) const {
+  const Vec3 q = p - x0_;
+  const double a0 = dot(q, c0_), a1 = dot(q, c1_) - dot(w0_, c0_), a2 = dot(q, c2_) - dot(w0_, c1_),
+               a3 = -dot(w0_, c2_);
+  const auto at = [&](double t) { return a0 + t * (a1 + t * (a2 + t * a3)); };
+  double lo = heights.lo, hi = heights.hi;
+  if (at(lo) < 0 || at(hi) > 0) return false;
+  double t = std::clamp(a1 != 0 ? -a0 / a1 : lo, lo, hi);
+  constexpr int most_steps = 60;
+  for (int step = 0; step < most_steps; ++step) {
+    const double value = at(t), slope = a1 + t * (2 * a2 + 3 * t * a3);
+    (value > 0 ? lo : hi) = t;
+    double next = slope < 0 ? t - value / slope : 0.5 * (lo + hi);
+    if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
+    const bool is_last = std::abs(next - t) <= 1e-14 * (heights.hi - heights.lo);
+    t = next;
+    if (is_last) break;
+  }
+  const Vec3 e1 = edge(1, t), e2 = edge(2, t), n = cross(e1, e2), way = q - t * w0_;
+  const double squared = dot(n, n);
+  place = {dot(cross(way, e2), n) / squared, dot(cross(e1, way), n) / squared, t};
+  return true;
+}
+
+PrismPlace Prism::nearest(Vec3 p) const {
+  const Vec3 q = p - x0_;
+  const double squared = dot(c0_, c0_);
+  double b = dot(cross(q, e2_), c0_) / squared, c = dot(cross(e1_, q), c0_) / squared;
+  if (std::min({b, c, 1 - b - c}) < 0) {
+    // The nearest point lies on one of the edges.
+    const auto along = [&](Vec3 from, Vec3 way) { return std::clamp(dot(q - from, way) / dot(way, way), 0.0, 1.0); };
+    const double first = along({}, e1_), second = along({}, e2_), third = along(e1_, e2_ - e1_);
+    double best = Box::inf;
+    for (const auto& [x, y] : {std::pair(first, 0.0), std::pair(0.0, second), std::pair(1 - third, third)}) {
+      const Vec3 off = q - x * e1_ - y * e2_;
+      if (dot(off, off) >= best) continue;
+      best = dot(off, off);
+      b = x;
+      c = y;
+    }
+  }
+  const Vec3 off = q - b * e1_ - c * e2_;
+  const double rise = dot(way({b, c, 0}), c0_);
+  return {b, c, rise > 0 ? dot(off, c0_) / rise : 0};
+}
+
+Interval Prism::heights_of(const Box& box) const {
+  const Vec3 middle = box.center(), half = 0.5 * box.size();
+  const double reach = std::abs(c0_.x) * half.x + std::abs(c0_.y) * half.y + std::abs(c0_.z) * half.z;
+  const double value = dot(middle - x0_, c0_), room = 1e-12 * (std::abs(value) + reach + length(c0_) * length(middle));
+  double least = Box::inf, most = 0;
+  for (int n = 0; n < 3; ++n) {
+    least = std::min(least, dot(corner_way(n), c0_));
+    most = std::max(most, dot(corner_way(n), c0_));
+  }
+  if (!(least > 0)) return Interval::everything();
+  const double lo = value - reach - room, hi = value + reach + room;
+  return {lo / (lo < 0 ? least : most), hi / (hi < 0 ? most : least)};
+}
+
+Prism::Slopes Prism::slopes(const PrismPlace& at) const {
+  const Vec3 e1 = edge(1, at.height), e2 = edge(2, at.height), n = cross(e1, e2), w = way(at);
+  const double inverse = 1 / dot(n, w);
+  return {inverse * cross(e2, w), inverse * cross(w, e1), inverse * n};
+}
+
+std::array<std::array<Interval, 3>, 3> Prism::slope_ranges(Interval heights) const {
+  const Intervals e1 = moving(e1_, m1_, heights), e2 = moving(e2_, m2_, heights);
+  Intervals w, n;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    w[a] = around({corner_way(0)[axis], corner_way(1)[axis], corner_way(2)[axis]});
+    const std::array<double, 3> normal{c0_[axis], c1_[axis], c2_[axis]};
+    n[a] = {least_of(normal, heights), greatest_of(normal, heights)};
+  }
+  Interval turn{Box::inf, -Box::inf};
+  for (int corner = 0; corner < 3; ++corner) {
+    turn.lo = std::min(turn.lo, least_of(turns(corner), heights));
+    turn.hi = std::max(turn.hi, greatest_of(turns(corner), heights));
+  }
+  std::array<Intervals, 3> all{cross_of(e2, w), cross_of(w, e1), n};
+  for (Intervals& three : all)
+    for (Interval& one : three) one = math::divide(one, turn);
+  return all;
+}
+
+Prisms::Prisms(const Shell& shell) {
+  const double room = beyond * (shell.heights.hi - shell.heights.lo);
+  heights_ = {shell.heights.lo - room, shell.heights.hi + room};
+  double areas = 0, ways = 0;
+  for (const Corners& corners : shell.patch.triangles) {
+    all_.emplace_back(shell, corners);
+    areas += 0.5 * length(all_.back().normal(0));
+    ways += length(all_.back().way({1.0 / 3, 1.0 / 3, 0}));
+  }
+  const double count = static_cast<double>(all_.size()), span = heights_.hi - heights_.lo;
+  const double width = std::sqrt(2 * areas / count), height = ways / count * span;
+  slabs_ = static_cast<uint32_t>(std::clamp(std::ceil(height / width), 1.0, most_slabs));
+  std::vector<Box> boxes;
+  for (const Prism& prism : all_)
+    for (uint32_t slab = 0; slab < slabs_; ++slab) {
+      const Box box = prism.box({heights_.lo + span * slab / slabs_, heights_.lo + span * (slab + 1) / slabs_});
+      mean_size_ += length(box.size()) / (count * slabs_);
+      boxes.push_back(box.expanded(1e-9 * length(box.size())));
+    }
+  tree_ = BoxTree(boxes);
+}
+
+}  // namespace ombre::importing

@@ -1,0 +1,279 @@
+// The space above a patch of a surface as a field source.
+#include <algorithm>
+#include <cmath>
+
+#include "base/math/math.h"
+#include "import/charts/shell.h"
+#include "import/charts/shell_prisms.h"
+#include "import/fields/triangle_distance.h"
+
+namespace ombre::importing {
+namespace {
+
+enum Channel { u_channel, v_channel, height_channel, first_slope, outside_channel = first_slope + 9, channel_count };
+
+constexpr std::array<std::string_view, channel_count> channel_names{
+    "u", "v", "height", "u_x", "u_y", "u_z", "v_x", "v_y", "v_z", "height_x", "height_y", "height_z", "outside"};
+
+constexpr double on_border = -1e-12;       // shares of a point on the border of a prism, with rounding
+constexpr double certainly_inside = 1e-7;  // least share at which no other prism holds a point
+constexpr uint32_t none = ~uint32_t{0};
+constexpr double least_outside = 1e-9;  // g where a point lies outside, at least
+constexpr size_t most_in_range = 64;    // triangles whose ranges are joined; more have the range of all
+
+Interval joined(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+
+class ShellSource final : public program::NamedSource {
+ public:
+  ShellSource(std::string name, Shell shell, Hash content)
+      : NamedSource(std::move(name), content), shell_(std::move(shell)), prisms_(shell_) {
+    std::vector<Box> boxes;
+    for (size_t n = 0; n < prisms_.count(); ++n) {
+      boxes.push_back(prisms_[n].box({0, 0}));
+      const Box box = prisms_[n].box(prisms_.heights());
+      bounds_ = hull(bounds_, box);
+    }
+    triangles_ = BoxTree(boxes);
+    for (const auto& [a, b, c] : shell_.patch.triangles) {
+      const auto& places = shell_.patch.places;
+      coordinates_.push_back({places[a], places[b] - places[a], places[c] - places[a]});
+    }
+    make_border();
+    make_ranges();
+  }
+
+  Box bounds() const override { return bounds_; }
+  int channel(std::string_view channel_name) const override {
+    const auto found = std::ranges::find(channel_names, channel_name);
+    return found == channel_names.end() ? -1 : static_cast<int>(found - channel_names.begin());
+  }
+  double ops_of_sample(int) const override { return 150; }
+
+  double sample(int channel, Vec3 p) const override {
+    uint32_t guess = none;
+    return value(channel, p, find(p, guess));
+  }
+  void sample_all(int channel, std::span<const Vec3> points, std::span<double> values) const override {
+    double* const where = values.data();
+    sample_channels({&channel, 1}, points, {&where, 1});
+  }
+  void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
+                       std::span<double* const> values) const override {
+    uint32_t guess = none;
+    const bool has_slopes = std::ranges::any_of(channels, is_slope);
+    for (size_t n = 0; n < points.size(); ++n) {
+      const Found found = find(points[n], guess);
+      const Prism::Slopes slopes = has_slopes ? slopes_at(found) : Prism::Slopes();
+      for (size_t c = 0; c < channels.size(); ++c) values[c][n] = value(channels[c], points[n], found, slopes);
+    }
+  }
+  Interval range(int channel, const Box& box) const override {
+    if (channel == outside_channel) return range_of_outside(box);
+    const Interval all = ranges_all_[static_cast<size_t>(channel)];
+    if (!box.is_bounded()) return all;
+    constexpr double largest = 6;  // in sizes of prisms; larger boxes meet too many
+    if (length(box.size()) > largest * prisms_.mean_size()) return all;
+    // Points in a prism lie in that of one of these triangles, and points outside are nearest to one of them.
+    const double reach = length(box.size()) * (1 + 1e-9);
+    const Vec3 middle = box.center();
+    const double least = triangles_.nearest(middle, Box::inf, 0, [&](uint32_t n) { return distance_to(n, middle); });
+    std::vector<uint32_t> near;
+    const auto take = [&](uint32_t n) {
+      if (near.size() <= most_in_range && (near.empty() || near.back() != n)) near.push_back(n);
+    };
+    prisms_.each_near(box, take);
+    triangles_.each_that_meets(Box{middle, middle}.expanded((least + reach) * (1 + 1e-9)), take);
+    if (near.size() > most_in_range) return all;
+    Interval found{Box::inf, -Box::inf};
+    for (const uint32_t n : near) found = joined(found, range_in(channel, n, box));
+    return found.lo <= found.hi ? found : all;
+  }
+
+ private:
+  struct Found {
+    uint32_t prism = none;
+    PrismPlace place;
+    bool is_inside = false;
+  };
+
+  double distance_to(uint32_t n, Vec3 p) const {
+    const auto [a, b, c] = shell_.patch.triangles[n];
+    const auto& points = shell_.patch.points;
+    return std::sqrt(squared_distance(p, {points[a], points[b], points[c]}));
+  }
+
+  Found find(Vec3 p, uint32_t& guess) const {
+    if (!is_finite(p)) return {0, {}, false};
+    PrismPlace place;
+    if (guess != none && prisms_[guess].find(p, prisms_.heights(), place) && place.least_share() > certainly_inside)
+      return {guess, place, true};
+    Found found;
+    prisms_.each_near(Box{p, p}, [&](uint32_t n) {
+      if (n > found.prism || !prisms_[n].find(p, prisms_.heights(), place) || place.least_share() < on_border) return;
+      found = {n, place, true};
+    });
+    guess = found.prism;
+    if (found.is_inside) return found;
+    double best = Box::inf;
+    triangles_.nearest(p, Box::inf, 0, [&](uint32_t n) {
+      const double here = distance_to(n, p);
+      if (here < best || (here == best && n < found.prism)) {
+        best = here;
+        found.prism = n;
+      }
+      return here;
+    });
+    found.place = prisms_[found.prism].nearest(p);
+    return found;
+  }
+
+  double value(int channel, Vec3 p, const Found& found) const {
+    return value(channel, p, found, is_slope(channel) ? slopes_at(found) : Prism::Slopes());
+  }
+  static bool is_slope(int channel) { return channel >= first_slope && channel < outside_channel; }
+  Prism::Slopes slopes_at(const Found& found) const {
+    PrismPlace inner = found.place;
+    inner.height = std::clamp(inner.height, prisms_.heights().lo, prisms_.heights().hi);
+    return prisms_[found.prism].slopes(inner);
+  }
+  double value(int channel, Vec3 p, const Found& found, const Prism::Slopes& slopes) const {
+    if (channel == outside_channel) return outside(p, found);
+    if (channel == height_channel) return limited(found.place.height);
+    const auto& [places, first, second] = coordinates_[found.prism];
+    const PrismPlace& at = found.place;
+    if (channel == u_channel) return places.x + at.second * first.x + at.third * second.x;
+    if (channel == v_channel) return places.y + at.second * first.y + at.third * second.y;
+    const int axis = (channel - first_slope) % 3;
+    switch ((channel - first_slope) / 3) {
+      case 0:
+        return first.x * slopes.second[axis] + second.x * slopes.third[axis];
+      case 1:
+        return first.y * slopes.second[axis] + second.y * slopes.third[axis];
+      default:
+        return slopes.height[axis];
+    }
+  }
+  // Heights far outside have no meaning, but a bound.
+  double limited(double height) const {
+    const double span = shell_.heights.hi - shell_.heights.lo;
+    return std::clamp(height, shell_.heights.lo - span, shell_.heights.hi + span);
+  }
+
+  // Beside the shell, the distance from its side is measured at the height of the point.
+  double outside(Vec3 p, const Found& found) const {
+    const double scale = length(prisms_[found.prism].way(found.place)), t = found.place.height;
+    const Interval heights = shell_.heights;
+    const double ends = scale * std::max(heights.lo - t, t - heights.hi);
+    const double level = std::clamp(t, heights.lo, heights.hi);
+    if (found.is_inside && ends >= 0) return ends;
+    // Inside, the side counts where it is nearer than the ends.
+    const double reach = found.is_inside ? -ends : Box::inf;
+    if (found.is_inside && from_border_[found.prism] >= reach) return ends;
+    const double side = border_tree_.nearest(p, reach, 0, [&](uint32_t n) {
+      const Vec3 a = shell_.at(border_[n][0], level), b = shell_.at(border_[n][1], level);
+      return std::sqrt(squared_distance_to_segment(p, a, b));
+    });
+    return found.is_inside ? std::max(ends, -side) : std::max({ends, side, least_outside});
+  }
+
+  void make_border() {
+    border_ = border_of(shell_.patch.triangles);
+    remove_seams(shell_.patch.points, border_);
+    std::vector<Box> boxes;
+    for (const auto& edge : border_) {
+      Box box;
+      for (const uint32_t point : edge)
+        for (const double t : {shell_.heights.lo, shell_.heights.hi})
+          box = hull(box, Box{shell_.at(point, t), shell_.at(point, t)});
+      boxes.push_back(box.expanded(1e-9 * length(box.size())));
+    }
+    border_tree_ = BoxTree(boxes);
+    for (size_t n = 0; n < prisms_.count(); ++n) {
+      const Box box = prisms_[n].box(prisms_.heights());
+      const double middle = border_tree_.nearest(box.center(), Box::inf, 0, [&](uint32_t edge) {
+        return std::sqrt(ombre::squared_distance(box.center(), boxes[edge]));
+      });
+      from_border_.push_back(middle * (1 - 1e-9) - 0.5 * length(box.size()));
+    }
+    for (const Vec3& way : shell_.ways) longest_way_ = std::max(longest_way_, length(way));
+  }
+
+  void make_ranges() {
+    constexpr int tested = 5;
+    const Interval heights = prisms_.heights();
+    double steepest = 0;
+    for (uint32_t n = 0; n < prisms_.count(); ++n) {
+      const auto shares = prisms_[n].slope_ranges(heights);
+      const auto& [place, first, second] = coordinates_[n];
+      std::array<Interval, 9> own;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const auto mixed = [&](double a, double b) {
+          return math::add(math::multiply(a, shares[0][axis]), math::multiply(b, shares[1][axis]));
+        };
+        own[axis] = mixed(first.x, second.x);
+        own[3 + axis] = mixed(first.y, second.y);
+        own[6 + axis] = shares[2][axis];
+      }
+      slope_ranges_.push_back(own);
+      for (int step = 0; step < tested; ++step) {
+        const double t = heights.lo + (heights.hi - heights.lo) * step / (tested - 1);
+        for (const PrismPlace& at : {PrismPlace{0, 0, t}, {1, 0, t}, {0, 1, t}})
+          steepest = std::max(steepest, length(prisms_[n].slopes(at).height));
+      }
+    }
+    constexpr double more = 1.5;  // allows for places between the tested ones
+    lipschitz_ = more * (1 + longest_way_ * steepest);
+    ranges_all_.fill({Box::inf, -Box::inf});
+    for (uint32_t n = 0; n < prisms_.count(); ++n)
+      for (int c = 0; c < outside_channel; ++c)
+        ranges_all_[static_cast<size_t>(c)] =
+            joined(ranges_all_[static_cast<size_t>(c)], range_in(c, n, Box::everything()));
+  }
+
+  // Returns the range of a channel over the places of a triangle.
+  Interval range_in(int channel, uint32_t n, const Box& box) const {
+    constexpr double room = 1e-9;
+    if (channel >= first_slope) {
+      const Interval range = slope_ranges_[n][static_cast<size_t>(channel - first_slope)];
+      const double more = room * (std::abs(range.lo) + std::abs(range.hi));
+      return {range.lo - more, range.hi + more};
+    }
+    if (channel == height_channel) {
+      const Interval found = box.is_bounded() ? prisms_[n].heights_of(box) : Interval::everything();
+      return {limited(found.lo) - room, limited(found.hi) + room};
+    }
+    const auto& [place, first, second] = coordinates_[n];
+    const auto part = [&](Vec2 v) { return channel == u_channel ? v.x : v.y; };
+    const double a = part(place), b = part(place + first), c = part(place + second);
+    const double more = room * (1 + std::abs(a) + std::abs(b) + std::abs(c));
+    return {std::min({a, b, c}) - more, std::max({a, b, c}) + more};
+  }
+
+  Interval range_of_outside(const Box& box) const {
+    if (!box.is_bounded()) return Interval::everything();
+    if (!prisms_.meets_any(box)) return {least_outside, Box::inf};
+    // Inside, g changes by at most a known amount for each mm until it reaches 0.
+    const double value = sample(outside_channel, box.center()), by = lipschitz_ * 0.5 * length(box.size());
+    if (value + by < 0) return {value - by, value + by};
+    return Interval::everything();
+  }
+
+  Shell shell_;
+  Prisms prisms_;
+  Box bounds_;
+  BoxTree triangles_, border_tree_;
+  std::vector<std::array<uint32_t, 2>> border_;
+  std::vector<double> from_border_;  // by prism: all its points are at least so far from the border, mm
+  double longest_way_ = 0, lipschitz_ = 1;
+  std::vector<std::array<Vec2, 3>> coordinates_;  // by triangle: the place of its first corner, the ways to the others
+  std::vector<std::array<Interval, 9>> slope_ranges_;
+  std::array<Interval, outside_channel> ranges_all_;
+};
+
+}  // namespace
+
+program::SourceField make_shell_source(const std::string& name, Shell shell, Hash content) {
+  return std::make_shared<ShellSource>(name, std::move(shell), content);
+}
+
+}  // namespace ombre::importing

@@ -1,0 +1,18 @@
+#include "jobs/common/calibration_options.h"
+
+#include "load/find_calibration.h"
+
+namespace ombre::compile {
+
+bool CalibrationOptions::apply(PlanOptions& plan, const std::string& materials, Diagnostics& diagnostics) const {
+  CalibrationNames names{calibrations, plan.printer.calibrations};
+  if (names.chosen.empty()) {
+    const auto of_materials = calibrations_of_materials(materials, diagnostics);
+    if (!of_materials) return false;
+    names.listed.insert(names.listed.end(), of_materials->begin(), of_materials->end());
+  }
+  plan.resolving = Resolving{std::move(names), out_of_reach == OutOfReachRule::nearest};
+  return true;
+}
+
+}  // namespace ombre::compile

@@ -1,0 +1,32 @@
+// Bodies for slicers: their settings, and the filaments of the project.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/mesh/mesh_document.h"
+#include "jobs/common/events.h"
+#include "jobs/mesh/mesh_choices.h"
+#include "jobs/mesh/slicer_setting.h"
+#include "load/loaded.h"
+
+namespace ombre::jobs {
+
+// Returns the document of the bodies, which it empties, without the project's filaments. Throws WrongArgument for
+// settings that do not fit the bodies.
+formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
+                                  const compile::MeshChoices& choices, const std::vector<SlicerSetting>& settings);
+
+// Warns of attributes of bands that are no settings of bodies in the slicer.
+void tell_lost_attributes(const Events& events, const compile::MeshedDesign& made, const compile::MeshChoices& choices);
+
+// Gives a project whose bodies all have the first filament that one, with the names of the materials inside; says so if
+// there are several.
+void name_only_filament(const compile::Loaded& loaded, const Events& events, Diagnostics& diagnostics,
+                        formats::MeshDocument& document);
+
+// Warns of bands of a mixture that a slicer would print alike, since they have one filament and the same settings.
+void tell_equal_bands(const Events& events, const compile::MeshedDesign& made, const compile::MeshChoices& choices,
+                      const formats::MeshDocument& document);
+
+}  // namespace ombre::jobs

@@ -1,0 +1,25 @@
+// Resolves the properties of a design for a job.
+#pragma once
+
+#include <optional>
+
+#include "jobs/common/plan_options.h"
+#include "load/resolved.h"
+#include "voxel/lattice.h"
+
+namespace ombre::compile {
+
+// Returns the design with what the job needs: fractions of materials, or the attribute that its layers show. It is the
+// design itself, without steps, if nothing is to be resolved. Returns nothing, and adds diagnostics, if it cannot be,
+// or if calibrations were chosen that have nothing to do.
+std::optional<Resolution> resolve_for_job(const LoadedPtr& loaded, const PlanOptions& options,
+                                          Diagnostics& diagnostics);
+
+// Adds an error for each step whose attribute, unless it is a colour, has values at voxels of the job that it does not
+// reach. `resolved` is the
+// resolved design on the job's lattice; its stages must be prepared. Throws Cancelled.
+void report_out_of_reach(const design::Design& resolved, const voxel::Lattice& lattice,
+                         const std::vector<ResolvedStep>& steps, const PlanOptions& options, const SourceRange& where,
+                         Diagnostics& diagnostics);
+
+}  // namespace ombre::compile

@@ -1,0 +1,178 @@
+// Struts and walls of the Voronoi cells of points, and of Delaunay's tetrahedra between points.
+#include <numbers>
+#include <optional>
+
+#include "base/math/point_sets.h"
+#include "base/system/assert.h"
+#include "design/source_loader.h"
+#include "design/spec.h"
+#include "nodes/common/child_distance.h"
+#include "nodes/common/made_fields.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+enum class Between : uint8_t { voronoi, delaunay };
+
+bool load_distances(PathRequest request, program::SourceField& source, const Reader& reader) {
+  if (!reader.loader) return reader.refuse("distances to points cannot be made here");
+  source = reader.loader->source(request, reader);
+  return source != nullptr;
+}
+
+Field distance_from(const program::SourceField& source, const program::Point& p) {
+  const int channel = source->channel("distance");
+  ASSERT(channel >= 0);
+  return p.builder().source(source, channel, p.x, p.y, p.z);
+}
+
+bool refuse_points(const Reader& reader, const std::string& problem) {
+  return reader.refuse("points of " + std::string(reader.node) + ": " + problem);
+}
+
+// Returns false and adds an error if there is no region although the lattice is closed at its surface. Warns if the
+// region has no distances.
+bool check_region(const Reader& reader, const SolidName& region, bool is_closed) {
+  if (region.node) warn_of_implicit_distance(reader, *region.node, std::string(reader.node));
+  return region.node || !is_closed ||
+         reader.refuse(std::string(reader.node) + " has no region at which it could be closed",
+                       "write for example " + spelled::parameter("region", "sphere(10)"));
+}
+
+bool load_walls(Between kind, const Points& points, program::SourceField& source, const Reader& reader) {
+  if (kind == Between::voronoi) {
+    if (points.at.size() < 2) return refuse_points(reader, "there must be at least 2, for walls between them");
+    return load_distances({points.at, PathKind::cells}, source, reader);
+  }
+  const auto faces = delaunay_faces(points.at);
+  if (!faces.problem.empty()) return refuse_points(reader, faces.problem);
+  std::vector<Vec3> corners;
+  for (const auto& face : faces.list) corners.insert(corners.end(), face.begin(), face.end());
+  return load_distances({std::move(corners), PathKind::triples}, source, reader);
+}
+
+constexpr std::string_view points_doc = "The points, for example of scattered_points";
+constexpr std::string_view region_doc = "The solid that is filled, at whose surface they are cut off";
+
+template <Between kind>
+struct PointStruts {
+  Points points;
+  Number radius = 0.5;
+  SolidName region;
+  bool closed = false;
+  MaterialName material;
+  program::SourceField struts, walls;  // made with the node; walls only if closed
+
+  static Spec<PointStruts> spec() {
+    constexpr bool is_voronoi = kind == Between::voronoi;
+    return {
+        is_voronoi ? "voronoi_struts" : "delaunay_struts",
+        is_voronoi ? "An open foam: struts along the edges of the Voronoi cells of points, with round joints."
+                   : "Struts from point to point along the edges of Delaunay's tetrahedra, with round joints.",
+        {{"points", &PointStruts::points, points_doc, required(unit::points)},
+         {"radius", &PointStruts::radius, "Radius of the struts", unit::positive_mm},
+         {"region", &PointStruts::region, region_doc},
+         {"closed", &PointStruts::closed,
+          "Adds struts along the lines in which walls between cells meet the surface of the region; as thick as the "
+          "others where these meet it at right angles"},
+         {"material", &PointStruts::material, "Their material"}},
+        no_inputs,
+        is_voronoi ? "voronoi_struts(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
+                     "closed=true, material=\"red\");"
+                   : "delaunay_struts(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");"};
+  }
+
+  bool makes_nothing() const { return points.at.empty(); }
+
+  bool complete(const Reader& reader) {
+    if (!check_region(reader, region, closed)) return false;
+    const OfPoints<Edge3> edges = edges_here();
+    if (!edges.problem.empty()) return refuse_points(reader, edges.problem);
+    if (edges.list.empty()) return refuse_points(reader, "there are no edges between cells here");
+    std::vector<Vec3> ends;
+    for (const Edge3& edge : edges.list) ends.insert(ends.end(), edge.begin(), edge.end());
+    if (!load_distances({std::move(ends), PathKind::pairs}, struts, reader)) return false;
+    return !closed || load_walls(kind, points, walls, reader);
+  }
+
+  Metric metric() const { return region.node ? weaker(Metric::bounded(), region.node->metric()) : Metric::bounded(); }
+  Box reach(const Inputs&, const Box& where, double margin) const {
+    const Box own = closed ? where : struts->bounds().expanded(radius.range(where).hi + margin);
+    return region.node ? intersect(own, box_of(region, where, margin)) : own;
+  }
+
+  Field distance(const Inputs& in, const program::Point& p) const {
+    const Field r = radius(p), inner = distance_from(struts, p) - r;
+    if (!region.node) return inner;
+    const Field outside = in.distance_to(region, p);
+    if (!closed) return max(outside, inner);
+    // The distance from the line changes by at most sqrt(2) mm for each mm.
+    const Field rim = (length(outside, distance_from(walls, p)) - r) / std::numbers::sqrt2;
+    return max(outside, min(inner, rim));
+  }
+
+ private:
+  OfPoints<Edge3> edges_here() const {
+    if constexpr (kind == Between::delaunay) return delaunay_edges(points.at);
+    if (!region.node) return voronoi_edges(points.at, std::nullopt);
+    const Box box = box_of(region, design_space());
+    return voronoi_edges(points.at, box.expanded(radius.range(box).hi));
+  }
+};
+
+template <Between kind>
+struct PointWalls {
+  Points points;
+  Number thickness = 0.5;
+  SolidName region;
+  bool closed = false;
+  MaterialName material;
+  program::SourceField walls;  // made with the node
+
+  static Spec<PointWalls> spec() {
+    constexpr bool is_voronoi = kind == Between::voronoi;
+    return {is_voronoi ? "voronoi_walls" : "delaunay_walls",
+            is_voronoi ? "A closed foam: walls between the Voronoi cells of points."
+                       : "Walls along the faces of Delaunay's tetrahedra between points.",
+            {{"points", &PointWalls::points, points_doc, required(unit::points)},
+             {"thickness", &PointWalls::thickness, "Thickness of the walls", unit::positive_mm},
+             {"region", &PointWalls::region, region_doc},
+             {"closed", &PointWalls::closed, "Adds a skin of the same thickness inside the surface of the region"},
+             {"material", &PointWalls::material, "Their material"}},
+            no_inputs,
+            is_voronoi ? "voronoi_walls(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
+                         "material=\"red\");"
+                       : "delaunay_walls(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");"};
+  }
+
+  bool makes_nothing() const { return points.at.empty(); }
+
+  bool complete(const Reader& reader) {
+    if (!check_region(reader, region, closed)) return false;
+    return load_walls(kind, points, walls, reader);
+  }
+
+  Metric metric() const { return weaker(Metric::bounded(), region.node ? region.node->metric() : Metric::exact()); }
+  Box reach(const Inputs&, const Box& where, double margin) const {
+    const Box own = closed ? where : walls->bounds().expanded(thickness.range(where).hi / 2 + margin);
+    return region.node ? intersect(own, box_of(region, where, margin)) : own;
+  }
+
+  Field distance(const Inputs& in, const program::Point& p) const {
+    const Field t = thickness(p), inner = distance_from(walls, p) - t * 0.5;
+    if (!region.node) return inner;
+    const Field outside = in.distance_to(region, p);
+    return closed ? max(outside, min(inner, -outside - t)) : max(outside, inner);
+  }
+};
+
+}  // namespace
+
+void add_point_lattices(Registry& registry) {
+  registry.add<PointStruts<Between::voronoi>, PointWalls<Between::voronoi>, PointStruts<Between::delaunay>,
+               PointWalls<Between::delaunay>>("lattices");
+}
+
+}  // namespace ombre::nodes

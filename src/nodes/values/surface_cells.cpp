@@ -1,0 +1,169 @@
+// Maps of cells on surfaces.
+#include "base/system/assert.h"
+#include "base/text/text.h"
+#include "design/source_loader.h"
+#include "nodes/common/parameter_checks.h"
+#include "nodes/values/cell_counts.h"
+#include "nodes/values/cell_outputs.h"
+#include "nodes/values/whole_cells.h"
+
+namespace ombre::nodes {
+namespace {
+
+using namespace design;
+
+struct SurfaceCells : CellOutputs<SurfaceCells> {
+  FilePath path;
+  std::optional<FilePath> to;
+  std::optional<Vec3> size;
+  std::optional<Counts3> count;
+  double height = 5, standoff = 0;
+  Choice side = "outside", method = "lscm";
+  std::string kind;
+  Choice trim = "border";
+  double least_area = 0, most_area = 0;
+  std::optional<Vec3> at, min, max, normal;
+  double angle = 180, within = 60, tolerance = 0.05;
+  Vec3 toward{1, 0, 0};
+  std::shared_ptr<const SurfaceSpace> space;  // made with the node
+  program::SourceField whole;                 // made with the node; null unless only whole cells are kept
+
+  static Spec<SurfaceCells> spec() {
+    std::vector<OutputSpec<SurfaceCells>> all = outputs();
+    all.emplace_back("report", &SurfaceCells::report, "Extents, stretches and volumes of cells, as text");
+    return {
+        "surface_cells",
+        "A map of cells on a part of a mesh, which is laid out in a plane, or on a face of a CAD file: u and v run "
+        "along "
+        "the surface, w away from it, or to another surface.",
+        {{"path", &SurfaceCells::path, "A file with a mesh, or a CAD file", required()},
+         {"size", &SurfaceCells::size, cell_size_doc, unit::positive_mm},
+         {"count", &SurfaceCells::count, cell_count_doc, whole_from_one()},
+         {"height", &SurfaceCells::height, "Height of all cells above one another", unit::positive_mm},
+         {"standoff", &SurfaceCells::standoff, "Distance of the lowest cells from the surface", unit::not_negative_mm},
+         {"side", &SurfaceCells::side, "Side of the surface", one_of({"outside", "inside"})},
+         {"to", &SurfaceCells::to,
+          "Another mesh or CAD file: cells reach from the surface up to it, along the normal; height and standoff do "
+          "not "
+          "count"},
+         {"trim", &SurfaceCells::trim, "border: the border of the part cuts cells; cells: only whole cells are kept",
+          one_of({"border", "cells"})},
+         {"at", &SurfaceCells::at,
+          "Takes what is linked to the triangle nearest to this point, or the nearest face of a CAD file",
+          unit::points},
+         {"angle", &SurfaceCells::angle, "Greatest bend between triangles that are linked", from_to(0, 180, "deg")},
+         {"min", &SurfaceCells::min, "Least corner of a box that the centres of triangles or faces lie in", unit::mm},
+         {"max", &SurfaceCells::max, "Greatest corner of that box", unit::mm},
+         {"normal", &SurfaceCells::normal, "Takes triangles or faces that face this direction"},
+         {"within", &SurfaceCells::within, "Greatest angle from that direction", from_to(0, 180, "deg")},
+         {"kind", &SurfaceCells::kind,
+          "Kind of the faces of a CAD file that are taken: plane, cylinder, cone, sphere, torus, bspline, ..."},
+         {"least_area", &SurfaceCells::least_area, "Least area of the faces of a CAD file that are taken",
+          not_negative("mm^2")},
+         {"most_area", &SurfaceCells::most_area, "Greatest area of the faces of a CAD file that are taken; 0: any",
+          not_negative("mm^2")},
+         {"toward", &SurfaceCells::toward,
+          "Direction in which u runs, as far as possible; a single face of a CAD file keeps its own u"},
+         {"method", &SurfaceCells::method,
+          "lscm keeps angles as far as possible, arap lengths; authalic fills a circle",
+          one_of({"lscm", "arap", "authalic"})},
+         {"tolerance", &SurfaceCells::tolerance,
+          "Greatest distance of the highest cells from the other surface, and of triangles from a CAD file's faces",
+          unit::positive_mm}},
+        no_inputs,
+        "tpms(\"gyroid\", map=surface_cells(\"models/insole.off\", (8, 8, 4), height=4, normal=(0, 0, 1)), "
+        "thickness=0.6, material=\"red\");",
+        std::move(all)};
+  }
+
+  bool complete(const Reader& reader) {
+    if (!reader.loader) return reader.refuse("meshes cannot be read here");
+    if (!is_box_or_none(reader, min, max)) return false;
+    if (normal && !(length(*normal) > 0))
+      return reader.refuse("normal of surface_cells has no length",
+                           "write for example " + spelled::parameter("normal", "(0, 0, 1)"));
+    SurfaceRequest request;
+    request.file = path;
+    if (to) request.to = *to;
+    request.at = at;
+    request.angle_deg = angle;
+    if (min) request.box = Box{*min, *max};
+    request.normal = normal;
+    request.within_deg = within;
+    request.kind = kind;
+    request.area_mm2 = {least_area, most_area > 0 ? most_area : std::numeric_limits<double>::infinity()};
+    request.method = method;
+    request.toward = toward;
+    request.standoff_mm = standoff;
+    request.height_mm = height;
+    request.is_inward = side == "inside";
+    request.tolerance_mm = tolerance;
+    space = reader.loader->source(request, reader);
+    path = request.file;
+    if (to) to = request.to;
+    if (!space) return false;
+    return find_counts(reader, {space->lengths.x, space->lengths.y, space->thickness_mm}, size, count, counts) &&
+           (trim == "border" || find_whole_cells(reader));
+  }
+
+  Slope cells_at(const Point& p) const {
+    return {read(p, "u") * scale(0), read(p, "v") * scale(1), (read(p, "height") - space->heights.lo) * scale(2)};
+  }
+  Slope slope(const Point& p, size_t n) const {
+    constexpr std::array names{"u_x", "u_y", "u_z", "v_x", "v_y", "v_z", "height_x", "height_y", "height_z"};
+    return {read(p, names[3 * n]) * scale(n), read(p, names[3 * n + 1]) * scale(n),
+            read(p, names[3 * n + 2]) * scale(n)};
+  }
+
+  Field outside(const Ask& ask) const {
+    const Field cut = read(ask.p, "outside");
+    if (!whole) return cut;
+    const Slope at = cells_at(ask.p);
+    const Field is_kept = ask.p.builder().source(whole, 0, at[0], at[1], ask.p.constant(0));
+    return select(is_kept, cut, program::max(cut, ask.p.constant(1)));
+  }
+  Box region_within(const Box&) const { return space->source->bounds(); }
+
+  std::string report() const {
+    const Vec2 lengths = space->lengths;
+    const double cell = space->lengths.x * space->lengths.y * (space->heights.hi - space->heights.lo) /
+                        (counts.x * counts.y * counts.z);
+    return format_rounded(lengths.x) + " x " + format_rounded(lengths.y) + " x " + format_rounded(space->thickness_mm) +
+           " mm, " + format_rounded(counts.x) + " x " + format_rounded(counts.y) + " x " + format_rounded(counts.z) +
+           " cells; lengths along the surface are stretched by " + range_text(space->stretches, 1) +
+           ", in one place by up to " + format_rounded(space->aspect) +
+           " times as much in one direction as in the other; volumes of cells are " + range_text(space->volumes, cell) +
+           " mm^3";
+  }
+
+ private:
+  bool find_whole_cells(const Reader& reader) {
+    if (counts.x * counts.y > most_whole_cells)
+      return reader.refuse("surface_cells has too many cells to look for whole ones", "make cells larger");
+    std::vector<CellLine> border;
+    for (const auto& [a, b] : space->border)
+      border.push_back({Vec2{a.x * scale(0), a.y * scale(1)}, Vec2{b.x * scale(0), b.y * scale(1)}});
+    whole = whole_cells(static_cast<size_t>(counts.x), static_cast<size_t>(counts.y), border);
+    return whole != nullptr ||
+           reader.refuse("no whole cell of surface_cells lies on the surface",
+                         "make cells smaller, or write " + spelled::parameter("trim", "\"border\""));
+  }
+  static std::string range_text(Interval range, double scale) {
+    return format_rounded(range.lo * scale) + " to " + format_rounded(range.hi * scale);
+  }
+  double scale(size_t n) const {
+    const double lengths[] = {space->lengths.x, space->lengths.y, space->heights.hi - space->heights.lo};
+    return counts[static_cast<int>(n)] / lengths[n];
+  }
+  Field read(const Point& p, const char* name) const {
+    const int channel = space->source->channel(name);
+    ASSERT(channel >= 0);
+    return p.builder().source(space->source, channel, p.x, p.y, p.z);
+  }
+};
+
+}  // namespace
+
+void add_surface_cells(Registry& registry) { registry.add<SurfaceCells>("cells"); }
+
+}  // namespace ombre::nodes

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""What `ombre characterise` says of parts and cells, against mathematics.
+
+    python3 tests/run_characterise.py build/dev/apps/ombre/ombre
+"""
+import csv
+import json
+import math
+
+import program
+from program import expect, near_share as near
+
+
+def run(folder, design, *arguments, status=0):
+    return folder.describe("characterise", design, *arguments, status=status)
+
+
+def characteristics(folder, design, *arguments):
+    return folder.described("characteristics", "characterise", design, *arguments)
+
+
+def balls_are_round(folder):
+    found = characteristics(folder, 'translate([1, 2, 3]) sphere(4, "red");', "--voxel", "0.25")
+    near(found["volume_mm3"], 4 / 3 * math.pi * 64, 1e-3, "the volume of a ball")
+    near(found["surface_mm2"], 4 * math.pi * 16, 2e-3, "the surface of a ball")
+    near(found["density"], math.pi / 6, 1e-3, "the share of a ball in its box")
+    near(found["sections"]["z"]["mean"], math.pi / 6, 0.01, "the mean section")
+    near(found["sections"]["x"]["greatest"], math.pi / 4, 0.01, "the greatest section")
+    expect((found["pieces"], found["euler_number"], found["genus"]) == (1, 1, 0), "the topology of a ball")
+    expect(all(abs(a - b) < 1e-6 for a, b in zip(found["centroid"], (1, 2, 3))), "the centroid")
+    near(found["surface_mm2"] / found["volume_mm3"], 3 / 4, 4e-3, "surface over volume")
+    # 4 V / A of what the ball leaves of its box.
+    near(found["hydraulic_diameter_mm"], 4 * (512 - 4 / 3 * math.pi * 64) / (64 * math.pi), 5e-3, "the hydraulic diameter")
+
+
+def handles_pieces_and_hollows_are_counted(folder):
+    ring = characteristics(folder, 'torus(6, 2, "red");', "--voxel", "0.4")
+    expect((ring["pieces"], ring["euler_number"], ring["genus"]) == (1, 0, 1), "the topology of a torus")
+    near(ring["volume_mm3"], 2 * math.pi ** 2 * 6 * 4, 2e-3, "the volume of a torus")
+    near(ring["surface_mm2"], 4 * math.pi ** 2 * 6 * 2, 2e-3, "the surface of a torus")
+    hollow = characteristics(folder, 'difference() { sphere(5, "red"); sphere(3, "red"); }', "--voxel", "0.4")
+    expect((hollow["pieces"], hollow["hollows"], hollow["euler_number"], hollow["genus"]) == (1, 1, 2, 0), "a hollow ball")
+    near(hollow["surface_mm2"], 4 * math.pi * (25 + 9), 3e-3, "both surfaces of a hollow ball")
+    two = characteristics(folder, 'translate([-4, 0, 0]) sphere(3, "red"); translate([4, 0, 0]) sphere(3, "red");', "--voxel", "0.5")
+    expect((two["pieces"], two["euler_number"], two["genus"]) == (2, 2, 0), "two balls")
+
+
+def borders_of_materials_have_an_area(folder):
+    design = 'translate([-2, 0, 0]) rectprism([4, 4, 6], "red"); translate([2, 0, 0]) rectprism([4, 4, 6], "blue");'
+    found = characteristics(folder, design, "--voxel", "0.5")
+    expect(len(found["interface_mm2"]) == 1, "one border")
+    near(next(iter(found["interface_mm2"].values()))["value"], 24, 1e-3, "the border of the halves")
+    near(found["surface_mm2"], 2 * (8 * 4 + 8 * 6 + 4 * 6), 1e-3, "the surface of both together")
+    near(found["material_mm3"]["red"]["value"], 96, 1e-3, "the volume of one")
+
+
+CELLS = "m = box_cells((6, 6, 6), min=(0, 0, 0), max=(6, 6, 6));\n"
+
+
+def cells_repeat(folder):
+    """The Euler characteristic of a gyroid in its cubic cell is -8 (Schroeder-Turk, Fogden, Hyde 2006); a wall about it has
+    that, too. Walls on the borders of cells are 1 corner, 3 edges and 3 faces in a cell that repeats: 1. Struts there: -2."""
+    def euler(solid):
+        return characteristics(folder, CELLS + solid, "--voxel", "0.2", "--periodic", "xyz")["euler_number"]
+    expect(euler('tpms("gyroid", map=m, thickness=0.9, material="red");') == -8, "a gyroid")
+    expect(euler('tpms("schwarz_p", map=m, thickness=0.9, material="red");') == -4, "Schwarz' P")
+    expect(euler('plates(m, "cubic", 1, "red");') == 1, "cubic plates")
+    expect(euler('lattice("cubic", radius=0.8, map=m, material="red");') == -2, "cubic struts")
+
+
+def walls_have_their_thickness(folder):
+    found = characteristics(folder, CELLS + 'plates(m, "cubic", 0.8, "red");', "--voxel", "0.1", "--periodic", "xyz")
+    near(found["density"], 1 - (1 - 0.8 / 6) ** 3, 1e-3, "the density of plates")
+    near(found["surface_mm2"], 6 * 5.2 ** 2, 2e-3, "the surface of the hollow")
+    near(found["wall"]["mm"], 0.8, 0.13, "the least wall")
+    expect(not found["gap"]["is_found"] and found["gap"]["mm"] <= 5.2, "no narrow gap")
+    expect(found["genus"] is None if "genus" in found else True, "no genus of cells that repeat")
+    slit = characteristics(folder, 'difference() { rectprism([8, 8, 4], "red"); rectprism([0.6, 6, 9], "red"); }', "--voxel", "0.1")
+    near(slit["gap"]["mm"], 0.6, 0.17, "the least gap")
+    expect(abs(slit["gap"]["place"][0]) <= 0.3 and slit["genus"] == 1, "the slit's place and handle")
+    frame = characteristics(folder, 'difference() { rectprism([8, 8, 4], "red"); rectprism([6, 6, 9], "red"); }', "--voxel", "0.1")
+    near(frame["wall"]["mm"], 1.0, 0.11, "the wall of a frame")
+
+
+def thin_struts_have_their_length(folder):
+    """Struts of an octet truss with the radius r have about pi r^2 times their length, 12 sqrt 2 cells, less the joints."""
+    found = characteristics(folder, CELLS + 'lattice("octet", radius=0.24, map=m, material="red");', "--voxel", "0.08",
+                            "--periodic", "xyz")
+    thin = math.pi * 0.04 ** 2 * 12 * 2 ** 0.5
+    expect(0.82 * thin < found["density"] < thin, f"the density of an octet truss is {found['density']}")
+    near(found["wall"]["mm"], 0.48, 0.2, "the thickness of struts")
+
+
+def stiffness_is_that_of_homogenise(folder):
+    study = ("--study", program.SOURCE / "examples" / "studies" / "polyjet.json")
+    lines = run(folder, 'rectprism([4, 4, 4], material="red");', "--voxel", "1", "--stiffness", *study, "--json").stdout
+    found = next(e for e in map(json.loads, lines.splitlines()) if e["event"] == "homogenised")
+    near(found["modulus_mpa"][0], 2850, 1e-6, "Young's modulus")
+
+
+def curves_are_tables(folder):
+    design = "wall = 0.5;\n" + CELLS + 'plates(m, "cubic", wall, "red");'
+    run(folder, design, "--voxel", "0.3", "--periodic", "xyz", "--sweep", "wall=0.6..1.8:4", "--key", "density", "-o", "curve.csv")
+    with open(folder.path / "curve.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for row, wall in zip(rows, (0.6, 1.0, 1.4, 1.8), strict=True):
+        near(float(row["wall"]), wall, 1e-9, "a value of the wall")
+        near(float(row["density"]), 1 - (1 - float(row["wall"]) / 6) ** 3, 2e-3, "the density of a row")
+    # The table gives the wall of a wanted density.
+    wanted = 1 - (1 - 1.4 / 6) ** 3
+    back = CELLS + f'plates(m, "cubic", table("curve.csv", {wanted}), "red");'
+    near(characteristics(folder, back, "--voxel", "0.3", "--periodic", "xyz")["density"], wanted, 2e-3, "the density that was wanted")
+
+
+def wrong_use_is_reported(folder):
+    def reported(design, *arguments, status=1):
+        return run(folder, design, *arguments, status=status).stderr
+    ball = 'sphere(2, "red");'
+    expect("thickness=0.2..1:9" in reported(ball, "--voxel", "0.5", "--sweep", "a=1:2", "-o", "a.csv"), "a wrong curve")
+    expect("xyz" in reported(ball, "--voxel", "0.5", "--periodic", "q"), "a wrong axis")
+    expect("at most 4096" in reported(ball, "--voxel", "0.00001"), "too many voxels")
+    expect("no voxel of the box is solid" in reported(ball, "--voxel", "0.5", "--box=8,8,8,9,9,9"), "nothing there")
+    expect("--sweep" in reported(ball, "--voxel", "0.5", "-o", "a.csv"), "a table without rows")
+    expect('no variable "wal"' in reported("wall = 2;\nsphere(wall);", "--voxel", "0.5", "--sweep", "wal=1..2:3", "-o", "a.csv"), "a misspelt variable")
+    expect('no column "dens"' in reported("wall = 2;\nsphere(wall);", "--voxel", "0.5", "--sweep", "wall=1..2:3", "--key", "dens", "-o", "a.csv"),
+           "a misspelt column")
+    expect("fewer than 5 voxels" in reported(CELLS + 'plates(m, "cubic", 1, "red");', "--voxel", "0.5", status=0), "large voxels")
+    expect("unbounded" in reported('tpms("gyroid", material="red");', "--voxel", "1"), "no box")
+
+
+CHECKS = [balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
+          walls_have_their_thickness, thin_struts_have_their_length, stiffness_is_that_of_homogenise, curves_are_tables,
+          wrong_use_is_reported]
+
+
+if __name__ == "__main__":
+    raise SystemExit(program.main(program.Folder, program.named(CHECKS)))

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""Designs that ask for properties become mixtures and settings, and what is out of reach is an error or the nearest.
+
+    python3 tests/run_resolve.py build/dev/apps/ombre/ombre [NAME...]
+"""
+import json
+import math
+
+import program
+from program import expect, near
+
+MATERIALS = program.SOURCE / "materials" / "j750.json"
+POLYJET = ["--materials", MATERIALS, "--printer", "j750"]
+STRAP = 'attribute("modulus", "10 + 100*(z + 5)") cube(10);\n'  # 10 to 1010 MPa
+BEYOND = 'attribute("modulus", "3000 + 100*z") cube(10);\n'     # 2500 to 3500 MPa
+SOFT, STIFF = 0.383, 2850  # MPa, of agilus-vero-modulus
+
+
+def share_of_stiff(modulus):
+    return math.log(modulus / SOFT) / math.log(STIFF / SOFT)
+
+
+def resolved(folder, *arguments, status=0):
+    return next(e for e in folder.events("resolve", *arguments, status=status) if e["event"] == "resolved")
+
+
+def slices_have_the_fractions(folder):
+    """The share of droplets is the mean of what the modulus asks for, over z."""
+    folder.write("strap.vcad", STRAP)
+    folder.run("slice", "strap.vcad", "--materials", MATERIALS, "--voxel", "0.2", "-o", "out")
+    job = json.loads(folder.read("out/job.json"))
+    step, = job["resolved"]
+    expect(step["from"] == ["modulus"] and step["to"] == "fractions", f"{step}")
+    expect(step["calibration"] == "agilus-vero-modulus" and "10.3390/ma16083014" in step["citation"], f"{step}")
+    near(step["reach"][0], SOFT, 1e-9, "the least modulus")
+    counts = {m["name"]: m["voxels"] for m in job["totals"]["materials"] if m["name"] != "void"}
+    steps = 1000
+    wanted = sum(share_of_stiff(10 + 1000 * (n + 0.5) / steps) for n in range(steps)) / steps
+    near(counts["VeroClear"] / sum(counts.values()), wanted, 0.005, "the share of VeroClear")
+
+
+def out_of_reach_is_refused(folder):
+    folder.write("beyond.vcad", BEYOND)
+    arguments = ["slice", "beyond.vcad", "--materials", MATERIALS, "--voxel", "0.5", "-o", "out"]
+    wrong = folder.run(*arguments, status=1).stderr
+    # z = -1.25 is within reach, z = -0.75 is not: 9 + 1 layers... of 20 from -1.5 + 0.5 / 2 on.
+    layers = sum(1 for n in range(20) if 3000 + 100 * (-5 + 0.5 * (n + 0.5)) > STIFF)
+    for words in (f"modulus is out of reach at {layers * 400:,} voxels", "3475 MPa at (-4.75, -4.75, 4.75) mm",
+                  "agilus-vero-modulus reaches is 2850 MPa", "--out-of-reach nearest"):
+        expect(words in wrong, f"{words!r} is not in {wrong}")
+    expect(not (folder.path / "out").exists(), "it wrote all the same")
+    folder.run(*arguments, "--out-of-reach", "nearest")
+
+
+def reports_of_intent(folder):
+    folder.write("strap.vcad", STRAP)
+    part, = resolved(folder, "strap.vcad", *POLYJET)["printers"]
+    row, = part["intent"]
+    expect(row["attribute"] == "modulus" and row["by"] == "agilus-vero-modulus", f"{row}")
+    near(row["requested"], 510, 1, "the mean modulus")
+    near(row["worst_miss"], 0, 1e-3, "the worst miss")
+    expect(row["share_out_of_reach"] == 0 and part["is_within_reach"], f"{row}")
+    folder.write("beyond.vcad", BEYOND)
+    part, = resolved(folder, "beyond.vcad", *POLYJET, "--report", "page.html", status=3)["printers"]
+    row, = part["intent"]
+    near(row["share_out_of_reach"], 0.65, 0.01, "the share out of reach")  # from z = -1.5 on
+    near(row["worst_miss"], STIFF - 3500, 10, "the worst miss")
+    near(row["worst_at_mm"][2], 5, 0.1, "its place")
+    near(row["mean_miss"], 0.65 * 325, 5, "the mean miss")  # from 0 to 650 over 65 % of the part
+    page = folder.read("page.html")
+    expect("out of reach at z" in page and "data:image/png" in page, "the page has no picture")
+    folder.run("resolve", "beyond.vcad", *POLYJET, "--out-of-reach", "nearest")
+
+
+def mixtures_of_ones_own_are_judged(folder):
+    """A design that names its materials is not resolved; the report says what its mixture is expected to give."""
+    folder.write("mixed.vcad", 'attribute("modulus", 100) fgrade([0.5, 0.5], [VeroClear, Agilus30Clr]) cube(10);')
+    part, = resolved(folder, "mixed.vcad", *POLYJET)["printers"]
+    expect(part["steps"] == [], f"{part}")
+    near(part["intent"][0]["given"], math.sqrt(SOFT * STIFF), 1e-6, "the modulus of half and half")
+    said = folder.run("slice", "mixed.vcad", *POLYJET, "--dry-run").stderr
+    expect("the design names materials, so modulus does not choose any" in said, said)
+    folder.write("other.vcad", 'attribute("modulus", 100) fgrade([0.5, 0.5], [VeroBlack, SUP706]) cube(10);')
+    part, = resolved(folder, "other.vcad", *POLYJET)["printers"]
+    expect("given" not in part["intent"][0], "it judges a mixture with a material that it does not know")
+    folder.write("giga.vcad", 'attribute("modulus", 1, unit="GPa") cube(10, "VeroBlack");')
+    part, = resolved(folder, "giga.vcad", *POLYJET)["printers"]
+    expect("given" not in part["intent"][0], "it compares values of different units")
+    folder.write("black.vcad", 'attribute("modulus", 100) cube(10, "VeroBlack");')
+    part, = resolved(folder, "black.vcad", *POLYJET)["printers"]
+    near(part["intent"][0]["given"], STIFF, 1e-6, "the modulus of another Vero")
+    wrong = folder.run("slice", "mixed.vcad", *POLYJET, "--calibration", "agilus-vero-modulus", "-o", "out", status=1)
+    expect("the design names its materials itself" in wrong.stderr, wrong.stderr)
+
+
+def processes_compare(folder):
+    folder.write("strap.vcad", STRAP.replace("cube", 'attribute("temperature", "238 + 3*x") cube'))
+    parts = resolved(folder, "strap.vcad", *POLYJET, "--printer", "fff-foaming-pla", "--printer", "generic")["printers"]
+    expect([p["printer"] for p in parts] == ["j750", "fff-foaming-pla", "generic"], f"{parts}")
+    expect([s["to"] for s in parts[0]["steps"]] == ["fractions"], f"{parts[0]}")
+    expect([s["to"] for s in parts[1]["steps"]] == ["flow_rate"], f"{parts[1]}")
+    rows = {row["attribute"]: row for row in parts[1]["intent"]}
+    expect(rows["temperature"]["mean_miss"] == 0, f"{rows}")
+    expect("given" not in rows["modulus"], "nothing predicts the modulus of a foam")
+    text = folder.run("resolve", "strap.vcad", *POLYJET, "--printer", "fff-foaming-pla").stdout
+    expect("modulus to fractions by agilus-vero-modulus" in text and "doi:10.3390/ma16083014" in text, text)
+
+
+def resolved_designs_are_designs(folder):
+    folder.write("hot.vcad", 'attribute("temperature", "238 + 3*x") cube(10);')
+    folder.run("resolve", "hot.vcad", "--printer", "fff-foaming-pla", "-o", "resolved.json")
+    point, = folder.events("probe", "resolved.json", "--at", "2,0,0")
+    near(point["attributes"]["flow_rate"], 1.42 + (1.42 - 0.66) / (220 - 256) * (244 - 220), 1e-9, "the flow")
+    folder.write("strap.vcad", STRAP)
+    folder.run("resolve", "strap.vcad", *POLYJET, "-o", "strap.json")
+    folder.run("slice", "strap.json", "--voxel", "0.5", "-o", "written")
+    folder.run("slice", "strap.vcad", "--materials", MATERIALS, "--voxel", "0.5", "-o", "direct")
+    for name in sorted(path.name for path in (folder.path / "direct").glob("*.png")):
+        one, other = (folder.path / out / name for out in ("written", "direct"))
+        expect(one.read_bytes() == other.read_bytes(), f"{name} differs")
+    folder.run("verify", "direct", "--design", "strap.json")
+    wrong = folder.run("slice", "hot.vcad", "--printer", "fff-foaming-pla", "-o", "out", status=1).stderr
+    expect("takes temperature and flow_rate, not layers of materials" in wrong, wrong)
+
+
+def values_are_resolved_too(folder):
+    """Layers that show an attribute which the design does not give itself."""
+    folder.write("hot.vcad", 'attribute("temperature", "238 + 3*x") cube(10);')
+    folder.run("layer", "hot.vcad", "--by", "flow_rate", "--calibration", "foaming-pla-flow", "--z", "0", "-o", "flow.png")
+
+
+def a_job_without_a_calibration_says_so(folder):
+    folder.write("strap.vcad", STRAP)
+    said = folder.run("slice", "strap.vcad", "--voxel", "0.5", "-o", "plain").stderr
+    expect("modulus does not choose materials, since the job has no calibration" in said, said)
+    folder.write("named.vcad", 'attribute("modulus", 5) cube(10, "blue");')
+    said = folder.run("slice", "named.vcad", "--voxel", "0.5", "-o", "named").stderr
+    expect("calibration" not in said, said)
+
+
+def wrong_words(folder):
+    folder.write("strap.vcad", STRAP)
+    folder.write("both.vcad", STRAP.replace("cube", 'attribute("density", 1.15) cube'))
+    folder.write("broken.json", {"name": "broken", "tittle": "t"})
+    for arguments, words in [
+            (["strap.vcad", *POLYJET, "--calibration", "agilus-vero-modulos"], 'did you mean "agilus-vero-modulus"?'),
+            (["strap.vcad", *POLYJET, "--calibration", "broken.json"], 'did you mean "title"?'),
+            (["strap.vcad", *POLYJET, "--calibration", "foaming-pla-flow"],
+             "the design gives modulus, and no calibration leads from there to fractions"),
+            (["both.vcad", *POLYJET],
+             "two chains of calibrations lead to fractions: modulus to fractions by agilus-vero-modulus; and density to "
+             "fractions by agilus-vero-density"),
+            (["strap.vcad", "--printer", "j750", "--calibration", "agilus-vero-modulus"],
+             "agilus-vero-modulus needs the material VeroClear or another one of its list, which the materials file lacks")]:
+        wrong = folder.run("resolve", *arguments, status=1).stderr
+        expect(words in " ".join(wrong.split()), f"{arguments}: {wrong}")
+
+
+CHECKS = program.named((slices_have_the_fractions, out_of_reach_is_refused, reports_of_intent,
+                        mixtures_of_ones_own_are_judged, processes_compare, resolved_designs_are_designs,
+                        values_are_resolved_too, a_job_without_a_calibration_says_so, wrong_words))
+
+if __name__ == "__main__":
+    raise SystemExit(program.main(program.Folder, CHECKS))
