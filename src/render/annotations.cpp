@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/math/round_numbers.h"
 #include "base/text/text.h"
 
 namespace ombre::render {
@@ -63,7 +64,7 @@ class Annotator {
   }
 
   void draw_scale_bar(const Camera& camera, double pixel_mm) {
-    const double length = round_length(bar_share * static_cast<double>(layout_.width) * pixel_mm);
+    const double length = math::greatest_round(bar_share * static_cast<double>(layout_.width) * pixel_mm);
     const double right = static_cast<double>(layout_.width) - unit_ * margin, left = right - length / pixel_mm;
     const double down = static_cast<double>(picture_.height) - unit_ * margin;
     const double thick = std::max(1.0, std::round(unit_ / 8));
@@ -151,16 +152,6 @@ class Annotator {
 };
 
 }  // namespace
-
-double round_length(double most_mm) {
-  constexpr double slack = 1 + 1e-9;
-  double power = 1;
-  while (power > most_mm * slack) power /= 10;
-  while (power * 10 <= most_mm * slack) power *= 10;
-  for (const double times : {5.0, 2.0})
-    if (times * power <= most_mm * slack) return times * power;
-  return power;
-}
 
 Layout lay_out(int64_t picture_width, int64_t picture_height, const Annotations& annotations, Pen& pen) {
   Layout layout{picture_width, picture_height, text_size(picture_height)};

@@ -44,9 +44,6 @@ struct Layout {
 };
 Layout lay_out(int64_t picture_width, int64_t picture_height, const Annotations& annotations, draw::Pen& pen);
 
-// Returns the longest of 1, 2, 5, 10, ... mm (or 0.5, 0.2, ...) that is at most this length.
-double round_length(double most_mm);
-
 // Draws annotations on a picture with a background. `pixel_mm` is the size of a pixel at the middle of the part, for
 // which the scale bar holds.
 void annotate(const draw::Canvas& picture, const Layout& layout, const Annotations& annotations, const Camera& camera,

@@ -1,15 +1,19 @@
 // Draws polar diagrams of a stiffness.
-#include <cmath>
+#include <algorithm>
+#include <array>
 
 #include "base/math/math.h"
-#include "base/text/text.h"
+#include "base/math/round_numbers.h"
 #include "fea/solve/homogenise.h"
+#include "formats/containers/svg_picture.h"
 
 namespace ombre::fea {
 namespace {
 
-constexpr double radius = 100, gap = 40, top = 50;  // lengths in the picture's units
+constexpr double radius = 100, gap = 40, top = 50;  // pixels
 constexpr int directions = 180, rings = 4;
+constexpr const char* thin = "fill=\"none\" stroke=\"#999\" stroke-width=\".5\"";
+constexpr const char* filled = "fill=\"#3b6fb6\" fill-opacity=\".3\" stroke=\"#3b6fb6\" stroke-width=\"1.5\"";
 
 struct ChartPlane {
   const char* name;
@@ -17,70 +21,60 @@ struct ChartPlane {
 };
 constexpr std::array<ChartPlane, 3> planes{{{"xy", 0, 1}, {"yz", 1, 2}, {"zx", 2, 0}}};
 
-std::string number(double value) { return format_rounded(value, 6); }
+struct Reach {
+  double right, up;  // the direction in the plane
+  double modulus;    // MPa
+};
 
-std::string text_at(double x, double y, const std::string& text, const char* anchor) {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text + "</text>\n";
-}
-
-// Returns the step between rings, the smallest of 1, 2 and 5 times a power of 10 with which the outermost ring
-// encloses the greatest value.
-double step_for(double greatest) {
-  if (!(greatest > 0)) return 1;
-  double power = 1;
-  while (power * rings > greatest) power /= 10;
-  while (10 * power * rings <= greatest) power *= 10;
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power * rings >= greatest) return factor * power;
-  return 10 * power;
-}
-
-std::string diagram(const Stiffness& stiffness, const ChartPlane& plane, double x, double step) {
-  const double y = top + radius;
-  const char* axes = "xyz";
-  std::string svg;
-  for (int n = 1; n <= rings; ++n)
-    svg += "<circle class=\"ring\" cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"" +
-           number(radius * n / rings) + "\"/>\n";
-  svg += "<path class=\"ring\" d=\"M" + number(x - radius) + " " + number(y) + "H" + number(x + radius) + "M" +
-         number(x) + " " + number(y - radius) + "V" + number(y + radius) + "\"/>\n<path class=\"modulus\" d=\"";
+std::vector<Reach> reaches_of(const Stiffness& stiffness, const ChartPlane& plane) {
+  std::vector<Reach> reaches;
   for (int n = 0; n < directions; ++n) {
     const double angle = 360.0 * n / directions * math::degree;
     Vec3 d;
     d[plane.first] = math::cos(angle);
     d[plane.second] = math::sin(angle);
-    const double reach = modulus_along(stiffness, d) / (step * rings) * radius;
-    svg += (n == 0 ? "M" : "L") + number(x + reach * math::cos(angle)) + " " + number(y - reach * math::sin(angle));
+    reaches.push_back({math::cos(angle), math::sin(angle), modulus_along(stiffness, d)});
   }
-  svg += "Z\"/>\n";
-  svg += text_at(x + radius + 4, y + 4, std::string(1, axes[plane.first]), "start");
-  svg += text_at(x, y - radius - 4, std::string(1, axes[plane.second]), "middle");
-  svg += text_at(x, y + radius + 18, std::string("plane ") + plane.name, "middle");
-  return svg;
+  return reaches;
+}
+
+void draw_plane(formats::SvgPicture& picture, const std::vector<Reach>& reaches, const ChartPlane& plane, double x,
+                double most) {
+  constexpr double y = top + radius;
+  for (int n = 1; n <= rings; ++n) picture.circle(x, y, radius * n / rings, thin);
+  picture.line(x - radius, y, x + radius, y, thin);
+  picture.line(x, y - radius, x, y + radius, thin);
+  formats::SvgPath path;
+  for (const Reach& reach : reaches) {
+    const double length = reach.modulus / most * radius;
+    path.to(x + length * reach.right, y - length * reach.up);
+  }
+  picture.path(path.closed(), filled);
+  constexpr std::string_view axes = "xyz";
+  picture.words(x + radius + 4, y + 4, "start", axes.substr(static_cast<size_t>(plane.first), 1));
+  picture.words(x, y - radius - 4, "middle", axes.substr(static_cast<size_t>(plane.second), 1));
+  picture.words(x, y + radius + 18, "middle", std::string("plane ") + plane.name);
 }
 
 }  // namespace
 
 std::string stiffness_chart(const Stiffness& stiffness, const std::string& title) {
+  std::array<std::vector<Reach>, planes.size()> reaches;
   double greatest = 0;
-  for (const ChartPlane& plane : planes)
-    for (int n = 0; n < directions; ++n) {
-      Vec3 d;
-      d[plane.first] = math::cos(360.0 * n / directions * math::degree);
-      d[plane.second] = math::sin(360.0 * n / directions * math::degree);
-      greatest = std::max(greatest, modulus_along(stiffness, d));
-    }
-  const double step = step_for(greatest), width = 3 * (2 * radius + gap) + gap, height = top + 2 * radius + 60;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width) + " " + number(height) +
-                    "\" font-family=\"sans-serif\" font-size=\"12\">\n"
-                    "<style>.ring{fill:none;stroke:#999;stroke-width:.5}.modulus{fill:#3b6fb6;fill-opacity:.3;"
-                    "stroke:#3b6fb6;stroke-width:1.5}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  svg += text_at(width / 2, 20, title, "middle");
+  for (size_t n = 0; n < planes.size(); ++n) {
+    reaches[n] = reaches_of(stiffness, planes[n]);
+    greatest = std::max(greatest, std::ranges::max(reaches[n], {}, &Reach::modulus).modulus);
+  }
+  const double step = greatest > 0 ? math::least_round(greatest / rings) : 1;
+  constexpr double width = 3 * (2 * radius + gap) + gap, height = top + 2 * radius + 60;
+  formats::SvgPicture picture(width, height);
+  picture.words(width / 2, 20, "middle", title);
   for (size_t n = 0; n < planes.size(); ++n)
-    svg += diagram(stiffness, planes[n], gap + radius + static_cast<double>(n) * (2 * radius + gap), step);
-  svg += text_at(width / 2, height - 12,
-                 "Young's modulus by direction; rings every " + format_rounded(step, 3) + " MPa", "middle");
-  return svg + "</svg>\n";
+    draw_plane(picture, reaches[n], planes[n], gap + radius + static_cast<double>(n) * (2 * radius + gap),
+               step * rings);
+  picture.words(width / 2, height - 12, "middle",
+                "Young's modulus by direction; rings every " + format_rounded(step, 3) + " MPa");
+  return picture.svg();
 }
 
 }  // namespace ombre::fea

@@ -42,7 +42,7 @@ std::optional<EngineeringConstants> constants_of(const Stiffness& stiffness);
 // Returns Young's modulus along a direction, MPa; 0 if no load is carried.
 double modulus_along(const Stiffness& stiffness, Vec3 direction);
 
-// Draws polar diagrams of Young's modulus in the planes xy, yz and zx, as an SVG picture. The title is XML.
+// Draws polar diagrams of Young's modulus in the planes xy, yz and zx, as an SVG picture.
 std::string stiffness_chart(const Stiffness& stiffness, const std::string& title);
 
 }  // namespace ombre::fea

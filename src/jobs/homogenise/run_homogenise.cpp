@@ -10,7 +10,6 @@
 #include "fea/solve/homogenise.h"
 #include "fea/solve/homogenise_conductivity.h"
 #include "formats/containers/file.h"
-#include "formats/containers/xml_text.h"
 #include "jobs/common/events.h"
 #include "jobs/common/job_design.h"
 #include "jobs/common/job_kind.h"
@@ -240,7 +239,7 @@ void solve_stiffness(const HomogeniseChoices& a, const HomogenisePlan& plan, con
   progress.finish();
   tell(session.events, found, coarse, design_share(model), watch.seconds());
   if (a.output.empty()) return;
-  exporting::write_file(a.output, fea::stiffness_chart(found.stiffness_mpa, formats::xml_escaped(a.design.design)));
+  exporting::write_file(a.output, fea::stiffness_chart(found.stiffness_mpa, a.design.design));
   session.events.say(a.output + " written");
   files.emplace_back(a.output);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math/round_numbers.h"
 #include "base/text/text.h"
 #include "questions/colour_map.h"
 #include "questions/part_labels.h"
@@ -41,8 +42,7 @@ std::vector<render::ColourBar::Tick> ticks_of(Interval range) {
   if (range.is_point()) return {{0.5, format_rounded(range.lo, 3)}};
   constexpr double most_steps = 6;
   const double width = range.hi - range.lo;
-  double step = render::round_length(width / most_steps);
-  if (width / step > most_steps) step = render::round_length(2.5 * step);  // the next step
+  const double step = math::least_round(width / most_steps);
   std::vector<render::ColourBar::Tick> ticks;
   for (double n = std::ceil(range.lo / step - 1e-9); n * step <= range.hi + 1e-9 * width; ++n)
     ticks.push_back({(n * step - range.lo) / width, format_rounded(n * step, 6)});

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/math/round_numbers.h"
 #include "jobs/test_pictures.h"
 #include "questions/colour_map.h"
 
@@ -49,12 +50,6 @@ std::string balls(int count) {
 
 }  // namespace
 
-TEST(RoundLengths, AreTheLongestThatFit) {
-  for (const auto& [most, expected] : std::vector<std::pair<double, double>>{
-           {1, 1}, {1.99, 1}, {2, 2}, {4.9, 2}, {5, 5}, {9.99, 5}, {10, 10}, {777, 500}, {0.3, 0.2}, {0.099, 0.05}})
-    EXPECT_NEAR(render::round_length(most), expected, 1e-12 * expected) << most;
-}
-
 TEST_F(Labels, ScaleBarsAreAsLongAsTheySay) {
   PictureRequest request;
   request.annotations.scale_bar = true;
@@ -68,7 +63,7 @@ TEST_F(Labels, ScaleBarsAreAsLongAsTheySay) {
         run = at(*picture, column, row).is_ink() ? run + 1 : 0;
         longest = std::max(longest, run);
       }
-    const double length = render::round_length(0.3 * width * picture->pixel_mm);
+    const double length = math::greatest_round(0.3 * width * picture->pixel_mm);
     EXPECT_NEAR(static_cast<double>(longest) * picture->pixel_mm, length, 1.01 * picture->pixel_mm) << radius;
   }
 }
