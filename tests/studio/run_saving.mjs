@@ -33,19 +33,28 @@ await test({ viewport: small }, {
     writeFileSync(file, onDisk() + "// by another program\n");
     await page.waitForSelector(".cm-line:has-text('by another program')");
     await page.evaluate(() => {
-      window.sent = WebSocket.prototype.send;
+      const send = WebSocket.prototype.send;
+      let held = []; // saves that have not gone out; undefined while all go out at once
       WebSocket.prototype.send = function (text) {
-        if (!text.includes('"do":"save"')) window.sent.call(this, text);
+        if (held && text.includes('"do":"save"')) held.push(() => send.call(this, text));
+        else send.call(this, text);
+      };
+      window.holdSaves = (holds) => {
+        for (const go of held ?? []) go();
+        held = holds ? [] : undefined;
       };
     });
+    const holdSaves = (holds) => page.evaluate((value) => window.holdSaves(value), holds);
     await type("// the same\n"); // here and on the disk: no conflict
     writeFileSync(file, onDisk() + "// the same\n");
+    await holdSaves(false);
     await status("[data-saved=saved]");
     assert.equal(await page.locator(".bar.warning").count(), 0);
-    await type("// mine\n"); // cannot be saved in time
+    await holdSaves(true);
+    await type("// mine\n"); // is not saved in time
     writeFileSync(file, onDisk() + "// theirs\n");
+    await holdSaves(false);
     await page.waitForSelector(".bar.warning");
-    await page.evaluate(() => (WebSocket.prototype.send = window.sent));
     await page.reload(); // what was typed is a draft, the conflict is found again
     await page.waitForSelector(".bar.warning");
     assert.match(await editor().innerText(), /mine/);
