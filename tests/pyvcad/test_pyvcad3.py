@@ -2,6 +2,8 @@
 import math
 import re
 import struct
+import subprocess
+import sys
 import zipfile
 
 import numpy
@@ -10,6 +12,7 @@ import pytest
 import ombre
 import pyvcad as pv
 import pyvcad_compilers as pvc
+import run_ink
 
 origin = pv.Vec3(0, 0, 0)
 
@@ -359,7 +362,36 @@ def test_colour_inkjet(tmp_path):
     compiler.set_strict_mode(True)
     with pytest.raises(RuntimeError, match="nothing gives color_rgba"):
         compiler.compile()
-    with pytest.raises(pv.MissingFeature, match="ICC profile"):
+    with pytest.raises(ValueError, match="there is no ICC profile 'fogra39'"):
         pvc.ColorInkjetCompiler(gray, pv.Vec3(1, 1, 1), tmp_path, "c", "fogra39")
     with pytest.raises(RuntimeError, match="color_rgba"):
         pvc.ColorInkjetCompiler(ball(), pv.Vec3(1, 1, 1), tmp_path, "c").compile()
+
+
+def test_colour_inkjet_with_a_profile(tmp_path):
+    """The profile is made of patches whose light adds up, so that the droplets' light is that of the colour."""
+    (tmp_path / "patches.csv").write_text(run_ink.patches())
+    subprocess.run([sys.executable, "-m", "ombre", "calibrations", "--measured", "patches.csv", "-o", "vero.json"],
+                   cwd=tmp_path, check=True)
+    block = pv.RectPrism(origin, pv.Vec3(20, 20, 20))
+    block.set_attribute("color_rgba", pv.Vec4Attribute(0.6, 0.5, 0.4, 1))
+    pvc.ColorPipeline.set_icc_resource_path(tmp_path)
+    assert pvc.ColorPipeline.get_icc_profiles() == ["default", "vero"]
+    voxel = pv.Vec3(0.5, 0.5, 0.5)
+    compiler = pvc.ColorInkjetCompiler(block, voxel, tmp_path / "out", "c", "vero")
+    compiler.compile()
+    counts = compiler.material_voxel_counts()
+    assert sum(counts.values()) == 64000
+    inks = dict(zip(("VeroCyan", "VeroMagenta", "VeroYellow", "VeroBlack", "VeroPureWht"), run_ink.LIGHTS.values()))
+    shares = {pv.j750_materials.name(id): count / 64000 for id, count in counts.items()}
+    light = [sum(share * inks[name][part] for name, share in shares.items()) for part in range(3)]
+    shown = run_ink.lab_of_light([own / white for own, white in zip(light, run_ink.LIGHTS["white"])])
+    # Of sRGB (153, 128, 102), whose XYZ is compressed to between the light of the black ink, 1/45 of white's, and white.
+    assert shown == pytest.approx((57.020, 6.796, 16.302), abs=1)
+    options = pvc.ColorPipelineOptions()
+    options.icc_profile_enabled = False
+    plain = pvc.ColorInkjetCompiler(block, voxel, tmp_path / "plain", "c", "vero", color_pipeline_options=options)
+    plain.compile()
+    assert plain.material_voxel_counts() != counts
+    with pytest.raises(NotADirectoryError, match="there is no folder"):
+        pvc.ColorPipeline.set_icc_resource_path(tmp_path / "none")

@@ -27,7 +27,7 @@ MISSING: dict[str, dict[str, str]] = {
         "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
         "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
     "pyvcad_compilers": dict.fromkeys(
-        ("ColorPipeline", "GCVFCompiler"),
+        ("GCVFCompiler",),
         "ColorInkjetCompiler and MaterialInkjetCompiler write the images of a material printer") | dict.fromkeys(
         ("MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
          "MyersonCompiler"), "VatCompiler writes gray images, and ombre slice -o part.sl1 an archive for printers") | dict.fromkeys(

@@ -9,11 +9,11 @@ from ._compilers import CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCom
 from ._simulation import (InpWriter, SimulationBackend, SimulationCellType, SimulationCompiler,
                           SimulationCompilerSettings, SimulationHexMeshSettings, SimulationMeshKind, SimulationModel,
                           SimulationTetFixedMeshSettings)
-from ._inkjet import (ColorInkjetCompiler, ColorInkjetExportMode, ColorPipelineOptions, MaterialInkjetCompiler,
-                      MaterialInkjetExportMode)
+from ._inkjet import (ColorInkjetCompiler, ColorInkjetExportMode, ColorPipeline, ColorPipelineOptions,
+                      MaterialInkjetCompiler, MaterialInkjetExportMode)
 from ._slicer_projects import PrusaSlicerProjectCompiler
 
-__all__ = ["ColorInkjetCompiler", "ColorInkjetExportMode", "ColorPipelineOptions", "PrusaSlicerProjectCompiler",
+__all__ = ["ColorInkjetCompiler", "ColorInkjetExportMode", "ColorPipeline", "ColorPipelineOptions", "PrusaSlicerProjectCompiler",
            "MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler",
            "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler",
            "SimulationBackend", "SimulationCellType", "SimulationCompiler", "SimulationCompilerSettings",

@@ -12,7 +12,6 @@ from typing import Any, Literal
 import ombre
 from pyvcad._arguments import number
 from pyvcad._attributes import Vec4Attribute
-from pyvcad._errors import missing
 from pyvcad._keep_out import KeepOut
 from pyvcad._materials import MaterialDefs, default_materials, expect_table, j750_materials
 from pyvcad._solids import is_unset
@@ -146,16 +145,65 @@ _clear = "VeroClear"
 
 
 class _Coloured(Unary):
-    """The child, of the materials that show its attribute color_rgba."""
+    """The child, of the materials that show its attribute color_rgba.
+
+    Args:
+        profile: the path of an ICC profile of cyan, magenta, yellow and black; None: by the mean of their light.
+    """
+
+    def __init__(self, child: Node, profile: str | None) -> None:
+        super().__init__(child)
+        self._profile = profile
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         colour = ombre.attribute_of(solids[0], "color_rgba")
-        opaque = ombre.colour_mixture(colour.vector, list(_inks)).mixture
+        if self._profile is None:
+            opaque = ombre.colour_mixture(colour.vector, list(_inks)).mixture
+        else:
+            opaque = ombre.ink_mixture(colour.vector, self._profile, list(_inks)).mixture
         return ombre.material(solids[0], [ombre.mix(_clear, opaque, colour.alpha)])
 
 
+class ColorPipeline:
+    """Where ICC profiles of cyan, magenta, yellow and black lie. Ombre has none of its own but "default", which needs none."""
+
+    _folder: str | None = None
+
+    @staticmethod
+    def set_icc_resource_path(directory: Path) -> None:
+        """Sets the folder of profiles, NAME.icc or NAME.icm. Raises NotADirectoryError if there is none."""
+        if not os.path.isdir(directory):
+            raise NotADirectoryError(f"set_icc_resource_path: there is no folder {os.fspath(directory)}")
+        ColorPipeline._folder = os.fspath(directory)
+
+    @staticmethod
+    def get_icc_profiles() -> list[str]:
+        """Returns "default", and the names of the folder's profiles in alphabetical order."""
+        names = os.listdir(ColorPipeline._folder) if ColorPipeline._folder else []
+        return ["default", *sorted({os.path.splitext(name)[0] for name in names if _is_profile(name)})]
+
+
+def _is_profile(name: str) -> bool:
+    return os.path.splitext(name)[1].lower() in (".icc", ".icm")
+
+
+def _profile_path(profile: str) -> str | None:
+    """Returns the path of a profile that is named as in ColorPipeline, or by its file; None for "default"."""
+    if profile == "default":
+        return None
+    if _is_profile(profile) and os.path.isfile(profile):
+        return os.path.abspath(profile)
+    folder = ColorPipeline._folder
+    for name in sorted(os.listdir(folder)) if folder else []:
+        if _is_profile(name) and os.path.splitext(name)[0] == profile:
+            return os.path.join(os.path.abspath(str(folder)), name)
+    raise ValueError(f"ColorInkjetCompiler: there is no ICC profile {profile!r}; expected the path of a file, or one of "
+                     f"{', '.join(ColorPipeline.get_icc_profiles())} (ColorPipeline.set_icc_resource_path adds a folder's)")
+
+
 class ColorPipelineOptions:
-    """Steps from colours to droplets. Ombre's own way has none of them, so that they change nothing."""
+    """Steps from colours to droplets. Without `icc_profile_enabled` colours are mixed as by "default"; Ombre has none of the
+    other steps, so that they change nothing."""
 
     def __init__(self) -> None:
         self.first_gamma_enabled = self.icc_profile_enabled = True
@@ -166,7 +214,11 @@ class ColorInkjetCompiler(_InkjetCompiler):
     """Writes images of "color_rgba": PREFIX0.png, ...
 
     Each colour becomes the mixture of cyan, magenta, yellow, black and white whose light is nearest to it in the mean
-    (`ombre.colour_mixture`), and of clear as its alpha says. There are no ICC profiles but "default", which is this.
+    (`ombre.colour_mixture`), or the one that an ICC profile says (`ombre.ink_mixture`), and of clear as its alpha says.
+
+    Args:
+        icc_profile: "default" for the mean of light, the path of a profile of cyan, magenta, yellow and black, or the name
+            of one in the folder of ColorPipeline.
     """
 
     _required = ("color_rgba",)
@@ -174,8 +226,8 @@ class ColorInkjetCompiler(_InkjetCompiler):
     def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, icc_profile: str = "default",
                  export_mode: ColorInkjetExportMode = ColorInkjetExportMode.STOCHASTIC,
                  color_pipeline_options: ColorPipelineOptions | None = None) -> None:
-        if icc_profile != "default":
-            raise missing(f"ColorInkjetCompiler with the ICC profile {icc_profile!r}", '"default"')
+        steps = color_pipeline_options or ColorPipelineOptions()
+        self._profile = _profile_path(os.fspath(icc_profile)) if steps.icc_profile_enabled else None
         super().__init__(root, voxel_size, output_directory, file_prefix, export_mode)
         self._materials = j750_materials
         self._fallback: Any = (0, 0, 0, 0)
@@ -192,4 +244,4 @@ class ColorInkjetCompiler(_InkjetCompiler):
         for node in in_order(tree):
             if not node._inputs() and "color_rgba" not in node._attributes:
                 node._attributes["color_rgba"] = Vec4Attribute(*self._fallback)
-        return _Coloured(tree)
+        return _Coloured(tree, self._profile)
