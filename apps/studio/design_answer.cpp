@@ -1,12 +1,14 @@
 #include "studio/design_answer.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "base/text/text.h"
 #include "design/outputs.h"
+#include "design/ports/places.h"
 #include "jobs/picture/design_scene.h"
 #include "lang/openscad/customizer.h"
 #include "questions/question.h"
@@ -16,11 +18,20 @@ namespace {
 
 constexpr size_t most_nodes = 3000;
 
+// True if the node evaluates its inputs, or the value that it reads, at other points than its own.
+bool evaluates_elsewhere(const design::Node& node) {
+  constexpr std::array<std::string_view, 3> categories{"transforms", "warps", "maps"};
+  return std::ranges::find(categories, node.type().category) != categories.end() || node.type().name == "at";
+}
+
 class NodeLister {
  public:
   NodeLister(const design::Design& design, const SourcePtr& source)
       : nodes_(listed_nodes(design)), source_(source), offsets_(source->text()) {
     for (size_t n = 0; n < nodes_.size(); ++n) numbers_.emplace(nodes_[n], n);
+    for (const design::Part& part : design.parts) frames_.emplace(part.solid.get(), Affine());
+    // Nodes come before those that are first found below them.
+    for (const design::Node* node : nodes_) add_frames_below(*node);
   }
 
   DataList list() const {
@@ -80,8 +91,29 @@ class NodeLister {
     if (const Data added(std::move(edge)); std::ranges::find(edges, added) == edges.end()) edges.push_back(added);
   }
 
+  void add_frames_below(const design::Node& node) {
+    const std::optional<Affine> here = frames_.at(&node);
+    std::optional<Affine> of_inputs = here, of_values = here;
+    if (evaluates_elsewhere(node)) {
+      const auto map = here ? design::here_from_input(node) : std::nullopt;
+      of_inputs = map ? std::optional(*here * *map) : std::nullopt;
+      if (node.inputs().empty()) of_values = std::nullopt;
+    }
+    for (const design::NodePtr& input : node.inputs()) frames_.emplace(input.get(), of_inputs);
+    for (const design::NodePtr& value : node.values()) frames_.emplace(value.get(), of_values);
+  }
+
+  // Returns the rows of the map from the node's space to the design's where it is first used; null if there is no
+  // affine one.
+  Data frame(const design::Node& node) const {
+    const std::optional<Affine>& frame = frames_.at(&node);
+    return frame ? design::write(*frame, false) : Data();
+  }
+
   DataMembers describe_one(const design::Node& node, size_t id) const {
     DataMembers members{{"id", number(id)}, {"category", node.type().category}, {"ports", ports(node)}};
+    static const Data own = design::write(Affine(), false);
+    if (Data rows = frame(node); !(rows == own)) members.emplace_back("frame", std::move(rows));
     const DataMembers call = describe_call(node, source_, offsets_);
     members.insert(members.end(), call.begin(), call.end());
     return members;
@@ -91,6 +123,7 @@ class NodeLister {
   const SourcePtr& source_;
   PageOffsets offsets_;
   std::unordered_map<const design::Node*, size_t> numbers_;
+  std::unordered_map<const design::Node*, std::optional<Affine>> frames_;
 };
 
 DataMembers describe_material(const design::Material& material) {

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "base/text/file_ending.h"
+#include "lang/edit/design_edit.h"
 #include "lang/edit/graph_edit.h"
+#include "lang/edit/json_layout.h"
 
 namespace ombre::studio {
 namespace {
@@ -30,6 +32,34 @@ std::string_view name_of(GraphItem::Kind kind) {
   return "group";
 }
 
+// An item as the page sees it. The others of its members are added by those who describe it.
+struct ItemPlace {
+  std::string_view kind, callee, variable, locked_by;
+  int line = 0;
+  double from = 0, to = 0, at = 0;  // `at`: where the place of its node begins
+};
+
+DataMembers describe_item(const ItemPlace& place, DataList arguments, DataList wires) {
+  return {{"kind", std::string(place.kind)},
+          {"callee", std::string(place.callee)},
+          {"variable", std::string(place.variable)},
+          {"locked_by", std::string(place.locked_by)},
+          {"line", number(place.line)},
+          {"from", place.from},
+          {"to", place.to},
+          {"at", place.at},
+          {"arguments", std::move(arguments)},
+          {"wires", std::move(wires)}};
+}
+
+DataMembers describe_argument(const std::string& name, std::string text) {
+  return {{"name", name}, {"text", std::move(text)}};
+}
+
+DataMembers describe_wire(size_t from, const std::string& output, size_t argument, bool is_whole) {
+  return {{"from", number(from)}, {"output", output}, {"argument", number(argument)}, {"is_whole", is_whole}};
+}
+
 class GraphDescriber {
  public:
   explicit GraphDescriber(const ScriptGraph& graph) : graph_(graph), offsets_(graph.text()) {
@@ -52,23 +82,15 @@ class GraphDescriber {
     const GraphItem& one = graph_.items()[number_of_item];
     DataList arguments, wires;
     for (const lang::GraphArgument& argument : one.arguments)
-      arguments.emplace_back(DataMembers{{"name", argument.name}, {"text", text(argument.value->span)}});
+      arguments.emplace_back(describe_argument(argument.name, text(argument.value->span)));
     for (const lang::Mention* mention : wires_[number_of_item])
-      wires.emplace_back(DataMembers{{"from", number(*mention->target)},
-                                     {"output", mention->output},
-                                     {"argument", number(mention->argument)},
-                                     {"is_whole", mention->is_whole}});
-    DataMembers members{{"kind", std::string(name_of(one.kind))},
-                        {"callee", one.callee},
-                        {"variable", one.variable},
-                        {"argument", number(one.argument)},
-                        {"locked_by", one.locked_by},
-                        {"line", number(graph_.line(one.span))},
-                        {"from", offsets_.at(one.span.begin)},
-                        {"to", offsets_.at(one.span.end)},
-                        {"at", offsets_.at(one.expression ? one.expression->span.begin : one.span.begin)},
-                        {"arguments", std::move(arguments)},
-                        {"wires", std::move(wires)}};
+      wires.emplace_back(describe_wire(*mention->target, mention->output, mention->argument, mention->is_whole));
+    const size_t at = one.expression ? one.expression->span.begin : one.span.begin;
+    DataMembers members =
+        describe_item({name_of(one.kind), one.callee, one.variable, one.locked_by, graph_.line(one.span),
+                       offsets_.at(one.span.begin), offsets_.at(one.span.end), offsets_.at(at)},
+                      std::move(arguments), std::move(wires));
+    members.emplace_back("argument", number(one.argument));
     if (one.parent) members.emplace_back("parent", number(*one.parent));
     return members;
   }
@@ -89,12 +111,63 @@ class GraphDescriber {
   std::vector<std::vector<const lang::Mention*>> wires_;
 };
 
-Answer graph_of(const SourcePtr& source, lang::Dialect dialect) {
+// Describes the nodes and parts of a design file. Their inputs are lists, since several may take the same node.
+class DesignDescriber {
+ public:
+  explicit DesignDescriber(const lang::DesignGraph& graph) : graph_(graph), offsets_(graph.text()) {
+    wires_.resize(graph.items().size());
+    for (const lang::DesignWire& wire : graph.wires())
+      wires_[wire.item].emplace_back(describe_wire(wire.from, wire.output, wire.argument, wire.is_whole));
+  }
+
+  DataMembers describe() {
+    DataList items;
+    for (size_t n = 0; n < graph_.items().size(); ++n) items.emplace_back(item(n));
+    return {{"items", std::move(items)}, {"definitions", DataList()}, {"is_cut", graph_.is_cut()}};
+  }
+
+ private:
+  DataMembers item(size_t number_of_item) {
+    const lang::DesignItem& one = graph_.items()[number_of_item];
+    DataList arguments, inputs;
+    for (const auto& [name, value] : one.arguments) {
+      const lang::TextRange range = lang::JsonLayout(graph_.text()).whole(*value);
+      arguments.emplace_back(
+          describe_argument(name, std::string(graph_.text().substr(range.from, range.to - range.from))));
+    }
+    for (const size_t input : one.inputs) inputs.emplace_back(number(input));
+    const SourceRange& where = one.object->where;
+    // Nodes of the design have the place of their type.
+    const Data* type = one.object->find("type");
+    const size_t at = type ? type->where.begin : where.begin;
+    DataMembers members =
+        describe_item({one.is_part ? "part" : "node", one.type, one.name, "", graph_.source()->place(where.begin).line,
+                       offsets_.at(where.begin), offsets_.at(where.end), offsets_.at(at)},
+                      std::move(arguments), std::move(wires_[number_of_item]));
+    members.emplace_back("inputs", std::move(inputs));
+    return members;
+  }
+
+  const lang::DesignGraph& graph_;
+  PageOffsets offsets_;
+  std::vector<DataList> wires_;
+};
+
+bool is_design_file(const SourcePtr& source) { return ending_of(source->name()) == ".json"; }
+
+Answer graph_of(const SourcePtr& source) {
   Diagnostics diagnostics;
-  const auto graph = ScriptGraph::read(source, dialect, diagnostics);
   Answer answer;
-  if (graph) answer.members = GraphDescriber(*graph).describe();
-  answer.members.emplace_back("ok", graph.has_value());
+  const auto describe_graph = [&](auto graph, auto describe) {
+    if (graph) answer.members = describe(*graph).describe();
+    answer.members.emplace_back("ok", graph.has_value());
+  };
+  if (is_design_file(source))
+    describe_graph(lang::DesignGraph::read(source, diagnostics),
+                   [](const lang::DesignGraph& graph) { return DesignDescriber(graph); });
+  else
+    describe_graph(ScriptGraph::read(source, dialect_of(source->name()), diagnostics),
+                   [](const ScriptGraph& graph) { return GraphDescriber(graph); });
   answer.members.emplace_back("diagnostics", describe(diagnostics, source));
   return answer;
 }
@@ -177,6 +250,12 @@ void describe_steps(const std::vector<lang::Replacements>& steps, std::string& t
   }
 }
 
+std::optional<lang::EditedScript> edited_text(const SourcePtr& source, const GraphEdit& edit,
+                                              Diagnostics& diagnostics) {
+  if (is_design_file(source)) return lang::edit_design(source, edit, diagnostics);
+  return lang::edit(source, dialect_of(source->name()), edit, diagnostics);
+}
+
 Answer refusal(const Diagnostics& diagnostics, const SourcePtr& source) {
   return {{{"ok", false}, {"diagnostics", describe(diagnostics, source)}}, {}};
 }
@@ -185,26 +264,25 @@ Answer refusal(const Diagnostics& diagnostics, const SourcePtr& source) {
 
 Answer script_graph_answer(const Workspace&, const Request& request, const StopFlag&) {
   const std::string& file = request.text("file");
-  return graph_of(make_source(file, request.text("text")), dialect_of(file));
+  return graph_of(make_source(file, request.text("text")));
 }
 
 Answer edit_graph_answer(const Workspace&, const Request& request, const StopFlag&) {
   const std::string& file = request.text("file");
-  const lang::Dialect dialect = dialect_of(file);
   SourcePtr source = make_source(file, request.text("text"));
   std::string text(source->text());
   DataList steps;
   Diagnostics diagnostics;
   if (const std::string library = request.text("library", ""); !library.empty()) {
-    const auto used = lang::edit(source, dialect, lang::UseLibrary{library}, diagnostics);
+    const auto used = edited_text(source, lang::UseLibrary{library}, diagnostics);
     if (!used) return refusal(diagnostics, source);
     describe_steps(used->steps, text, steps);
     source = used->text;
   }
-  const auto edited = lang::edit(source, dialect, edit_in(request), diagnostics);
+  const auto edited = edited_text(source, edit_in(request), diagnostics);
   if (!edited) return refusal(diagnostics, source);
   describe_steps(edited->steps, text, steps);
-  Answer answer = graph_of(edited->text, dialect);
+  Answer answer = graph_of(edited->text);
   answer.members.emplace_back("steps", std::move(steps));
   if (!edited->library.empty()) answer.members.emplace_back("library", edited->library);
   if (edited->made) answer.members.emplace_back("made", PageOffsets(text).at(*edited->made));

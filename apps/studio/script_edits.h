@@ -1,4 +1,4 @@
-// Answers of the studio about the graph of a script, which edits its text.
+// Answers of the studio about the graph of a script or a design file (JSON), which edits its text.
 #pragma once
 
 #include "base/system/progress.h"

@@ -1,6 +1,7 @@
 // The values that a parameter may have, for checks, help and forms.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -15,8 +16,22 @@ namespace ombre::design {
 inline constexpr double design_limit_mm = 1e6;
 inline Box design_space() { return Box::centered({design_limit_mm, design_limit_mm, design_limit_mm}); }
 
+// The meaning of a parameter's numbers in space, for handles that move them.
+enum class InSpace : uint8_t {
+  nothing,
+  point,      // a place, or how far something is moved; also each point of a list
+  profile,    // points [rho, z] beside the z axis
+  direction,  // of any length
+  offset,     // a length from the origin along the first direction among the parameters
+  radius      // a length from the first point among the parameters, or from the axis there along the first direction
+};
+
+// Returns "point" and so on, and "" for nothing.
+std::string_view name_of(InSpace in_space);
+
 struct Domain {
   std::string_view unit;  // "mm", "deg", or empty
+  InSpace in_space = InSpace::nothing;
   double least = -std::numeric_limits<double>::infinity(), greatest = std::numeric_limits<double>::infinity();
   bool above_least = false;            // must be greater than `least`, not equal
   bool required = false;               // has no default
@@ -66,6 +81,10 @@ inline Domain required(Domain domain = {}) {
   domain.required = true;
   return domain;
 }
+inline Domain in_space(InSpace what, Domain domain) {
+  domain.in_space = what;
+  return domain;
+}
 // Domain of three numbers, in whose place a single one may be given.
 inline Domain one_or_three(Domain domain = {}) {
   domain.one_is_enough = true;
@@ -89,8 +108,12 @@ inline Domain over_child(Domain domain = {}) {
 
 namespace unit {
 inline const Domain mm = any("mm"), degrees = any("deg"), none = any();
-inline const Domain points = from_to(-design_limit_mm, design_limit_mm, "mm");
+inline const Domain point = in_space(InSpace::point, mm);
+inline const Domain points = in_space(InSpace::point, from_to(-design_limit_mm, design_limit_mm, "mm"));
+inline const Domain direction = in_space(InSpace::direction, none), offset = in_space(InSpace::offset, mm);
 inline const Domain positive_mm = positive("mm"), not_negative_mm = not_negative("mm");
+inline const Domain radius = in_space(InSpace::radius, positive_mm);
+inline const Domain radius_or_none = in_space(InSpace::radius, not_negative_mm);
 }  // namespace unit
 
 }  // namespace ombre::design

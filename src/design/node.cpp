@@ -23,6 +23,13 @@ void Node::finish(std::vector<NodePtr> inputs, const std::vector<NodePtr>& value
   kind_ = static_cast<uint16_t>(metric.kind) & 7;
 }
 
+std::optional<Affine> here_from_input(const Node& node) {
+  program::Builder builder;
+  const auto inner = node.inner(Point::origin_frame(builder));
+  const auto input_from_here = inner ? inner->from_inputs() : std::nullopt;
+  return input_from_here ? std::optional(inverse(*input_from_here)) : std::nullopt;
+}
+
 Traits Node::traits_of_shape() const {
   const Node* node = this;
   while (node->keeps_shape()) node = node->inputs().front().get();

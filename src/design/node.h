@@ -211,6 +211,9 @@ class Node : NotCopied {
   double lipschitz_ = 1;
 };
 
+// Returns the map from the input's space to the node's, if the node only transforms by an affine map.
+std::optional<Affine> here_from_input(const Node& node);
+
 // Returns all nodes at and below the roots, each once. Inputs and values come before the nodes that use them.
 std::vector<const Node*> topological(const std::vector<NodePtr>& roots);
 

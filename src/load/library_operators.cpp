@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/text/text.h"
+#include "design/domain.h"
 #include "lang/engine/loader.h"
 #include "lang/syntax/parser.h"
 
@@ -40,6 +41,15 @@ DataList choices_of(const lang::DeclaredParameter& parameter) {
   return choices;
 }
 
+// Returns what a declared type says of the place of its numbers.
+design::InSpace in_space(std::string_view type) {
+  using enum design::InSpace;
+  constexpr std::pair<std::string_view, design::InSpace> of_types[] = {
+      {"point", point}, {"points", point}, {"curve", point}, {"direction", direction}, {"radius", radius}};
+  const auto* found = std::ranges::find(of_types, type, &std::pair<std::string_view, design::InSpace>::first);
+  return found == std::end(of_types) ? nothing : found->second;
+}
+
 Data limit(const std::optional<double>& number) { return number ? Data(*number) : Data(); }
 
 DataMembers describe_parameter(const lang::DeclaredParameter& parameter) {
@@ -50,6 +60,7 @@ DataMembers describe_parameter(const lang::DeclaredParameter& parameter) {
           {"python", "Any"},
           {"widget", parameter.choices.empty() ? "script" : "choice"},
           {"unit", parameter.unit},
+          {"in_space", std::string(design::name_of(in_space(parameter.type)))},
           {"required", is_required},
           {"default", parameter.value ? *parameter.value : Data()},
           {"written_default", parameter.default_text},

@@ -12,6 +12,7 @@ DataMembers describe_node(const design::NodeType& type) {
                                         {"python", parameter.text.python},
                                         {"widget", std::string(parameter.text.widget)},
                                         {"unit", std::string(parameter.domain.unit)},
+                                        {"in_space", std::string(design::name_of(parameter.domain.in_space))},
                                         {"required", parameter.domain.required},
                                         {"default", parameter.default_value},
                                         {"choices", texts(parameter.domain.choices)},

@@ -1,6 +1,6 @@
 // Cuts through the surface and the volume.
 import assert from "node:assert/strict";
-import { alphaInMiddle, isReady, page, picture, small, test } from "./studio_page.mjs";
+import { alphaInMiddle, isReady, page, picture, small, test, until } from "./studio_page.mjs";
 
 await test({ viewport: small }, {
   async "cuts open"() {
@@ -28,6 +28,34 @@ await test({ viewport: small }, {
     await page.selectOption(".volume .cut", "");
     await page.click("#tab-surface");
     await page.uncheck("text=Perspective");
+  },
+
+  async "layers are cut open at the printer's resolution"() {
+    await page.click("#tab-slices");
+    await isReady("slices");
+    // Whether something is seen a little to the left or right of the middle, and above or below it.
+    const seen = (right, above) =>
+      page.evaluate(([x, y]) => {
+        const canvas = document.querySelector(".slices canvas"), step = canvas.height / 8;
+        return canvas.getContext("2d").getImageData(canvas.width / 2 + x * step, canvas.height / 2 - y * step, 1, 1).data[3] > 0;
+      }, [right, above]);
+    const quarters = async () => [await seen(-1, -1), await seen(1, -1), await seen(-1, 1), await seen(1, 1)].map(Number).join("");
+    const areSeen = (wanted) => until(async () => (await quarters()) === wanted, wanted);
+    await page.selectOption(".slices .cut", "");
+    await areSeen("1111");
+    await page.selectOption(".slices .cut", "x>");
+    await areSeen("1010");
+    await page.selectOption(".slices .cut", "wedge"); // towards the eye, which looks from the left and from before
+    await areSeen("0111");
+    await picture("slices_wedge");
+    await page.selectOption(".slices .cut", "box"); // the lower quarter
+    await page.focus(".slices canvas");
+    for (let n = 0; n < 5; ++n) await page.keyboard.press("PageDown");
+    await areSeen("1000");
+    for (let n = 0; n < 10; ++n) await page.keyboard.press("PageUp"); // above the box
+    await areSeen("0000");
+    await page.selectOption(".slices .cut", "");
+    await areSeen("1111");
   },
 
   async "shows the inside by rays"() {

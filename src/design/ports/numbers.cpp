@@ -1,6 +1,7 @@
 #include "design/ports/numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/text/text.h"
@@ -35,6 +36,11 @@ Interval Number::range(const Box& where, const std::map<std::string_view, Interv
   std::vector<Interval> values;
   program::evaluate_intervals(program, where, values);
   return values[program.outputs[0]];
+}
+
+std::string_view name_of(InSpace in_space) {
+  constexpr std::array<std::string_view, 6> names{"", "point", "profile", "direction", "offset", "radius"};
+  return names[static_cast<size_t>(in_space)];
 }
 
 std::vector<std::string> known_variables(const Domain& domain) {

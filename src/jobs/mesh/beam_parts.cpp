@@ -66,14 +66,6 @@ std::optional<double> scale_of_similarity(const Affine& map) {
   return greatest - least <= rounding * greatest ? std::optional(greatest) : std::nullopt;
 }
 
-// Returns the map from the input's space to the node's, if the node only transforms by an affine map.
-std::optional<Affine> here_from_input(const Node& node) {
-  program::Builder builder;
-  const auto inner = node.inner(program::Point::origin_frame(builder));
-  const auto input_from_here = inner ? inner->from_inputs() : std::nullopt;
-  return input_from_here ? std::optional(inverse(*input_from_here)) : std::nullopt;
-}
-
 bool is_a(const Node& node, std::string_view type) { return node.type().name == type; }
 
 // Returns the indices of the copies that may meet the box; empty if there are none.

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "lang/edit/edit_refusal.h"
 #include "lang/edit/graph_edit.h"
 #include "lang/edit/text_layout.h"
 
@@ -11,11 +12,6 @@ namespace ombre::lang {
 
 // The blanks by which what stands in braces is indented.
 inline const std::string step_in = "  ";
-
-// Thrown if an edit cannot be made.
-struct EditRefusal {
-  Diagnostic reason;
-};
 
 // Makes an edit, in one or more steps. After each step the graph is read again.
 class EditRun {

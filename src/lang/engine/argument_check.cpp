@@ -11,7 +11,11 @@ bool is_object(const Value& value, Object::Form form) { return value.object() &&
 
 bool is_numeric(const Value& value) { return value.number() || is_object(value, Object::Form::value); }
 
-bool is_region(const Value& value) { return is_numeric(value) || value.boolean(); }
+// Operators take solids for the region inside them (data/library/ombre/regions.vcad).
+bool is_region(const Value& value) {
+  return is_numeric(value) || value.boolean() || (value.record() && value.record()->find("inside")) ||
+         is_object(value, Object::Form::solid);
+}
 
 bool is_numeric_list(const Value& value) {
   return value.range() || (value.list() && std::ranges::all_of(value.list()->items, is_numeric));
@@ -35,10 +39,13 @@ constexpr PortType types[] = {
     {"text", "a text", [](const Value& value) { return value.text() != nullptr; }},
     {"image", "the path of an image", [](const Value& value) { return value.text() != nullptr; }},
     {"solid", "a solid", [](const Value& value) { return is_object(value, Object::Form::solid); }},
-    {"region", "a region: a value that is 1 inside", is_region},
+    {"region", "a region: a value that is 1 inside, an object with \"inside\", or a solid", is_region},
     {"frame", "a frame", [](const Value& value) { return value.record() || value.object() || value.list(); }},
     {"curve", "a list of points", [](const Value& value) { return value.list() || value.record(); }},
     {"points", "a list of points", [](const Value& value) { return value.list() != nullptr; }},
+    {"point", "a list of numbers", is_numeric_list},
+    {"direction", "a list of numbers", is_numeric_list},
+    {"radius", "a number", [](const Value& value) { return value.number() != nullptr; }},
     {"index", "an index: numbers that count cells",
      [](const Value& value) { return is_numeric(value) || is_numeric_list(value); }},
     {"truth", "true or false", [](const Value& value) { return value.boolean() != nullptr; }},

@@ -102,6 +102,11 @@ Value object(const BuiltinCall& call) {
 
 Value is_object(const BuiltinCall& call) { return call[0].record() != nullptr; }
 
+Value is_solid(const BuiltinCall& call) {
+  const auto object = call[0].object();
+  return object && object->form() == Object::Form::solid;
+}
+
 Value has_key(const BuiltinCall& call) {
   const Record* record = call[0].record();
   return record ? Value(record->find(call.text(1)) != nullptr) : call.expected(0, "an object");
@@ -115,6 +120,7 @@ std::vector<Builtin> list_builtins() {
       {"search", {"match_value", "string_or_vector", "num_returns_per_match", "index_col_num"}, 2, false, search},
       {"object", {}, 0, true, object, true},
       {"is_object", {"value"}, 1, false, is_object},
+      {"is_solid", {"value"}, 1, false, is_solid},
       {"has_key", {"object", "name"}, 2, false, has_key},
   };
 }

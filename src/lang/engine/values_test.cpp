@@ -69,6 +69,7 @@ TEST(Values, Objects) {
     object(a = 1, b = 2) == object(b = 2, a = 1) => true
     is_object(object()) => true
     is_object([1]) => false
+    is_solid(object()) => false
     has_key(object(a = undef), "a") => true
     has_key(object(a = 1), "b") => false
   )");

@@ -155,7 +155,7 @@ struct ArrayLinear : LatticeArray<ArrayLinear> {
         "array_linear",
         "Copies of its child in a row.",
         {{"count", &ArrayLinear::count, "Number of copies, including the child itself", required(from_to(1, 100'000))},
-         {"step", &ArrayLinear::step, "Distance from one copy to the next along x, y and z", required(unit::mm)},
+         {"step", &ArrayLinear::step, "Distance from one copy to the next along x, y and z", required(unit::point)},
          {"materials", &ArrayLinear::materials, copy_overlap_doc, copy_overlap_choices()}},
         one_solid,
         "array_linear(4, (6, 0, 1)) { sphere(2, \"red\"); }"};
@@ -189,7 +189,7 @@ struct ArrayGrid : LatticeArray<ArrayGrid> {
     return {"array_grid",
             "Copies of its child in a grid along x, y and z.",
             {{"counts", &ArrayGrid::counts, "Number of copies along x, y and z", required(from_to(1, 100'000))},
-             {"steps", &ArrayGrid::steps, "Distance from one copy to the next along x, y and z", required(unit::mm)},
+             {"steps", &ArrayGrid::steps, "Distance from one copy to the next along x, y and z", required(unit::point)},
              {"centred", &ArrayGrid::centred, "Centres the grid on the child; else the grid begins at the child"},
              {"materials", &ArrayGrid::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
@@ -239,12 +239,12 @@ struct ArrayPolar : Array<ArrayPolar> {
         "array_polar",
         "Copies of its child around an axis, each turned about it.",
         {{"count", &ArrayPolar::count, "Number of copies, including the child itself", required(from_to(1, 10'000))},
-         {"axis", &ArrayPolar::axis, "Direction of the axis; copies are turned about it right-handed"},
+         {"axis", &ArrayPolar::axis, "Direction of the axis; copies are turned about it right-handed", unit::direction},
          {"angle", &ArrayPolar::angle, "Angle from the first copy to the last; 360: evenly all round",
           from_to(-360, 360, "deg")},
          {"radius", &ArrayPolar::radius,
           "Distance by which the child is first moved from the axis: along x, or along y if the axis is x", unit::mm},
-         {"around", &ArrayPolar::around, "A point on the axis", unit::mm},
+         {"around", &ArrayPolar::around, "A point on the axis", unit::point},
          {"materials", &ArrayPolar::materials, copy_overlap_doc, copy_overlap_choices()}},
         one_solid,
         "array_polar(6, radius=8) { cube(3, \"red\"); }"};
@@ -286,8 +286,8 @@ struct ArrayMirror : Array<ArrayMirror> {
   static Spec<ArrayMirror> spec() {
     return {"array_mirror",
             "Its child and the child's mirror image.",
-            {{"normal", &ArrayMirror::normal, "Direction perpendicular to the plane", required()},
-             {"around", &ArrayMirror::around, "A point on the plane", unit::mm},
+            {{"normal", &ArrayMirror::normal, "Direction perpendicular to the plane", required(unit::direction)},
+             {"around", &ArrayMirror::around, "A point on the plane", unit::point},
              {"materials", &ArrayMirror::materials, copy_overlap_doc, copy_overlap_choices()}},
             one_solid,
             "array_mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};

@@ -18,8 +18,8 @@ struct Function {
             "All points where an expression is 0 or less.",
             {{"expression", &Function::expression, "Expression in x, y, z, rho, phic, r, theta, phis", required()},
              {"material", &Function::material, "Its material"},
-             {"min", &Function::min, "Least corner of the box to which it is cut; none: its parent's box", unit::mm},
-             {"max", &Function::max, "Greatest corner of that box", unit::mm}},
+             {"min", &Function::min, "Least corner of the box to which it is cut; none: its parent's box", unit::point},
+             {"max", &Function::max, "Greatest corner of that box", unit::point}},
             no_inputs,
             "function((-8, -8, -8), (8, 8, 8), \"sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)\", \"red\");"};
   }

@@ -43,7 +43,7 @@ struct Voxels {
             {{"path", &Voxels::path, "A folder with an image for each layer, from the lowest up, or a single image",
               required()},
              {"voxel", &Voxels::voxel, "Size of a voxel along x, y and z", required(unit::positive_mm)},
-             {"min", &Voxels::min, "Corner with the least x, y and z", unit::mm},
+             {"min", &Voxels::min, "Corner with the least x, y and z", unit::point},
              {"materials", &Voxels::materials,
               "Pairs of a colour, \"#ff0000\", and its material; they come before the colours of the materials file"},
              {"match", &Voxels::match,

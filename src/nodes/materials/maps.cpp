@@ -79,8 +79,8 @@ struct ConformalMap : Laid<ConformalMap, 1> {
               "or spherical (lengths around ref_dir and from the equator to the poles)",
               one_of({"planar", "cylindrical", "spherical"})},
              {"ref_dir", &ConformalMap::direction,
-              "Reference direction; the pattern's x begins along x, or along y if ref_dir is x"},
-             {"around", &ConformalMap::around, "Point where x, y and ref_dir begin", unit::mm}},
+              "Reference direction; the pattern's x begins along x, or along y if ref_dir is x", unit::direction},
+             {"around", &ConformalMap::around, "Point where x, y and ref_dir begin", unit::point}},
             two_solids,
             "conformal_map(mapping=\"cylindrical\") { cylinder(10, 20); rectprism((30, 6, 2), \"red\"); }"};
   }

@@ -63,8 +63,8 @@ struct HalfSpace {
   static Spec<HalfSpace> spec() {
     return {"half_space",
             "Everything behind a plane. Use it to cut other solids.",
-            {{"normal", &HalfSpace::normal, "Outward direction; any length", required()},
-             {"offset", &HalfSpace::offset, "Distance of the plane from the origin along the normal", unit::mm},
+            {{"normal", &HalfSpace::normal, "Outward direction; any length", required(unit::direction)},
+             {"offset", &HalfSpace::offset, "Distance of the plane from the origin along the normal", unit::offset},
              {"material", &HalfSpace::material, "Its material"}},
             no_inputs,
             "intersection() { sphere(8, \"red\"); half_space((0, 0, 1)); }"};

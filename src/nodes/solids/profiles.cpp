@@ -106,7 +106,7 @@ struct Revolve {
             {{"profile", &Revolve::profile,
               "Its corners in order: [rho, z], with rho the distance from the axis; if it crosses itself, all enclosed "
               "areas are inside",
-              required(unit::points)},
+              required(in_space(InSpace::profile, unit::points))},
              {"angle", &Revolve::angle, "Angle of the revolution", turns()},
              {"material", &Revolve::material, "Its material"}},
             no_inputs,

@@ -14,12 +14,11 @@ struct Sphere {
   MaterialName material;
 
   static Spec<Sphere> spec() {
-    return {
-        "sphere",
-        "A ball centred on the origin.",
-        {{"radius", &Sphere::radius, "Its radius", unit::positive_mm}, {"material", &Sphere::material, "Its material"}},
-        no_inputs,
-        "sphere(5, \"red\");"};
+    return {"sphere",
+            "A ball centred on the origin.",
+            {{"radius", &Sphere::radius, "Its radius", unit::radius}, {"material", &Sphere::material, "Its material"}},
+            no_inputs,
+            "sphere(5, \"red\");"};
   }
 
   Box bounds(const Box& where) const {
@@ -69,7 +68,7 @@ struct Cylinder {
   static Spec<Cylinder> spec() {
     return {"cylinder",
             "A cylinder along z, centred on the origin.",
-            {{"radius", &Cylinder::radius, "Its radius", unit::positive_mm},
+            {{"radius", &Cylinder::radius, "Its radius", unit::radius},
              {"height", &Cylinder::height, "Its length along z", unit::positive_mm},
              {"material", &Cylinder::material, "Its material"}},
             no_inputs,
@@ -93,8 +92,8 @@ struct Cone {
   static Spec<Cone> spec() {
     return {"cone",
             "A cone or frustum along z, centred on the origin, with its base down.",
-            {{"base", &Cone::base, "Radius at the lower end", unit::not_negative_mm},
-             {"top", &Cone::top, "Radius at the upper end; 0: a point", unit::not_negative_mm},
+            {{"base", &Cone::base, "Radius at the lower end", unit::radius_or_none},
+             {"top", &Cone::top, "Radius at the upper end; 0: a point", unit::radius_or_none},
              {"height", &Cone::height, "Its length along z", unit::positive_mm},
              {"material", &Cone::material, "Its material"}},
             no_inputs,
@@ -132,7 +131,7 @@ struct Torus {
   static Spec<Torus> spec() {
     return {"torus",
             "A ring that lies flat in XY, centred on the origin.",
-            {{"ring", &Torus::ring, "Radius of the centre line", unit::positive_mm},
+            {{"ring", &Torus::ring, "Radius of the centre line", unit::radius},
              {"tube", &Torus::tube, "Radius of the tube", unit::positive_mm},
              {"material", &Torus::material, "Its material"}},
             no_inputs,
@@ -160,8 +159,8 @@ struct Strut {
     return {
         "strut",
         "A cylinder from one point to another.",
-        {{"start", &Strut::start, "Centre of one end", unit::mm},
-         {"end", &Strut::end, "Centre of the other end", unit::mm},
+        {{"start", &Strut::start, "Centre of one end", unit::point},
+         {"end", &Strut::end, "Centre of the other end", unit::point},
          {"radius", &Strut::radius, "Its radius; t runs from 0 at its start to 1 at its end",
           with_variables({"t"}, unit::positive_mm)},
          {"material", &Strut::material, "Its material"},

@@ -36,7 +36,7 @@ struct Translate : Transform<Translate> {
   static Spec<Translate> spec() {
     return {"translate",
             "Moves what is in its braces.",
-            {{"by", &Translate::by, "Distance along x, y and z", required(unit::mm)}},
+            {{"by", &Translate::by, "Distance along x, y and z", required(unit::point)}},
             one_solid,
             "translate(5, 0, 0) { sphere(3, \"red\"); }"};
   }
@@ -56,9 +56,9 @@ struct Rotate : Transform<Rotate> {
             {{"angles", &Rotate::angles, "Angles about x (pitch), y (yaw) and z (roll)", unit::degrees},
              {"order", &Rotate::order, "Order of the axes, the first turn first",
               one_of({"zyx", "xyz", "xzy", "yxz", "yzx", "zxy"})},
-             {"axis", &Rotate::axis, "Axis to turn about, in place of angles", {}},
+             {"axis", &Rotate::axis, "Axis to turn about, in place of angles", unit::direction},
              {"degrees", &Rotate::degrees, "Angle about axis", unit::degrees},
-             {"around", &Rotate::around, "A point that stays in place", unit::mm}},
+             {"around", &Rotate::around, "A point that stays in place", unit::point}},
             one_solid,
             "rotate(axis=z, deg=45) { cube(6, \"red\"); }"};
   }
@@ -105,7 +105,7 @@ struct Mirror : Transform<Mirror> {
   static Spec<Mirror> spec() {
     return {"mirror",
             "Mirrors what is in its braces at a plane through the origin.",
-            {{"normal", &Mirror::normal, "Direction perpendicular to the plane", required()}},
+            {{"normal", &Mirror::normal, "Direction perpendicular to the plane", required(unit::direction)}},
             one_solid,
             "mirror(x) { translate(5, 0, 0) { cone(3, 1, 6, \"red\"); } }"};
   }

@@ -205,15 +205,15 @@ struct Remap : Warp<Remap> {
   double radius = 10;
 
   static Spec<Remap> spec() {
-    return {"remap",
-            "Lays a flat child around a cylinder along z, or a ball: its x goes around, its y upward, its z outward.",
-            {{"to", &Remap::to,
-              "cylinder; or sphere, with x the length along the equator and y the length from there to the poles",
-              one_of({"cylinder", "sphere"})},
-             {"radius", &Remap::radius, "Radius at which z = 0 lies; lengths do not change there",
-              required(unit::positive_mm)}},
-            one_solid,
-            "remap(radius=10) { rectprism((40, 8, 1), \"red\"); }"};
+    return {
+        "remap",
+        "Lays a flat child around a cylinder along z, or a ball: its x goes around, its y upward, its z outward.",
+        {{"to", &Remap::to,
+          "cylinder; or sphere, with x the length along the equator and y the length from there to the poles",
+          one_of({"cylinder", "sphere"})},
+         {"radius", &Remap::radius, "Radius at which z = 0 lies; lengths do not change there", required(unit::radius)}},
+        one_solid,
+        "remap(radius=10) { rectprism((40, 8, 1), \"red\"); }"};
   }
 
   Point inner(const Point& p) const {
@@ -301,8 +301,8 @@ struct FormulaWarp {
             {{"x", &FormulaWarp::x, "Coordinate x of the other point", required(unit::mm)},
              {"y", &FormulaWarp::y, "Coordinate y of the other point", required(unit::mm)},
              {"z", &FormulaWarp::z, "Coordinate z of the other point", required(unit::mm)},
-             {"min", &FormulaWarp::min, "Least corner of a box to which it is cut; none: it is not cut", unit::mm},
-             {"max", &FormulaWarp::max, "Greatest corner of that box", unit::mm}},
+             {"min", &FormulaWarp::min, "Least corner of a box to which it is cut; none: it is not cut", unit::point},
+             {"max", &FormulaWarp::max, "Greatest corner of that box", unit::point}},
             one_solid,
             "warp(\"x - 1.5*sin(z/2)\", \"y\", \"z\") { cylinder(3, 20, \"red\"); }"};
   }

@@ -26,7 +26,7 @@ struct KeepPartsOf : StagedSolid {
           "together",
           one_of({"largest", "above", "at"})},
          {"volume", &KeepPartsOf::volume, "Least volume of the parts that are kept by \"above\"", not_negative("mm3")},
-         {"at", &KeepPartsOf::at, "A point of the part that is kept by \"at\"", unit::mm},
+         {"at", &KeepPartsOf::at, "A point of the part that is kept by \"at\"", unit::point},
          {"seeds", &KeepPartsOf::seeds, "In place of `at`: points of the parts that are kept by \"at\"", unit::points},
          {"pitch", &KeepPartsOf::pitch, about_pitch, unit::positive_mm}},
         one_solid,

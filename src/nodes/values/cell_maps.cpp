@@ -28,8 +28,8 @@ struct BoxCells : CellOutputs<BoxCells> {
         "A map of cells that are boxes, with borders along x, y and z.",
         {{"size", &BoxCells::size, cell_size_doc, unit::positive_mm},
          {"count", &BoxCells::count, cell_count_doc, whole_from_one()},
-         {"min", &BoxCells::min, "Least corner of the region; none: cells fill all space from the origin", unit::mm},
-         {"max", &BoxCells::max, "Greatest corner of the region", unit::mm}},
+         {"min", &BoxCells::min, "Least corner of the region; none: cells fill all space from the origin", unit::point},
+         {"max", &BoxCells::max, "Greatest corner of the region", unit::point}},
         no_inputs,
         "tpms(\"gyroid\", map=box_cells((5, 5, 5), min=(0, 0, 0), max=(20, 20, 10)), thickness=0.4, "
         "material=\"red\");",
@@ -83,9 +83,10 @@ struct AroundAxis : CellOutputs<T> {
              {"count", of_base(&T::count), cell_count_doc, whole_from_one()},
              {"start", of_base(&T::start), "Angle around the axis at which the first cell begins", unit::degrees},
              {"sweep", of_base(&T::sweep), "Angle that all cells together take up", turn},
-             {"origin", of_base(&T::origin), "Centre of the region", unit::mm},
-             {"axis", of_base(&T::axis), "Direction of the axis"},
-             {"toward", of_base(&T::toward), "Direction of the angle 0, as far as it is perpendicular to the axis"}})
+             {"origin", of_base(&T::origin), "Centre of the region", unit::point},
+             {"axis", of_base(&T::axis), "Direction of the axis", unit::direction},
+             {"toward", of_base(&T::toward), "Direction of the angle 0, as far as it is perpendicular to the axis",
+              unit::direction}})
       parameters.push_back(std::move(one));
     return parameters;
   }
@@ -180,7 +181,7 @@ struct CylinderCells : WallCells<CylinderCells> {
             "A map of cells in the wall of a pipe, or in a sector of one: u runs around, v along the axis, w outward.",
             with_frame({{"inner", of_base(&CylinderCells::inner),
                          "Inner radius; cells around would all meet on the axis", unit::positive_mm},
-                        {"outer", of_base(&CylinderCells::outer), "Outer radius", unit::positive_mm},
+                        {"outer", of_base(&CylinderCells::outer), "Outer radius", unit::radius},
                         {"height", of_base(&CylinderCells::height), "Length along the axis", unit::positive_mm}}),
             no_inputs,
             "tpms(\"gyroid\", map=cylinder_cells(7, 10, 16, count=(12, 4, 1)), thickness=0.4, material=\"red\");",
@@ -201,10 +202,10 @@ struct FrustumCells : WallCells<FrustumCells> {
   static Spec<FrustumCells> spec() {
     return {"frustum_cells",
             "A map of cells in the wall of a cone without its tip: u runs around, v along the axis, w outward.",
-            with_frame({{"inner", of_base(&FrustumCells::inner), "Inner radius at the bottom", unit::positive_mm},
-                        {"outer", of_base(&FrustumCells::outer), "Outer radius at the bottom", unit::positive_mm},
-                        {"inner_top", &FrustumCells::inner_top, "Inner radius at the top", unit::positive_mm},
-                        {"outer_top", &FrustumCells::outer_top, "Outer radius at the top", unit::positive_mm},
+            with_frame({{"inner", of_base(&FrustumCells::inner), "Inner radius at the bottom", unit::radius},
+                        {"outer", of_base(&FrustumCells::outer), "Outer radius at the bottom", unit::radius},
+                        {"inner_top", &FrustumCells::inner_top, "Inner radius at the top", unit::radius},
+                        {"outer_top", &FrustumCells::outer_top, "Outer radius at the top", unit::radius},
                         {"height", of_base(&FrustumCells::height), "Length along the axis", unit::positive_mm}}),
             no_inputs,
             "tpms(\"gyroid\", map=frustum_cells(7, 10, 4, 6, 16, count=(12, 4, 1)), thickness=0.4, material=\"red\");",
@@ -223,8 +224,8 @@ struct BallCells : AroundAxis<BallCells> {
             "A map of cells in the wall of a hollow ball, between two latitudes: u runs around, v to the north, w "
             "outward.",
             with_frame(
-                {{"inner", &BallCells::inner, "Inner radius; all cells would meet in the centre", unit::positive_mm},
-                 {"outer", &BallCells::outer, "Outer radius", unit::positive_mm},
+                {{"inner", &BallCells::inner, "Inner radius; all cells would meet in the centre", unit::radius},
+                 {"outer", &BallCells::outer, "Outer radius", unit::radius},
                  {"south", &BallCells::south, "Latitude where cells begin, above the south pole",
                   from_to(-pole, pole, "deg")},
                  {"north", &BallCells::north, "Latitude where cells end, below the north pole, where cells would meet",

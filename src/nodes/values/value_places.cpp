@@ -24,8 +24,9 @@ struct Coordinates {
     return {"coordinates",
             "The position of a point in another frame: as a vector, in cylindrical and in spherical coordinates.",
             {{"origin", &Coordinates::origin, "Origin of the frame", unit::points},
-             {"axis", &Coordinates::axis, "Direction of the frame's z"},
-             {"toward", &Coordinates::toward, "Direction of the frame's x, as far as it is perpendicular to z"}},
+             {"axis", &Coordinates::axis, "Direction of the frame's z", unit::direction},
+             {"toward", &Coordinates::toward, "Direction of the frame's x, as far as it is perpendicular to z",
+              unit::direction}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", coordinates(axis=(0, 1, 1)).rho / 8));",
             {{"place", &Coordinates::place, "x, y and z in the frame, mm"},
@@ -74,7 +75,7 @@ struct At {
     return {"at",
             "A value at another point, which may vary. This warps, repeats or projects values.",
             {{"value", &At::what, "A number, an expression, a material or a mixture", required()},
-             {"place", &At::place, "Point where it is evaluated", required(any("mm"))}},
+             {"place", &At::place, "Point where it is evaluated", required(unit::point)}},
             no_inputs,
             "sphere(8, mix(\"red\", \"blue\", at(noise(size=4), [\"x\", \"y\", \"z + 2*sin(x)\"])));",
             {{"value", &At::value, "Number at that point"}, {"mixture", &At::mixture, "Mixture at that point"}}};
@@ -241,7 +242,7 @@ struct CurveDistance {
         "moves along the curve.",
         {{"points", &CurveDistance::points, "Two to 1000 different points", required(unit::points)},
          {"toward", &CurveDistance::toward,
-          "Direction of the frame's normal at the start, as far as it is perpendicular to the curve"},
+          "Direction of the frame's normal at the start, as far as it is perpendicular to the curve", unit::direction},
          {"closed", &CurveDistance::is_closed,
           "Continues the curve from the last point to the first. The frame then turns evenly around the curve by as "
           "much "

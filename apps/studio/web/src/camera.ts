@@ -73,3 +73,26 @@ export function length(mm: number): string {
   if (mm < 0.1) return `${+(mm * 1000).toPrecision(3)} µm`;
   return `${+mm.toPrecision(4)} mm`;
 }
+
+// Returns where a point of the design is seen in a picture of this size, in pixels, and how many pixels a mm has there.
+// Points behind the eye are seen nowhere.
+export function projected(camera: Camera, size: { width: number; height: number }, p: number[]): { x: number; y: number; pixels: number } | undefined {
+  const { right, down, forward } = axes(camera);
+  const v = p.map((c, n) => c - camera.target[n]);
+  const distance = eyeDistance(camera);
+  const stretch = distance === 0 ? 1 : (distance + dot(v, forward)) / distance;
+  if (stretch <= 0.01) return undefined;
+  const pixels = size.height / camera.height / stretch;
+  return { x: size.width / 2 + pixels * dot(v, right), y: size.height / 2 + pixels * dot(v, down), pixels };
+}
+
+// Returns the line of sight through a pixel of such a picture.
+export function sightThrough(camera: Camera, size: { width: number; height: number }, x: number, y: number): { from: [number, number, number]; along: [number, number, number] } {
+  const { right, down, forward } = axes(camera);
+  const mm = camera.height / size.height, r = (x - size.width / 2) * mm, d = (y - size.height / 2) * mm;
+  const at = camera.target.map((c, n) => c + r * right[n] + d * down[n]) as [number, number, number];
+  const distance = eyeDistance(camera);
+  if (distance === 0) return { from: at, along: forward as [number, number, number] };
+  const eye = camera.target.map((c, n) => c - distance * forward[n]) as [number, number, number];
+  return { from: eye, along: at.map((c, n) => c - eye[n]) as [number, number, number] };
+}

@@ -12,6 +12,28 @@ export function cutMembers(cut: Cut | undefined): Record<string, unknown> {
   return { cuts: cut ? [cut.sides.map((s) => `${axisNames[s.axis]}${s.side}${s.mm}`).join()] : [] };
 }
 
+export type Rectangle = [number, number, number, number]; // from x and y to x and y, mm; its sides may be infinite
+
+// Returns what a cut removes of the layer at z.
+export function removedAt(cut: Cut | undefined, z: number): Rectangle[] {
+  if (!cut) return [];
+  const all = Infinity;
+  if (cut.box) {
+    const [[x0, y0, z0], [x1, y1, z1]] = cut.box;
+    if (z < z0 || z > z1) return [[-all, -all, all, all]];
+    return [[-all, -all, x0, all], [x1, -all, all, all], [x0, -all, x1, y0], [x0, y1, x1, all]];
+  }
+  const of = (axis: number) => cut.sides.find((s) => s.axis === axis);
+  const range = (axis: number): [number, number] => {
+    const side = of(axis);
+    return !side ? [-all, all] : side.side === "<" ? [-all, side.mm] : [side.mm, all];
+  };
+  const [low, high] = range(2);
+  if (z < low || z > high) return [];
+  const [x, y] = [range(0), range(1)];
+  return [[x[0], y[0], x[1], y[1]]];
+}
+
 const middle = (design: Design, axis: number) => (design.bounds_mm[0][axis] + design.bounds_mm[1][axis]) / 2;
 
 const sideOfEye = (axis: number) => (state.camera && axes(state.camera).forward[axis] < 0 ? ">" : "<");

@@ -14,7 +14,7 @@ import { complete, hover, vcad } from "./language";
 import { keepAsDesign, newFile } from "./session/documents";
 import { freeName } from "./session/folder";
 import { edited, save, settle } from "./session/saving";
-import { reveal, setEditor } from "./session/script";
+import { caretMoved, reveal, setEditor } from "./session/script";
 import { Diagnostic, set, state, useStore } from "./store";
 
 const fromElsewhere = Annotation.define<boolean>();
@@ -75,6 +75,7 @@ function makeEditor(parent: HTMLElement): EditorView {
     ]),
     EditorView.updateListener.of((update) => {
       if (update.docChanged && !update.transactions.some((t) => t.annotation(fromElsewhere))) edited();
+      if (update.docChanged || update.selectionSet) caretMoved();
     }),
   ];
   // The states of other files, so that undo goes on where it was when a person comes back to a file.
@@ -116,14 +117,15 @@ function makeEditor(parent: HTMLElement): EditorView {
       if ((view.dom.dataset.file ?? "") === from) view.dom.dataset.file = to;
     },
     write: (from, to, insert) => view.dispatch({ changes: { from, to, insert } }),
-    apply: (steps, isTyping) =>
-      view.dispatch(...steps.map((changes) => ({ changes, sequential: true, userEvent: isTyping ? "input.type" : "input" }))),
+    apply: (steps, event) => view.dispatch(...steps.map((changes) => ({ changes, sequential: true, userEvent: event }))),
     undo: () => undo(view),
     redo: () => redo(view),
     reveal(from, to) {
       view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
       view.focus();
     },
+    caret: () => view.state.selection.main.head,
+    putCaret: (at) => view.dispatch({ selection: { anchor: Math.min(at, view.state.doc.length) }, effects: EditorView.scrollIntoView(Math.min(at, view.state.doc.length)) }),
     setDiagnostics: () => {
       const own = state.diagnostics.filter((d) => d.from !== undefined || !d.line);
       view.dispatch(setDiagnostics(view.state, own.map((d) => shown(d, view.state.doc.length))));

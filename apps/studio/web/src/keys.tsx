@@ -49,6 +49,7 @@ const list: [string, string][] = [
   ["Shift Alt F", "in the script: put lines in their places"],
   ["Escape, then Tab", "in the script: leave it"],
   ["arrows, Shift arrows, + -, Home", "in a view: turn, move, zoom, show all"],
+  ["arrows, Page Up, Page Down", "on a handle: move it by a step, with Shift by ten"],
   ["Page Up, Page Down, Enter", "in slices: the layer above or below, what is in the middle"],
 ];
 

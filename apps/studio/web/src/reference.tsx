@@ -2,6 +2,7 @@
 import { useState } from "preact/hooks";
 import { page } from "./language";
 import { NodeForm } from "./nodeform";
+import { NodePicture } from "./nodepicture";
 import { useSearch } from "./search";
 import { insert } from "./session/script";
 import { NodeType, useStore } from "./store";
@@ -11,6 +12,7 @@ function NodePage({ node }: { node: NodeType }) {
   return (
     <details class={`reference node-${node.name}`} onToggle={(e) => setIsOpen(e.currentTarget.open)}>
       <summary>
+        <NodePicture name={node.name} />
         <strong>{node.name}</strong> {node.sentence}
       </summary>
       {isOpen && (

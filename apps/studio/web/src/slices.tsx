@@ -1,6 +1,7 @@
 // Shows layers at the printer's resolution: pixels are those of the job's files.
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { length } from "./camera";
+import { CutControls, removedAt } from "./cuts";
 import { followFingers } from "./fingers";
 import { OptionControl } from "./joboptions";
 import { probe } from "./session/measures";
@@ -60,6 +61,7 @@ class Painter {
     if (!isComplete && this.before) this.draw(this.before.plan, this.before.tiles);
     if (first.plan) this.draw(first.plan, first.tiles);
     if (plan) this.draw(plan, tiles);
+    this.cutOpen(layer);
     this.note(layer, [...first.tiles, ...tiles]);
     if (!isComplete) return;
     this.before = { plan: plan!, tiles };
@@ -122,6 +124,18 @@ class Painter {
       context.clearRect(x0, y0, x1 - x0, y1 - y0);
       context.drawImage(picture, x0, y0, x1 - x0, y1 - y0);
     }
+  }
+
+  // Clears what the cut removes of the layer, with edges between pixels.
+  private cutOpen(layer: number) {
+    const { canvas, look } = this;
+    const { plan, cut } = state;
+    const context = canvas.getContext("2d")!;
+    const perMm = Math.min(devicePixelRatio, 2) / look!.scale;
+    const column = (x: number) => Math.max(0, Math.min(canvas.width, Math.round(canvas.width / 2 + (x - look!.x) * perMm)));
+    const row = (y: number) => Math.max(0, Math.min(canvas.height, Math.round(canvas.height / 2 - (y - look!.y) * perMm)));
+    const z = plan!.origin_mm[2] + (layer + 0.5) * plan!.pitch_mm[2];
+    for (const [x0, y0, x1, y1] of removedAt(cut, z)) context.clearRect(column(x0), row(y1), column(x1) - column(x0), row(y0) - row(y1));
   }
 
   // Returns the point in the middle of the layer under a place of the page.
@@ -276,6 +290,7 @@ export function SliceView() {
       <div class="viewbar">
         <OptionControl name="printer" />
         <OptionControl name="dither" />
+        <CutControls />
         <span class="grow">
           Layer
           <Slider label="Layer" min={0} max={plan ? plan.count[2] - 1 : 0} step={1} value={layer} isDisabled={!plan}

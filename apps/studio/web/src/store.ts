@@ -54,6 +54,7 @@ export interface GraphNode extends NodeCall {
   id: number;
   category: string;
   ports: Port[]; // inputs that have edges
+  frame?: number[][] | null; // rows of the map to the design's space, unless it stands there; null: not known
 }
 
 // An input for other nodes: solids, or a parameter that holds outputs of nodes.
@@ -91,7 +92,7 @@ export interface NodeType {
   name: string;
   category: string;
   sentence: string;
-  parameters: { name: string; doc: string; kind: string; widget: string; unit: string; required: boolean; default: unknown; written_default?: string; choices: string[] }[];
+  parameters: { name: string; doc: string; kind: string; widget: string; unit: string; in_space: string; required: boolean; default: unknown; written_default?: string; choices: string[] }[];
   inputs: { least: number; most: number | null };
   gives: string;
   outputs: { name: string; doc: string; type: string }[];
@@ -261,6 +262,7 @@ export interface State {
   camera?: Camera;
   cut?: Cut;
   perspective: boolean;
+  handles: boolean; // the view shows handles of the call at the caret
   by: string;
   palette: string;
   range?: [number, number]; // range of the values that colours span; undefined: that of the design
@@ -300,7 +302,7 @@ export interface Asking {
 }
 
 // Choices of a person that stay when the page is loaded again.
-const kept = ["perspective", "options", "view", "panel", "theme"] as const;
+const kept = ["perspective", "handles", "options", "view", "panel", "theme"] as const;
 const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?? "{}");
 
 const listeners = new Set<() => void>();
@@ -327,6 +329,7 @@ export let state: State = {
   preset: "",
   presetsProblem: "",
   perspective: false,
+  handles: true,
   by: "",
   palette: "",
   opacity: {},

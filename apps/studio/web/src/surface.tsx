@@ -3,6 +3,7 @@ import { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
 import { CutControls, cutMembers } from "./cuts";
+import { Handles } from "./handles/handles";
 import { LateField } from "./latefield";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
 import { Refused, connection } from "./session/connection";
@@ -241,7 +242,7 @@ export function ViewBar({ others, children }: { others: ComponentChildren; child
 export const attributeOptions = (attributes: { name: string }[] = []) => attributes.map((a) => <option value={a.name}>{a.name}</option>);
 
 export function SurfaceView() {
-  const { design, camera, by, palette, hello, file } = useStore();
+  const { design, camera, by, palette, hello, file, handles } = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const drawer = useRef<Drawer>();
   const [height, setHeight] = useState(1);
@@ -270,10 +271,15 @@ export function SurfaceView() {
             </select>
           </label>
         )}
+        <label title="Where the caret stands in a call whose numbers are places, they can be moved in the view">
+          <input type="checkbox" checked={handles} onChange={(e) => set({ handles: e.currentTarget.checked })} />
+          Handles
+        </label>
       </ViewBar>
       <div class="stage">
         <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The design from outside${design ? `, materials ${design.materials.map((m) => m.name).join(", ")}` : ""}. Arrows turn it, with Shift they move it, plus and minus zoom.`}
                 {...pointer} onKeyDown={moveByKeys} />
+        <Handles canvas={canvas} />
         <p class="viewproblem" role="status"></p>
         {by ? <ColourLegend /> : <Legend />}
         {camera && <ScaleBar pixelMm={camera.height / height} />}

@@ -1,12 +1,12 @@
 // The graph of a script on a canvas: cards and wires, which are edited by pointer and keys.
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { ask } from "../asking";
-import { editGraph } from "../session/graph";
+import { editGraph, isDesignFile } from "../session/graph";
 import { editor, reveal } from "../session/script";
 import { NodeType, set, state, useStore } from "../store";
 import { CardView, End } from "./card";
 import { Place, heightOf, rowsOf, sizes, tidy, yOfRow } from "./layout";
-import { Card, cardsOf, fits, freeName, numberOf, startingCall } from "./model";
+import { Card, cardsOf, fits, freeName, numberOf, startingCall, startingNode } from "./model";
 import { Palette, Where, numberNode } from "./palette";
 
 // What is kept while the page is open, by files: which cards are opened, and where a person has put some.
@@ -83,7 +83,8 @@ function connectEnds(a: End, b: End, byItem: Map<number, Card>) {
   const output = source.outputs[out.n];
   if (into.side === "children") {
     if (output.type !== "solid") return problem(`only solids go into ${goal.title}, and this is a ${output.type}`);
-    if (source.of.kind === "call" || source.of.kind === "group") return editGraph({ edit: "move", item: source.item, into: goal.item });
+    if (source.of.kind === "node" && output.name) return problem(`${output.name} goes into a solid_of, which goes into ${goal.title}`);
+    if (source.of.kind !== "variable" && source.of.kind !== "value") return editGraph({ edit: "move", item: source.item, into: goal.item });
     return editGraph({ edit: "insert", where: "inside", item: goal.item, call: `solid_of(${source.of.variable})` });
   }
   const input = goal.inputs[into.n];
@@ -94,12 +95,13 @@ function connectEnds(a: End, b: End, byItem: Map<number, Card>) {
 // Adds a node to the script. Returns the name of the variable that holds it, if it gives values.
 async function addNode(node: NodeType, where: Where, item?: number): Promise<string | undefined> {
   const text = editor!.text();
+  const begin = isDesignFile() ? startingNode : startingCall;
   if (node.gives === "solid") {
-    await editGraph({ edit: "insert", where: item === undefined ? "end" : where, item, call: startingCall(node), library: node.library });
+    await editGraph({ edit: "insert", where: item === undefined ? "end" : where, item, call: begin(node), library: node.library });
     return undefined;
   }
   const name = freeName(node === numberNode ? "number" : `${node.name}_values`, text);
-  const value = node === numberNode ? "1" : startingCall(node);
+  const value = node === numberNode ? "1" : begin(node);
   return (await editGraph({ edit: "variable", name, value, library: node.library })) ? name : undefined;
 }
 
@@ -209,6 +211,7 @@ export function CanvasView() {
     if (!made) return;
     setSelected([made.key]);
     setFocus(made.key);
+    editor!.putCaret(made.of.from);
     setWhere("inside");
   }, [graphMade, graph]);
   useEffect(() => {
@@ -242,7 +245,8 @@ export function CanvasView() {
     const card = cardAt(element);
     if (card && end.side === "output" && card.takesChildren && card.item !== end.item) return connectEnds(end, { item: card.item, side: "children", n: 0 }, byItem);
     const source = byItem.get(end.item);
-    if (!card && source?.of.kind === "call" && end.side === "output" && source.of.parent !== undefined) return editGraph({ edit: "move", item: end.item });
+    const mayLeave = source?.of.kind === "node" || (source?.of.kind === "call" && source.of.parent !== undefined);
+    if (!card && end.side === "output" && source?.outputs[end.n].type === "solid" && mayLeave) return editGraph({ edit: "move", item: end.item });
   };
   const dropNode = async (node: NodeType, element: Element | null) => {
     const end = endAt(element), card = cardAt(element), wire = element?.closest<SVGElement>("[data-child]")?.dataset.child;
@@ -293,6 +297,7 @@ export function CanvasView() {
   const choose = (card: Card, isMore: boolean) => {
     setSelected((old) => (isMore ? (old.includes(card.key) ? old.filter((key) => key !== card.key) : [...old, card.key]) : [card.key]));
     setFocus(card.key);
+    editor!.putCaret(card.of.from);
     stage.current!.querySelector<HTMLElement>(`[data-item="${card.item}"]`)?.focus();
   };
   const add = (node: NodeType) => addNode(node, chosen.length === 1 ? where : "end", chosen.length === 1 ? chosen[0].item : undefined);
@@ -351,7 +356,7 @@ export function CanvasView() {
     <section class="view graph" aria-label="Graph" data-stale={isStale}>
       <div class="viewbar">
         <button aria-expanded={showsPalette} onClick={() => (showsPalette ? closePalette() : openPalette())} title="Nodes and operators (A)">Add…</button>
-        <button disabled={chosen.length === 0} onClick={() => group(chosen)} title="Make a module of the chosen calls, which follow each other">Group…</button>
+        <button disabled={chosen.length === 0 || isDesignFile()} onClick={() => group(chosen)} title="Make a module of the chosen calls, which follow each other">Group…</button>
         <button disabled={chosen.length !== 1 || !isModule(chosen[0])} onClick={() => saveAsLibrary(chosen[0])} title="Move the chosen module into a file that other designs can use">Save as library…</button>
         <button disabled={chosen.length !== 1 || chosen[0].isLocked && chosen[0].of.locked_by !== ""} onClick={() => editGraph({ edit: "remove", item: chosen[0].item, keeps_children: true })} title="Remove it and keep its children (Shift Delete)">Unwrap</button>
         <button disabled={chosen.length !== 1} onClick={() => editGraph({ edit: "remove", item: chosen[0].item })} title="Remove it (Delete)">Remove</button>
@@ -365,7 +370,7 @@ export function CanvasView() {
       </div>
       <div class="canvasrow">
         {showsPalette && <Palette chosen={label} where={where} setWhere={setWhere} add={add} close={closePalette} pull={(e, node) => (e.preventDefault(), begin(e, { kind: "new", x: e.clientX, y: e.clientY, node, isMoved: false }))} />}
-        <div class="stage canvas" ref={stage} tabIndex={0} role="group" aria-label="Calls of the script" onKeyDown={onStageKey}
+        <div class="stage canvas" ref={stage} tabIndex={0} role="group" aria-label={isDesignFile() ? "Nodes of the design" : "Calls of the script"} onKeyDown={onStageKey}
              onPointerDown={(e) => e.target instanceof Element && !e.target.closest(".card, .wirehit") && (setSelected([]), setPending(undefined), begin(e, { kind: "pan", x: e.clientX, y: e.clientY, view }))}>
           {laid.cards.length === 0 && <p class="empty">{graph ? "The script makes nothing yet. Add a node: press A, or Add." : state.file ? "The graph comes as soon as the script has no mistakes." : "Add a node, and a design begins."}</p>}
           <div class="world" style={{ transform: `translate(${view.x}px, ${view.y}px) scale(${view.zoom})` }}>

@@ -1,9 +1,9 @@
 // A card of the graph: a call with its inputs, outputs and values.
 import { LateField } from "../latefield";
-import { editGraph, moveValue } from "../session/graph";
+import { editGraph, moveValues } from "../session/graph";
 import { Thumbnail } from "../thumbnails";
 import { Place, Row, heightOf, sizes } from "./layout";
-import { Card, Input, numberOf, rangeOf } from "./model";
+import { Card, Input, isNamed, numberOf, rangeOf } from "./model";
 
 // An end of a wire, as the canvas is told of it.
 export interface End {
@@ -33,6 +33,11 @@ interface Props {
 const target = (card: Card, input: Input) => ({ item: card.item, ...(input.index === undefined ? { name: input.name } : { index: input.index }) });
 const put = (card: Card, input: Input, value: string) => editGraph({ edit: "set", ...target(card, input), value });
 
+function move(card: Card, input: Input, number: number) {
+  const edit = { edit: "set", ...target(card, input), value: String(+number.toPrecision(6)) };
+  moveValues(() => [edit], { event: "input.type" });
+}
+
 const hintOf = (input: Input) => {
   const p = input.parameter;
   return p ? [p.doc, p.unit].filter(Boolean).join(", ") : "";
@@ -59,7 +64,7 @@ function Value({ card, input }: { card: Card; input: Input }) {
     <>
       {number !== undefined && (
         <input type="range" aria-label={`Slider for ${label}`} {...rangeOf(card, input, number)} value={number} disabled={isDisabled} tabIndex={-1}
-               onInput={(e) => moveValue({ edit: "set", ...target(card, input), value: String(+(+e.currentTarget.value).toPrecision(6)) })} />
+               onInput={(e) => move(card, input, +e.currentTarget.value)} />
       )}
       <LateField type="text" class={number === undefined ? "text" : "text short"} aria-label={label} title={input.text} value={input.text} placeholder={usualOf(input)} disabled={isDisabled}
                  take={(text) => put(card, input, text)} />
@@ -121,13 +126,13 @@ function Head({ props }: { props: Props }) {
     <div class="head" onPointerDown={props.onGrab} onDblClick={isGroup ? props.onOpen : undefined}>
       {isGroup && <button class="fold" aria-expanded={props.isOpen} aria-label={`What ${card.title} holds`} onClick={props.onOpen}>{props.isOpen ? "▾" : "▸"}</button>}
       <span class="title">
-        {of.kind === "variable" ? (
+        {isNamed(of) ? (
           <LateField type="text" class="variable" aria-label={`Name of ${of.variable}`} value={of.variable} disabled={card.isLocked} take={(name) => editGraph({ edit: "rename", item: card.item, name })} />
         ) : (
           <strong>{isGroup && of.variable ? `module ${of.variable}` : card.title}</strong>
         )}
         <small>
-          {of.kind === "variable" && of.callee ? `${of.callee}, ` : ""}
+          {isNamed(of) && (of.callee || of.kind === "part") ? `${card.title}, ` : ""}
           <button class="line" aria-label={`${card.title} in line ${of.line} of the script`} onClick={props.onLine}>line {of.line}</button>
           {of.locked_by ? " · read-only" : ""}
         </small>

@@ -1,4 +1,4 @@
-// The view of the graph: of a script that can be edited there its calls, else the nodes of the design.
+// The view of the graph: of a script or a design file that can be edited there its calls, else the nodes of the design.
 import { useEffect } from "preact/hooks";
 import { hasGraph, readGraph } from "../session/graph";
 import { useStore } from "../store";

@@ -63,7 +63,7 @@ export const numberOf = (text: string) => (isNumber(text) ? +text : undefined);
 function definedType(graph: ScriptGraph, name: string): NodeType | undefined {
   const found = graph.definitions.find((d) => d.name === name);
   if (!found) return undefined;
-  const parameters = found.parameters.map((p) => ({ name: p.name, doc: "", kind: "", widget: "", unit: "", required: p.default === "", default: p.default || null, choices: [] }));
+  const parameters = found.parameters.map((p) => ({ name: p.name, doc: "", kind: "", widget: "", unit: "", in_space: "", required: p.default === "", default: p.default || null, choices: [] }));
   return { name, category: "", sentence: "", parameters, inputs: { least: 0, most: found.is_module ? null : 0 }, gives: found.is_module ? "solid" : "values", outputs: [], example: "" };
 }
 
@@ -82,6 +82,7 @@ function holderOf(graph: ScriptGraph, item: GraphItem): { item: number; argument
 // Pairs arguments with parameters, as a call does: those without names go to the first parameters that are free.
 function inputsOf(item: GraphItem, type: NodeType | undefined): Input[] {
   const inputs: Input[] = [];
+  if (item.kind === "part") return inputs;
   if (item.kind === "variable" && item.callee === "") {
     const text = item.arguments[0]?.text ?? "";
     return [{ name: "value", type: typeOfText(text), index: 0, text, isRequired: true, from: [] }];
@@ -103,6 +104,8 @@ function inputsOf(item: GraphItem, type: NodeType | undefined): Input[] {
 }
 
 function outputsOf(item: GraphItem, type: NodeType | undefined): Output[] {
+  if (item.kind === "part") return [];
+  if (item.kind === "node") return type?.gives === "values" ? type.outputs.map((o) => ({ name: o.name, type: portType(o.type) })) : [{ name: "", type: "solid" }];
   if (item.kind === "call" || item.kind === "group") return item.callee === "module" ? [] : [{ name: "", type: "solid" }];
   if (item.callee === "") return [{ name: "", type: typeOfText(item.arguments[0]?.text ?? "") }];
   if (type?.gives === "solid") return [{ name: "", type: "solid" }];
@@ -112,7 +115,13 @@ function outputsOf(item: GraphItem, type: NodeType | undefined): Output[] {
   return named.some((o) => o.name === "") || named.length > 1 ? named : [{ name: "", type: named[0].type }];
 }
 
-const word = (item: GraphItem) => item.callee || item.variable || "value";
+const word = (item: GraphItem) => (item.kind === "part" ? "part" : item.callee || item.variable || "value");
+// Names of nodes and parts may be the same.
+const keyOf = (item: GraphItem) => (item.kind === "part" ? `part ${item.variable}` : item.variable || item.callee);
+const takesSolids = (item: GraphItem, type: NodeType | undefined) =>
+  item.kind === "group" || item.kind === "part" || ((item.kind === "call" || item.kind === "node") && (!type || type.inputs.most !== 0));
+// Items that have a name which a person may change.
+export const isNamed = (item: GraphItem) => item.kind === "variable" || item.kind === "node" || item.kind === "part";
 
 // Returns the cards of a graph. Items in groups are there only if their group is open.
 export function cardsOf(graph: ScriptGraph, isOpen: (key: string) => boolean): Card[] {
@@ -121,7 +130,7 @@ export function cardsOf(graph: ScriptGraph, isOpen: (key: string) => boolean): C
   const cards = new Map<number, Card>();
   graph.items.forEach((item, n) => {
     const above = item.parent === undefined ? "" : keys[item.parent];
-    const name = `${above}/${item.variable || item.callee}`;
+    const name = `${above}/${keyOf(item)}`;
     const count = counts.get(name) ?? 0;
     counts.set(name, count + 1);
     keys.push(count === 0 ? name : `${name}#${count}`);
@@ -133,9 +142,8 @@ export function cardsOf(graph: ScriptGraph, isOpen: (key: string) => boolean): C
         return;
       }
     const type = typeOf(graph, item.callee);
-    const takesChildren = item.kind === "group" || (item.kind === "call" && (!type || type.inputs.most !== 0));
     cards.set(n, {
-      item: n, key: keys[n], of: item, type, title: word(item), inputs: item.kind === "group" ? [] : inputsOf(item, type), outputs: outputsOf(item, type), takesChildren, children: [],
+      item: n, key: keys[n], of: item, type, title: word(item), inputs: item.kind === "group" ? [] : inputsOf(item, type), outputs: outputsOf(item, type), takesChildren: takesSolids(item, type), children: [],
       isLocked: item.locked_by !== "" || item.kind === "group", holds: 0,
     });
   });
@@ -149,6 +157,7 @@ function connect(graph: ScriptGraph, card: Card, cards: Map<number, Card>) {
     const input = card.inputs.find((i) => i.index === wire.argument);
     if (input && !input.from.some((f) => f.item === wire.from && f.output === wire.output)) input.from.push({ item: wire.from, output: wire.output });
   }
+  card.children.push(...(of.inputs ?? []).filter((input) => cards.has(input)));
   if (of.parent === undefined) return;
   if (of.kind !== "value") return void cards.get(of.parent)?.children.push(card.item);
   const holder = holderOf(graph, of);
@@ -198,6 +207,23 @@ export function startingCall(node: NodeType): string {
   const usual: Record<string, string> = { number: "1", material: '"red"', text: '""', boolean: "true" };
   const given = node.parameters.filter((p) => p.required).map((p) => `${p.name} = ${known[p.name] ?? (p.choices[0] ? JSON.stringify(p.choices[0]) : (usual[p.widget] ?? "1"))}`);
   return `${node.name}(${given.join(", ")})`;
+}
+
+// Returns a value of an example as JSON, if it is one.
+function jsonOf(text: string | undefined): unknown {
+  try {
+    return JSON.parse((text ?? "").replaceAll("(", "[").replaceAll(")", "]"));
+  } catch {
+    return undefined;
+  }
+}
+
+// Returns what a node of a design file begins with, as startingCall does for scripts.
+export function startingNode(node: NodeType): string {
+  const known = exampleArguments(node);
+  const usual: Record<string, unknown> = { number: 1, material: "red", text: "", boolean: true };
+  const given = node.parameters.filter((p) => p.required).map((p) => [p.name, jsonOf(known[p.name]) ?? p.choices[0] ?? usual[p.widget] ?? 1]);
+  return JSON.stringify({ type: node.name, parameters: Object.fromEntries(given) });
 }
 
 // Returns the wanted name, with a number if the text has it already.

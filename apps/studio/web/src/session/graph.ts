@@ -2,7 +2,7 @@
 import { set, state } from "../store";
 import { Reply, connection } from "./connection";
 import { listFiles } from "./folder";
-import { editor } from "./script";
+import { EditEvent, editor } from "./script";
 
 export interface Wire {
   from: number; // an item that is a variable
@@ -12,10 +12,11 @@ export interface Wire {
 }
 
 export interface GraphItem {
-  kind: "call" | "variable" | "value" | "group";
+  kind: "call" | "variable" | "value" | "group" | "node" | "part"; // the last two in design files (JSON)
   callee: string;
   variable: string;
   parent?: number;
+  inputs?: number[]; // of nodes and parts: the items that they take
   argument: number;
   locked_by: string;
   line: number;
@@ -48,7 +49,8 @@ const file = () => state.file || "untitled.vcad";
 const graphOf = (text: string, reply: Reply): ScriptGraph => ({ text, items: reply.items, definitions: reply.definitions, is_cut: reply.is_cut });
 const reasonIn = (reply: Reply) => reply.diagnostics.map((d: any) => (d.hint ? `${d.message}; ${d.hint}` : d.message)).join("\n");
 
-export const hasGraph = () => state.kind === "" && !/\.(py|json|scad)$/i.test(state.file);
+export const hasGraph = () => state.kind === "" && !/\.(py|scad)$/i.test(state.file);
+export const isDesignFile = () => /\.json$/i.test(state.file);
 
 // Reads the graph of the text, if it is not known yet.
 export async function readGraph() {
@@ -63,19 +65,19 @@ export async function readGraph() {
 let edits: Promise<boolean> = Promise.resolve(true);
 
 // Makes an edit after those before it. Returns true if it was made; else the page says why not.
-export function editGraph(edit: Edit, isTyping = false): Promise<boolean> {
-  edits = edits.then(() => editNow(edit, isTyping));
+export function editGraph(edit: Edit, event: EditEvent = "input"): Promise<boolean> {
+  edits = edits.then(() => editNow(edit, event));
   return edits;
 }
 
-async function editNow(edit: Edit, isTyping: boolean): Promise<boolean> {
+async function editNow(edit: Edit, event: EditEvent): Promise<boolean> {
   const text = editor!.text();
   try {
     const reply = await connection.ask("edit_graph", { file: file(), text, ...edit }).answer;
     if (!reply.ok) throw new Error(reasonIn(reply));
     if (editor!.text() !== text) throw new Error("the text was changed meanwhile; do it again");
     if (reply.library) await writeLibrary(edit.path as string, reply.library);
-    editor!.apply(reply.steps, isTyping);
+    editor!.apply(reply.steps, event);
     set({ graph: graphOf(editor!.text(), reply), graphProblem: "", graphMade: reply.made });
     return true;
   } catch (error) {
@@ -91,18 +93,25 @@ async function writeLibrary(path: string, text: string) {
   await listFiles();
 }
 
-// Sets an argument while a slider moves: values that come while one is on its way replace each other.
-let next: Edit | undefined;
+// A movement that makes many edits, such as a drag, and the event of its next one.
+export interface Stroke {
+  event: EditEvent;
+}
+
+// Sets arguments while something moves: what comes while an edit is on its way replaces each other. The edits are made
+// of the graph as it is then.
+let next: { make: () => Edit[]; stroke: Stroke } | undefined;
 let isMoving = false;
 
-export async function moveValue(edit: Edit) {
-  next = edit;
+export async function moveValues(make: () => Edit[], stroke: Stroke) {
+  next = { make, stroke };
   if (isMoving) return;
   isMoving = true;
   while (next) {
-    const now: Edit = next;
+    const now = next as { make: () => Edit[]; stroke: Stroke };
     next = undefined;
-    await editGraph(now, true);
+    for (const edit of now.make())
+      if ((await editGraph(edit, now.stroke.event)) && now.stroke.event === "input") now.stroke.event = "input.type.compose";
   }
   isMoving = false;
 }

@@ -1,15 +1,20 @@
 // The text of the open file, as the parts beside the editor see it.
 
+// How undo counts an edit: alone, with others that follow soon at the same place, or always with the edit before it.
+export type EditEvent = "input" | "input.type" | "input.type.compose";
+
 // The part of the editor that other parts of the page need.
 export interface Editor {
   text(): string;
   replace(text: string): void;
   write(from: number, to: number, text: string): void;
   // Makes steps of replacements, each of the text that the one before has made, as one step for undo.
-  apply(steps: { from: number; to: number; insert: string }[][], isTyping: boolean): void;
+  apply(steps: { from: number; to: number; insert: string }[][], event: EditEvent): void;
   undo(): void;
   redo(): void;
   reveal(from: number, to: number): void;
+  caret(): number;
+  putCaret(at: number): void; // leaves the focus where it is
   setDiagnostics(): void;
   rename(from: string, to: string): void; // what is kept of a file belongs to its new name
 }
@@ -18,6 +23,18 @@ export let editor: Editor | undefined;
 
 export function setEditor(made: Editor) {
   editor = made;
+}
+
+// Those who follow the caret, such as the handles of the call where it stands.
+const followers = new Set<() => void>();
+
+export function followCaret(follower: () => void): () => void {
+  followers.add(follower);
+  return () => followers.delete(follower);
+}
+
+export function caretMoved() {
+  for (const follower of [...followers]) follower();
 }
 
 export const reveal = (from: number, to: number) => editor?.reveal(from, to);
