@@ -57,7 +57,7 @@ class BatchLeaf : public LeafEvaluator {
   BatchLeaf(const VoxelJob& job, const eval::KernelSet& kernels)
       : job_(job),
         kernels_(row_kernels(kernels.name)),
-        batch_(kernels),
+        batch_(kernels, eval::BatchEvaluator::Finish::inside),
         parts_(job, kernels),
         rows_(parts_),
         reference_(reference_leaf(job)) {}

@@ -331,15 +331,15 @@ def test_struts_lie_between_scattered_points():
     assert distances[2] - distances[0] < 1e-6
     if numpy.abs(middle).max() < 4.5:
         assert cells.evaluate(*middle.tolist()) == pytest.approx(-0.3, abs=1e-6)
-    with pytest.raises(pv.MissingFeature, match="Shell"):
-        mm.voronoi_graph_lattice(block, points, 0.6, boundary="closed")
+    with pytest.raises(pv.MissingFeature, match="node_radius"):
+        mm.voronoi_graph_lattice(block, points, 0.6, member_blend_radius=0.5)
 
 
 def test_missing_names_say_what_to_write_instead():
     with pytest.raises(pv.MissingFeature, match="ombre.surface_cells"):
-        mm.cell_map_from_cad_face(None, cells=(2, 2, 2))
-    with pytest.raises(pv.MissingFeature, match="ombre.voronoi_walls and delaunay_walls make walls"):
-        mm.voronoi_plate_lattice(None, None)
+        mm.cell_map_between_cad_faces(None, None, cells=(2, 2, 2))
+    with pytest.raises(pv.MissingFeature, match="reentrant_honeycomb"):
+        mm.plate_lattice(None, wall_thickness=1)
     with pytest.raises(AttributeError, match="did you mean 'octet'"):
         mm.octett
 
@@ -355,3 +355,148 @@ def test_bodies_are_characterized():
     assert found.cross_sections["x"].maximum_area_fraction == pytest.approx(1)
     gyroid = mm.properties.characterize(mm.gyroid(box(1, 6.0), wall_thickness=0.9), voxel_size=0.2, periodic_axes="xyz")
     assert gyroid.euler_characteristic == -8 and gyroid.genus is None
+
+
+def sheet(bend=None, n=8, side=16.0):
+    """Points and triangles of a square sheet, which `bend` moves."""
+    at = numpy.linspace(0, side, n + 1)
+    points = numpy.stack([*(axis.ravel() for axis in numpy.meshgrid(at, at, indexing="ij")), numpy.zeros((n + 1) ** 2)], axis=-1)
+    corners = [(i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1)
+               for i in range(n) for j in range(n)]
+    triangles = [t for a, b, c, d in corners for t in ((a, b, c), (a, c, d))]
+    return (points if bend is None else numpy.array([bend(*p) for p in points])), numpy.array(triangles)
+
+
+def rolled(x, y, z):
+    """A sheet rolled around the y axis with the radius 10."""
+    return 10 * math.sin(x / 10), y, 10 * math.cos(x / 10) - 10
+
+
+def test_flat_patches_of_meshes_have_the_cells_of_boxes():
+    surface = pv.TriangleMeshSurface(*sheet(), u_axis_hint=(1, 0, 0))
+    cells = mm.cell_map_from_surface(surface, cells=(4, 4, 2), height=6)
+    assert [round(c, 9) for c in cells.inverse((6, 10, 1.5))] == [1.5, 2.5, 0.5]
+    assert [round(c, 9) for c in cells.forward((1.5, 2.5, 0.5))] == [6, 10, 1.5]
+    assert cells.validate().valid
+    walls = mm.simple_cubic_plate(cells, wall_thickness=0.4)
+    assert walls.evaluate(2, 2, 3.19) < 0 < walls.evaluate(2, 2, 3.21)
+    below = mm.cell_map_from_surface(surface, cells=(4, 4, 2), height=-6)
+    assert below.inverse((6, 10, -1.5)).z == pytest.approx(0.5, abs=1e-9)
+
+
+# Rolled, a sheet keeps its lengths; chords of 2 mm on a radius of 10 are 1/600 shorter than their arcs.
+def test_rolled_patches_of_meshes_have_the_cells_of_pipes():
+    surface = pv.TriangleMeshSurface(*sheet(rolled), u_axis_hint=(1, 0, 0))
+    cells = mm.cell_map_from_surface(surface, cells=(4, 4, 1), height=3)
+    angle = 0.9
+    place = cells.inverse((11.5 * math.sin(angle), 6, 11.5 * math.cos(angle) - 10))
+    assert place.x == pytest.approx(angle * 10 / 4, abs=0.02)
+    assert (place.y, place.z) == pytest.approx((1.5, 0.5), abs=0.02)
+    back = cells.inverse(cells.forward((2.3, 1.1, 0.6)))
+    assert tuple(back) == pytest.approx((2.3, 1.1, 0.6), abs=1e-8)
+    with pytest.raises(RuntimeError, match="folded"):
+        mm.cell_map_from_surface(surface, cells=(4, 4, 1), height=-12)
+
+
+def test_cells_reach_from_one_patch_to_another():
+    upper, triangles = sheet(lambda x, y, z: (x, y, 5 + x / 16))
+    cells = mm.cell_map_between_surfaces(pv.TriangleMeshSurface(*sheet(), u_axis_hint=(1, 0, 0)),
+                                         pv.TriangleMeshSurface(upper, triangles), cells=(4, 4, 2))
+    assert tuple(cells.inverse((8, 6, 2.75))) == pytest.approx((2, 1.5, 1), abs=1e-6)  # 5.5 mm high there
+    other = mm.cell_map_between_surfaces(pv.TriangleMeshSurface(upper, triangles), pv.TriangleMeshSurface(*sheet()), (4, 4, 2))
+    assert other.inverse((8, 6, 0.02)).z == pytest.approx(2, abs=0.02)
+
+
+def test_surfaces_without_cells_are_refused():
+    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    with pytest.raises(RuntimeError, match="closed"):
+        pv.TriangleMeshSurface(points, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    with pytest.raises(RuntimeError, match="not there"):
+        pv.TriangleMeshSurface(points, [(0, 1, 4)])
+    with pytest.raises(RuntimeError, match="no triangles"):
+        pv.TriangleMeshSurface([], [])
+    with pytest.raises(ValueError, match="lscm, arap, authalic"):
+        pv.TriangleMeshSurface(*sheet(), method="best")
+    surface = pv.TriangleMeshSurface(*sheet())
+    with pytest.raises(ValueError, match="above or below 0"):
+        mm.cell_map_from_surface(surface, (1, 1, 1), height=0)
+    with pytest.raises(pv.MissingFeature, match="trim="):
+        mm.cell_map_from_surface(surface, (1, 1, 1), height=1, trim="none")
+    with pytest.raises(TypeError, match="surface_cells"):
+        mm.cell_map_from_surface("part.step", (1, 1, 1), height=1)
+
+
+def box_surface():
+    """A cuboid of 2 x 3 x 4 mm: twelve triangles."""
+    points = [(x, y, z) for x in (0, 2) for y in (0, 3) for z in (0, 4)]
+    sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return pv.SurfaceMesh(points, [t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
+
+
+def test_triangles_are_chosen():
+    mesh = box_surface()
+    top = mesh.ray_intersection((1, 1, 9), (0, 0, -2))
+    assert (top.distance, top.point.z) == (5, 4)
+    assert mesh.ray_intersection((5, 5, 9), (0, 0, -1)) is None
+    assert mesh.nearest_triangle((1, 1, 5)).point == pv.Vec3(1, 1, 4)
+    assert mesh.nearest_vertex((1.9, 2.8, 4.5)) == 7
+    face = mesh.select_linked_by_face_angle(seed_triangle=top.triangle_id, max_angle_degrees=10)
+    assert (face.triangle_count, face.area, len(face.boundary_edges())) == (2, 6, 4)
+    assert mesh.select_linked(seed_triangle=0).triangle_count == 12
+    assert mesh.select_linked(seed_triangle=0).area == pytest.approx(2 * (6 + 8 + 12))
+    assert face.grown(1).shrunk(1).triangle_ids == face.triangle_ids
+    labels = [0] * 6 + [1] * 6
+    assert mesh.select_linked_constrained(seed_triangle=0, triangle_regions=labels).triangle_count <= 6
+    loop = face.boundary_edges()
+    assert mesh.select_enclosed_region(loop, top.triangle_id).triangle_ids == face.triangle_ids
+    assert mesh.select_enclosed_region(loop, 0).triangle_count == 10
+    with pytest.raises(RuntimeError, match="no closed loop"):
+        mesh.select_enclosed_region(loop[:2], 0)
+    path = mesh.shortest_surface_path(0, 4)
+    assert path.edges == [(0, 4)] and path.length == 2
+    assert mesh.select_by_geodesic_radius(0, radius=100).triangle_count == 12
+    assert mesh.select_by_geodesic_radius(0, radius=0.5).triangle_count == 0
+    with pytest.raises(ValueError, match="there is no triangle 40"):
+        mesh.select_triangles([40])
+    cells = mm.cell_map_from_surface(face.to_triangle_mesh_surface(u_axis_hint=(1, 0, 0)), cells=(2, 3, 1), height=1)
+    assert tuple(cells.inverse((0.5, 1, 4.5))) == pytest.approx((0.5, 1, 0.5), abs=1e-9)
+
+
+def test_walls_lie_between_scattered_points():
+    host = pv.Sphere(pv.Vec3(0, 0, 0), 6)
+    points = [(0, 0, -2), (0, 0, 2), (0, 40, 0), (40, 0, 0), (-40, -40, 0), (0, 0, 50)]
+    walls = mm.voronoi_plate_lattice(host, points, wall_thickness=0.6)
+    for z, inside in ((0.29, True), (0.31, False), (-0.29, True), (-0.31, False)):
+        assert (walls.evaluate(1, 1, z) < 0) == inside
+    assert walls.evaluate(5.8, 0, 2) > 0
+    skin = mm.voronoi_plate_lattice(host, points, 0.6, boundary="closed")
+    assert skin.evaluate(0, 3.55, 4.55) < 0 < skin.evaluate(0, 3, 4)
+    faces = mm.delaunay_plate_lattice(host, points, 0.6)
+    assert faces.evaluate(0, 0, -2) < 0
+    with pytest.raises(ValueError, match='"open" or "closed"'):
+        mm.voronoi_graph_lattice(host, points, 0.6, boundary="shut")
+
+
+# Struts run along the surface where it is as near to a second point as to the first.
+def test_closed_struts_run_along_the_surface():
+    host = pv.Sphere(pv.Vec3(0, 0, 0), 6)
+    seeds = numpy.array(mm.sample_points_in_host(host, spacing=3, seed=4))
+    rim = mm.voronoi_graph_lattice(host, seeds, beam_thickness=0.6, boundary="closed")._design()
+    ways = numpy.random.default_rng(2).normal(size=(4000, 3))
+    places = 5.95 * ways / numpy.linalg.norm(ways, axis=1, keepdims=True)
+    away = numpy.linalg.norm(places[:, None] - seeds[None], axis=2)
+    order = numpy.argsort(away, axis=1)[:, :2]
+    near, next_ = (numpy.take_along_axis(away, order, axis=1)[:, n] for n in range(2))
+    between = numpy.linalg.norm(seeds[order[:, 0]] - seeds[order[:, 1]], axis=1)
+    from_wall = (next_ ** 2 - near ** 2) / (2 * between)
+    inside = rim.distance(places) <= 0
+    assert (from_wall < 0.25).sum() > 50 and inside[from_wall < 0.25].all()
+    assert not inside[from_wall > 0.6].all()
+
+
+def test_many_bodies_are_mixed():
+    balls = [pv.Sphere(pv.Vec3(0, 0, 0), r) for r in (2, 4, 9)]
+    mixed = mm.mix_many(balls, [1, 2, 1])
+    assert mixed.evaluate(0, 0, 6) == pytest.approx(6 - (2 + 8 + 9) / 4)
+    with pytest.raises(ValueError, match="a weight for each body"):
+        mm.mix_many(balls, [1, 2])

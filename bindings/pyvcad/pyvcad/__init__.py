@@ -30,7 +30,9 @@ from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
 from ._simulation_model import SimulationCellType, SimulationModel
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, SignedDistanceField, Sphere, Torus
+from ._selections import MeshSelection
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
+from ._surfaces import TriangleMeshSurface
 from ._texts import parse_vcad_text, version
 from ._tree import Node
 from ._triangles import SurfaceMesh
@@ -57,7 +59,7 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
            "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "HexahedralMesh", "SimulationCellType", "SimulationModel", "TetrahedralMesh",
            "UnstructuredFieldDataset", "XDMFFieldLoader", "CellMap", "CellMapCollection", "GraphUnitCell", "ImplicitUnitCell",
-           "MappedGraphLattice", "MappedImplicitLattice", "TrimMode"]
+           "MappedGraphLattice", "MappedImplicitLattice", "MeshSelection", "TriangleMeshSurface", "TrimMode"]
 
 
 def __getattr__(name: str) -> object:

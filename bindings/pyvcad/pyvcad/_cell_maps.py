@@ -53,11 +53,12 @@ def _lacking(name: str) -> Any:
 class CellMap:
     """Cells in a part of space: CellMap.rectangular(min, max, cells), or by the functions of pyvcad_metamaterials."""
 
-    trim_mode = TrimMode.none
-    has_boundary_trim = False
+    trim_mode: TrimMode = TrimMode.none
+    has_boundary_trim: bool = False
 
     def __init__(self, value: Any, cells: tuple[int, int, int], forward: Forward, periodic_axes: str = "") -> None:
         self._value, self._cells, self._forward = value, cells, forward
+        self._sources: tuple[Any, ...] = ()  # have the files that the value reads
         self.periodic_axes = periodic_axes
 
     # Ways to make one.
@@ -75,7 +76,8 @@ class CellMap:
         return CellMap(ombre.box_cells(count=counts, min=low, max=high), counts, forward)
 
     from_cad_face, between_cad_faces = _lacking("from_cad_face"), _lacking("between_cad_faces")
-    from_surface, between_surfaces = _lacking("from_surface"), _lacking("between_surfaces")
+    from_surface: Any  # set by _surfaces
+    between_surfaces: Any
 
     @staticmethod
     def warp(map: CellMap, u_scale: Any = None, v_scale: Any = None, w_scale: Any = None, lock_u_bounds: bool = True,
@@ -351,3 +353,25 @@ def _inverted(value: Any, map: CellMap) -> Forward:
     return forward
 
 
+def inverted_from(value: Any, starts: numpy.ndarray) -> Forward:
+    """The points of places in a map, by Newton's method from the nearest of some points."""
+    def numbers(output: str, points: numpy.ndarray) -> numpy.ndarray:
+        return numpy.stack([numpy.asarray(part(points), dtype=float) for part in getattr(value, output)], axis=-1)
+    known = numbers("place", starts)
+
+    def forward(u: Any, v: Any, w: Any) -> tuple[Any, Any, Any]:
+        if any(isinstance(c, ombre.Expression) for c in (u, v, w)):
+            raise missing("a warp of a map on a surface by a field", "scales that are numbers")
+        wanted = numpy.stack(numpy.broadcast_arrays(*(numpy.asarray(c, dtype=float) for c in (u, v, w))), axis=-1)
+        shape, wanted = wanted.shape[:-1], wanted.reshape(-1, 3)
+        nearest = [int(numpy.argmin(((known - place) ** 2).sum(axis=1))) for place in wanted]
+        points = starts[nearest].copy()
+        for _ in range(60):
+            off = wanted - numbers("place", points)
+            if numpy.abs(off).max() < 1e-10:
+                break
+            rows = numpy.stack([numbers(f"slope_{axis}", points) for axis in "uvw"], axis=1)
+            points += numpy.linalg.solve(rows, off[..., None])[..., 0]
+        x, y, z = points.T
+        return tuple(c.reshape(shape) for c in (x, y, z))  # type: ignore[return-value]
+    return forward

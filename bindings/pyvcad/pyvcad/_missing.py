@@ -23,7 +23,7 @@ MISSING: dict[str, dict[str, str]] = {
         "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions",
         "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
-        "TriangleMeshSurface": _surfaces, "MeshSelection": "", "probe_point": "node.snap(point)",
+        "probe_point": "node.snap(point)",
         "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
         "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
     "pyvcad_compilers": dict.fromkeys(
@@ -33,13 +33,11 @@ MISSING: dict[str, dict[str, str]] = {
          "MyersonCompiler"), "VatCompiler writes gray images, and ombre slice -o part.sl1 an archive for printers") | dict.fromkeys(
         ("FullSpectrumSlicerProjectCompiler",),
         "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
-    "pyvcad_metamaterials": dict.fromkeys(
-        ("cell_map_from_cad_face", "cell_map_between_cad_faces", "cell_map_from_surface", "cell_map_between_surfaces"),
-        _maps) | dict.fromkeys(
-        ("voronoi_plate_lattice", "delaunay_plate_lattice"), "ombre.voronoi_walls and delaunay_walls make walls") | {
+    "pyvcad_metamaterials": {
+        "cell_map_from_cad_face": _maps, "cell_map_between_cad_faces": _maps,
+        "rim": "an Intersection with a Shell",
         "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
-        "rim": "an Intersection with a Shell", "mix_many": "mix(a, b, weight), one after the other",
-        "idw_weight": "ombre.point_distance gives the distance to the nearest of points"},
+        "idw_weight": "mix_many(bodies, weights), with weights of FloatAttribute(1/ombre.point_distance([seed])**2)"},
     "pyvcad_metamaterials.properties": {"characterize_mesh": "characterize(Mesh(surface), voxel_size)"},
     "pyvcad_rendering": dict.fromkeys(
         ("select_mesh_patch", "resolve_selection_mesh", "save_mesh_selection", "load_mesh_selection",

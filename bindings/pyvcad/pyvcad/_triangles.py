@@ -9,11 +9,12 @@ from typing import Any
 import numpy
 
 from ._arguments import boolean, length, size
+from ._selections import Selecting
 from ._solids import Mesh, _find
 from ._tree import Node
 
 
-class SurfaceMesh:
+class SurfaceMesh(Selecting):
     """A closed surface of triangles, mm: SurfaceMesh(path), (vertices, triangles) or (node, voxel_size).
 
     `vertices` are points, `triangles` three numbers of vertices each, counterclockwise from outside. A node's surface lies

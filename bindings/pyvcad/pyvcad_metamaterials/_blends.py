@@ -96,3 +96,24 @@ def mix(left: Any, right: Any, weight: Any = None, region: Any = None, half_widt
     if half_width is None:
         raise TypeError("mix: a region needs the half_width of the band about its surface, mm")
     return Mix(as_node(left), as_node(right), None, as_node(region), length(half_width))
+
+
+def mix_many(bodies: Any, weights: Any) -> Node:
+    """A body between several: each counts with its weight over the sum of all weights.
+
+    Args:
+        bodies: nodes.
+        weights: a number or a FloatAttribute for each, 0 or more, and not all 0 anywhere.
+    """
+    nodes, shares = [as_node(body) for body in bodies], list(weights)
+    if not nodes or len(nodes) != len(shares):
+        raise ValueError(f"mix_many: expected a weight for each body, found {len(nodes)} bodies and {len(shares)} weights")
+    mixed, total = nodes[0], _weight(shares[0])
+    for node, share in zip(nodes[1:], shares[1:]):
+        total = total + _weight(share)
+        mixed = Mix(mixed, node, _weight(share) / total)
+    return mixed
+
+
+def _weight(value: Any) -> FloatAttribute:
+    return value if isinstance(value, FloatAttribute) else FloatAttribute(value)

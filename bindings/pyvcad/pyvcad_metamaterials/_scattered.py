@@ -1,4 +1,4 @@
-"""Struts between points that are scattered in a body."""
+"""Struts and walls between points that are scattered in a body."""
 from __future__ import annotations
 
 import itertools
@@ -11,6 +11,7 @@ import numpy
 import ombre
 from pyvcad import FloatAttribute, Vec3
 from pyvcad._arguments import length, not_negative, vector
+from pyvcad._cell_maps import control
 from pyvcad._errors import missing
 from pyvcad._tree import Node, Unary, as_node
 
@@ -142,34 +143,54 @@ def _spread(inside: Callable[[int], tuple[numpy.ndarray, numpy.ndarray]], is_den
     return numpy.array(chosen), tried
 
 
-class _Between(Unary):
-    """Struts along edges, within a body."""
+class _Within(Unary):
+    """What a function makes of a body, such as struts that lie in it."""
 
-    def __init__(self, host: Node, edges: list[Any], thickness: float) -> None:
+    def __init__(self, host: Node, make: Callable[[ombre.Solid], ombre.Solid]) -> None:
         super().__init__(host)
-        self._edges, self._radius = edges, thickness / 2
+        self._of = make
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        struts = ombre.lattice(edges=self._edges, radius=self._radius)
-        return ombre.intersection(solids[0], struts, materials="first")
+        return self._of(solids[0])
 
 
-def _struts(what: str, host: Any, points: Any, edges: Callable[[numpy.ndarray], numpy.ndarray], beam_thickness: float,
-            node_radius: float | None, boundary: str) -> Node:
-    if boundary != "open":
-        raise missing(f"{what} with the boundary {boundary!r}", 'boundary="open", joined with a Shell of the body')
-    places = numpy.array([vector(point) for point in points])
+def _places(what: str, points: Any) -> list[list[float]]:
+    places = [list(vector(point)) for point in points]
     if len(places) < 5:
         raise ValueError(f"{what}: expected at least 5 points, found {len(places)}")
-    found: list[Any] = edges(places).tolist()
-    if not found:
+    return places
+
+
+def _is_closed(what: str, boundary: str) -> bool:
+    if boundary not in ("open", "closed"):
+        raise ValueError(f'{what}, boundary: expected "open" or "closed", found {boundary!r}')
+    return boundary == "closed"
+
+
+def _cut(host: ombre.Solid, lattice: ombre.Solid) -> ombre.Solid:
+    return ombre.intersection(host, lattice, materials="first")
+
+
+def _balls(edges: list[Any], radius: float) -> ombre.Solid:
+    """Balls at the ends of edges: struts that are shorter than any detail."""
+    short = 1e-6
+    ends = {tuple(round(c, 9) for c in end) for edge in edges for end in edge}
+    return ombre.lattice(edges=[[[x, y, z], [x, y, z + short]] for x, y, z in sorted(ends)], radius=radius)
+
+
+def _struts(what: str, host: Any, places: list[list[float]], edges: list[Any], closed: Any, beam_thickness: float,
+            node_radius: float | None, boundary: str) -> Node:
+    """Struts along edges; `closed` is the node of ombre that closes them at the surface of a body."""
+    radius, closes = length(float(beam_thickness)) / 2, _is_closed(what, boundary)
+    if not edges:
         raise ValueError(f"{what}: no edge lies between these points")
-    thickness = length(float(beam_thickness))
-    if node_radius is not None:  # a strut that is shorter than any detail is a ball
-        radius, short = length(float(node_radius)), 1e-6
-        ends = {tuple(round(c, 9) for c in end) for edge in found for end in edge}
-        found = [*found, *([[x, y, z], [x, y, z + short], radius] for x, y, z in sorted(ends))]
-    return _Between(as_node(host), found, thickness)
+    balls = None if node_radius is None else length(float(node_radius))
+
+    def make(body: ombre.Solid) -> ombre.Solid:
+        struts = (closed(places, radius, region=body, closed=True) if closes
+                  else _cut(body, ombre.lattice(edges=edges, radius=radius)))
+        return struts if balls is None else ombre.union(struts, _cut(body, _balls(edges, balls)), materials="first")
+    return _Within(as_node(host), make)
 
 
 def voronoi_graph_lattice(host: Any, points: Any, beam_thickness: float, node_radius: float | None = None,
@@ -180,13 +201,14 @@ def voronoi_graph_lattice(host: Any, points: Any, beam_thickness: float, node_ra
         points: what sample_points_in_host gives, or points.
         beam_thickness: diameter of struts, mm.
         node_radius: radius of balls where struts meet, mm; none: no balls.
+        boundary: "open", or "closed" with struts along the surface where walls between cells meet it.
     """
     _no_blend("voronoi_graph_lattice", member_blend_radius)
+    places = _places("voronoi_graph_lattice", points)
     low, high = (numpy.array(corner) for corner in as_node(host)._design().bounds)
     margin = float(beam_thickness) + 0.1 * float((high - low).max())
-    return _struts("voronoi_graph_lattice", host, points,
-                   lambda places: ombre.voronoi_edges(places, low - margin, high + margin), beam_thickness, node_radius,
-                   boundary)
+    edges = ombre.voronoi_edges(numpy.array(places), low - margin, high + margin).tolist()
+    return _struts("voronoi_graph_lattice", host, places, edges, ombre.voronoi_struts, beam_thickness, node_radius, boundary)
 
 
 def delaunay_graph_lattice(host: Any, points: Any, beam_thickness: float, node_radius: float | None = None,
@@ -195,7 +217,32 @@ def delaunay_graph_lattice(host: Any, points: Any, beam_thickness: float, node_r
     _no_blend("delaunay_graph_lattice", member_blend_radius)
     if mode != "mesh_edges":
         raise missing(f"delaunay_graph_lattice with the mode {mode!r}", 'mode="mesh_edges"')
-    return _struts("delaunay_graph_lattice", host, points, ombre.delaunay_edges, beam_thickness, node_radius, boundary)
+    places = _places("delaunay_graph_lattice", points)
+    edges = ombre.delaunay_edges(numpy.array(places)).tolist()
+    return _struts("delaunay_graph_lattice", host, places, edges, ombre.delaunay_struts, beam_thickness, node_radius,
+                   boundary)
+
+
+def _walls(what: str, make: Any, host: Any, points: Any, wall_thickness: Any, boundary: str, blend: float) -> Node:
+    _no_blend(what, blend)
+    places, thickness, closes = _places(what, points), control(wall_thickness), _is_closed(what, boundary)
+    return _Within(as_node(host), lambda body: make(places, thickness, region=body, closed=closes))
+
+
+def voronoi_plate_lattice(host: Any, points: Any, wall_thickness: Any, boundary: str = "open",
+                          member_blend_radius: float = 0.0) -> Node:
+    """Walls between the cells of points, cut at the surface of the body; "closed" adds a skin inside of it.
+
+    Args:
+        wall_thickness: mm, a number or a FloatAttribute.
+    """
+    return _walls("voronoi_plate_lattice", ombre.voronoi_walls, host, points, wall_thickness, boundary, member_blend_radius)
+
+
+def delaunay_plate_lattice(host: Any, points: Any, wall_thickness: Any, boundary: str = "open",
+                           member_blend_radius: float = 0.0) -> Node:
+    """The faces of the tetrahedra between points as walls; arguments as for voronoi_plate_lattice."""
+    return _walls("delaunay_plate_lattice", ombre.delaunay_walls, host, points, wall_thickness, boundary, member_blend_radius)
 
 
 def _no_blend(what: str, radius: float) -> None:

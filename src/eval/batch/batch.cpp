@@ -56,6 +56,7 @@ void BatchEvaluator::compile(const program::Program& program, const std::vector<
   sources_ = &sources;
   shape_ = shape;
   classify();
+  find_guards();
   find_order();
   pair_sines();
   link_channels();
@@ -149,6 +150,17 @@ void BatchEvaluator::each_read(const Instruction& in, F f) const {
   each_operand(in, f);
 }
 
+bool BatchEvaluator::is_sampled(const Instruction& in) const {
+  return in.op == Op::source && !sources_->has(program_->reads[in.aux]);
+}
+
+// Calls `f` with what must be computed before an instruction: its operands and its guard.
+template <class F>
+void BatchEvaluator::each_use(ValueId id, F f) const {
+  each_read(program_->code[id], f);
+  if (facts_[id].guard != none) f(facts_[id].guard);
+}
+
 // Returns the axes along which an input varies. In form `layers` all points of a layer lie in one row, in form `list`
 // all points do.
 uint8_t BatchEvaluator::mask_of_input(size_t axis) const {
@@ -177,14 +189,89 @@ void BatchEvaluator::classify() {
   }
 }
 
-// Puts the instructions that output 0 needs first, and finds the last use of each value.
+// Returns for each value whether it is nonzero wherever output 0 is, as an operand of its conjunctions.
+std::vector<bool> BatchEvaluator::conjuncts() const {
+  std::vector<bool> found(facts_.size());
+  found[program_->outputs[0]] = true;
+  for (size_t i = facts_.size(); i-- > 0;) {
+    const Instruction& in = program_->code[i];
+    if (found[i] && in.op == Op::logical_and) found[in.a] = found[in.b] = true;
+  }
+  return found;
+}
+
+// Returns for each value the ops of the samples that it needs. Those that are needed in several ways count several
+// times.
+std::vector<double> BatchEvaluator::sampling_costs() const {
+  std::vector<double> costs(facts_.size());
+  for (size_t i = 0; i < facts_.size(); ++i) {
+    const Instruction& in = program_->code[i];
+    if (is_sampled(in)) costs[i] = program_->reads[in.aux].source->ops_of_sample(program_->reads[in.aux].channel);
+    each_read(in, [&](ValueId id) { costs[i] += costs[id]; });
+  }
+  return costs;
+}
+
+// Finds the guards of samples. All ways from a sample to output 0 lead through conjunctions with its guard. Other
+// outputs only count where output 0 is not 0.
+void BatchEvaluator::find_guards() {
+  for (Fact& fact : facts_) fact.guard = none;
+  has_guards_ = false;
+  if (finish_ != Finish::inside) return;
+  if (std::ranges::none_of(program_->code, [&](const Instruction& in) { return is_sampled(in); })) return;
+  const std::vector<bool> implied = conjuncts();
+  const std::vector<double> costs = sampling_costs();
+  std::vector<bool> is_used(facts_.size()), is_used_late(facts_.size());
+  for (size_t n = 0; n < program_->outputs.size(); ++n) (n == 0 ? is_used : is_used_late)[program_->outputs[n]] = true;
+  const auto use = [&](ValueId id, ValueId guard) {
+    facts_[id].guard = is_used[id] && facts_[id].guard != guard ? none : guard;
+    is_used[id] = true;
+  };
+  for (size_t i = facts_.size(); i-- > 0;) {
+    Fact& fact = facts_[i];
+    const Instruction& in = program_->code[i];
+    if (!fact.needed) continue;
+    if (!fact.early) {
+      each_read(in, [&](ValueId id) { is_used_late[id] = true; });
+      continue;
+    }
+    if (fact.guard != none && is_used_late[i] && !implied[fact.guard]) fact.guard = none;
+    each_read(in, [&](ValueId id) {
+      const ValueId other = id == in.a ? in.b : in.a;
+      const bool decides = fact.guard == none && in.op == Op::logical_and && costs[other] < costs[id];
+      use(id, decides ? other : fact.guard);
+    });
+  }
+  for (size_t i = 0; i < facts_.size(); ++i)
+    if (!is_sampled(program_->code[i]) || facts_[i].mask != all_axes) facts_[i].guard = none;
+  has_guards_ = std::ranges::any_of(facts_, [](const Fact& fact) { return fact.guard != none; });
+  if (has_guards_) find_ranks();
+}
+
+// Gives operands no higher ranks than their users, and guards lower ranks than what they guard.
+void BatchEvaluator::find_ranks() {
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (size_t i = 0; i < facts_.size(); ++i) {
+      Fact& fact = facts_[i];
+      uint32_t rank = fact.guard == none ? 0 : facts_[fact.guard].rank + 1;
+      each_read(program_->code[i], [&](ValueId id) { rank = std::max(rank, facts_[id].rank); });
+      has_changed |= rank != fact.rank;
+      fact.rank = rank;
+    }
+  }
+}
+
+// Puts the instructions that output 0 needs first, guards before what they guard, and finds the last use of each value.
 void BatchEvaluator::find_order() {
   order_.clear();
   for (const bool early : {true, false})
     for (ValueId i = 0; i < facts_.size(); ++i)
       if (facts_[i].needed && facts_[i].early == early) order_.push_back(i);
+  if (has_guards_)
+    std::ranges::stable_sort(order_, {}, [&](ValueId i) { return std::pair(!facts_[i].early, facts_[i].rank); });
   for (const ValueId i : order_)
-    each_read(program_->code[i], [&](ValueId id) {
+    each_use(i, [&](ValueId id) {
       facts_[id].last_use = i;
       if (facts_[id].mask != facts_[i].mask) facts_[id].outlives = true;
     });
@@ -220,7 +307,7 @@ void BatchEvaluator::link_channels() {
     if (before == none) continue;
     const Instruction& other = program_->code[before];
     const bool is_same = other.b == in.b && other.c == in.c && facts_[before].mask == facts_[i].mask &&
-                         facts_[before].early == facts_[i].early &&
+                         facts_[before].early == facts_[i].early && facts_[before].guard == facts_[i].guard &&
                          program_->reads[other.aux].source == program_->reads[in.aux].source &&
                          !sources_->has(program_->reads[other.aux]) && !sources_->has(program_->reads[in.aux]);
     if (is_same) facts_[before].next_channel = i;
@@ -337,7 +424,11 @@ void BatchEvaluator::compile_one(ValueId id, const std::vector<Interval>& ranges
     if (ranges[operand].is_everything()) unknowns = Unknowns::possible;
     ++n;
   });
-  each_read(in, [&](ValueId operand) { release(operand, id); });
+  if (fact.guard != none) {
+    step.guard = place_for(fact.guard, fact.mask);
+    step.guard_is_number = row_axis(facts_[fact.guard].mask) != row_axis(fact.mask);
+  }
+  each_use(id, [&](ValueId operand) { release(operand, id); });
 
   step.out = take(id);
   if (in.op == Op::parts) {
@@ -386,10 +477,10 @@ RowsToFill BatchEvaluator::rows_of(const Step& step, size_t j, size_t count) con
   return {k_, 0, box_rows_, step.out.at(j), box_width_, padded(box_width_)};
 }
 
-size_t BatchEvaluator::choose_lanes(size_t begin, size_t count, uint8_t* lanes) const {
+size_t BatchEvaluator::choose_lanes(const Values& where, size_t begin, size_t count, uint8_t* lanes) {
   size_t chosen = 0;
   for (size_t i = 0; i < count; ++i)
-    if (inside_.row == nullptr || inside_[begin + i] != 0) lanes[chosen++] = static_cast<uint8_t>(i);
+    if (where.row == nullptr || where[begin + i] != 0) lanes[chosen++] = static_cast<uint8_t>(i);
   return chosen;
 }
 
@@ -398,14 +489,15 @@ void BatchEvaluator::sample(const Step& step, size_t j, size_t count) const {
   const auto value = [&](const float* row, size_t n, unsigned number) {
     return static_cast<double>(row[step.numbers & number ? 0 : n]);
   };
-  constexpr size_t most = 128, most_channels = 8;
+  const Values where = step.guard.base != nullptr ? Values{step.guard.at(j), step.guard_is_number} : inside_;
+  constexpr size_t most = 128, most_channels = 16;
   std::array<uint8_t, most> lanes;  // NOLINT: those that are read are set before
   std::array<Vec3, most> points;
   std::array<double, most * most_channels> values;  // NOLINT: likewise
   std::array<int, most_channels> channels{};
   std::array<double*, most_channels> rows{};
   for (size_t begin = 0; begin < count; begin += most) {
-    const size_t here = std::min(most, count - begin), chosen = choose_lanes(begin, here, lanes.data());
+    const size_t here = std::min(most, count - begin), chosen = choose_lanes(where, begin, here, lanes.data());
     for (size_t i = 0; i < chosen; ++i) {
       const size_t n = begin + lanes[i];
       points[i] = {value(a, n, a_is_number), value(b, n, b_is_number), value(c, n, c_is_number)};

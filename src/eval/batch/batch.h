@@ -65,7 +65,11 @@ struct PointList {
 
 class BatchEvaluator {
  public:
-  explicit BatchEvaluator(const KernelSet& kernels) : kernels_(kernels) {}
+  // Rows are finished by finish_row(), or all of them by finish_row_inside(). Then sources are not sampled either where
+  // a cheaper operand of a conjunction is 0 and so decides output 0.
+  enum class Finish : uint8_t { everywhere, inside };
+  explicit BatchEvaluator(const KernelSet& kernels, Finish finish = Finish::everywhere)
+      : kernels_(kernels), finish_(finish) {}
 
   // Starts the evaluation of a box. `program` may not hold calls or affine maps, and parts only if `sources` has them.
   // `ranges` are the values' ranges over the box for batches, and affect only speed. All arguments must outlive the
@@ -111,6 +115,8 @@ class BatchEvaluator {
     uint32_t channels = 0;  // begin of a sample's list of channels in channels_
     uint32_t channel_count = 0;
     const program::Instruction* parts = nullptr;
+    Place guard;  // of a sample: nonzero where it matters; everywhere if there is no row
+    bool guard_is_number = false;
   };
   // Properties of an instruction that the compiler computes.
   struct Fact {
@@ -121,6 +127,8 @@ class BatchEvaluator {
     bool done = false;
     program::ValueId last_use = 0, partner = 0;
     program::ValueId next_channel = 0;  // another channel of the same source at the same points
+    program::ValueId guard = 0;         // of a sample: the value that says where it matters, or none
+    uint32_t rank = 0;                  // guards have lower ranks than what they guard
     float* base = nullptr;
   };
 
@@ -136,6 +144,13 @@ class BatchEvaluator {
   template <class F>
   void each_read(const program::Instruction& in, F f) const;
   void classify();
+  std::vector<bool> conjuncts() const;
+  std::vector<double> sampling_costs() const;
+  void find_guards();
+  void find_ranks();
+  bool is_sampled(const program::Instruction& in) const;
+  template <class F>
+  void each_use(program::ValueId id, F f) const;
   void find_order();
   void pair_sines();
   void link_channels();
@@ -150,12 +165,12 @@ class BatchEvaluator {
   size_t row_length(uint8_t mask) const;
   void run(const std::vector<Step>& steps, size_t j, size_t count);
   void sample(const Step& step, size_t j, size_t count) const;
-  // Writes the numbers of the lanes in [begin, begin + count) where sources are sampled, and returns how many there
-  // are.
-  size_t choose_lanes(size_t begin, size_t count, uint8_t* lanes) const;
+  // Writes the numbers of the lanes in [begin, begin + count) where a value is not 0, and returns how many there are.
+  static size_t choose_lanes(const Values& where, size_t begin, size_t count, uint8_t* lanes);
   RowsToFill rows_of(const Step& step, size_t j, size_t count) const;
 
   const KernelSet& kernels_;
+  const Finish finish_;
   const program::Program* program_ = nullptr;
   const SourceRows* sources_ = nullptr;
   Shape shape_;
@@ -163,6 +178,7 @@ class BatchEvaluator {
   size_t box_width_ = 0, box_rows_ = 0;                  // size of a layer in points
   std::array<std::vector<program::ValueId>, 3> inputs_;  // the inputs that are needed
   std::vector<Fact> facts_;
+  bool has_guards_ = false;
   std::vector<program::ValueId> order_, seen_;
   std::array<std::vector<float*>, 8> free_;  // free rows by mask
   std::array<std::vector<Step>, 9> steps_;   // steps by mask; [8] holds those of all axes that output 0 does not need

@@ -62,7 +62,9 @@ class PointRows : public SourceRows {
 // Evaluates output 0 at a list of points.
 class ListEvaluation {
  public:
-  ListEvaluation(const program::Program& program, const PointList& points, size_t count) {
+  ListEvaluation(const program::Program& program, const PointList& points, size_t count,
+                 BatchEvaluator::Finish finish = BatchEvaluator::Finish::everywhere)
+      : batch(kernel_sets().front(), finish) {
     const std::vector<Interval> ranges(program.code.size(), Interval::everything());
     batch.compile_for_list(program, ranges, count, rows_);
     batch.place(points);
@@ -70,7 +72,7 @@ class ListEvaluation {
     batch.begin_row(0);
   }
 
-  BatchEvaluator batch{kernel_sets().front()};
+  BatchEvaluator batch;
 
  private:
   PointRows rows_;
@@ -135,6 +137,36 @@ TEST(Channels, AreQueriedOnlyInside) {
   for (size_t n = 0; n < xs.size(); n += 3) ASSERT_EQ(batch.output(1)[n], xs[n]);
   batch.finish_row();
   EXPECT_EQ(source->queried.size(), inside.size() + xs.size());
+}
+
+// A cheap condition decides where an expensive source is sampled, though it comes later in the program.
+TEST(Channels, AreNotQueriedWhereACheaperConditionFails) {
+  if (kernel_sets().empty()) GTEST_SKIP() << "no instruction set for batches";
+  std::vector<float> xs, ys, zs;
+  std::vector<double> chosen;
+  for (size_t n = 0; n < padded(200); ++n) {
+    xs.push_back(static_cast<float>(n));
+    ys.push_back(n % 3 == 0 ? 1 : 0);
+    zs.push_back(0);
+    if (n % 3 == 0) chosen.push_back(static_cast<double>(n));
+  }
+  const auto queries_of = [&](bool is_alone) {
+    const auto source = std::make_shared<QueriedPoints>();
+    Builder builder;
+    const auto x = builder.input(0), y = builder.input(1), z = builder.input(2);
+    const auto large = program::less(builder.constant(100), builder.source(source, 0, x, y, z));
+    const auto both = program::logical_and(large, y);
+    const program::Program program =
+        builder.finish({{"inside", is_alone ? both : program::logical_or(both, builder.constant(0.5) * large)}});
+    ListEvaluation evaluation(program, PointList{xs, ys, zs}, xs.size(), BatchEvaluator::Finish::inside);
+    for (size_t n = 0; n < xs.size(); ++n) {
+      const bool is_inside = n > 100 && (!is_alone || n % 3 == 0);
+      EXPECT_EQ(evaluation.batch.output(0)[n] != 0, is_inside);
+    }
+    return source->queried;
+  };
+  EXPECT_EQ(queries_of(true), chosen);
+  EXPECT_EQ(queries_of(false).size(), xs.size()) << "other ways lead to the output";
 }
 
 }  // namespace ombre::eval
