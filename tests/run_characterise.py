@@ -128,7 +128,22 @@ def wrong_use_is_reported(folder):
     expect("unbounded" in reported('tpms("gyroid", material="red");', "--voxel", "1"), "no box")
 
 
-CHECKS = [balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
+def random_cells_are_counted(folder):
+    """Points of a body-centred lattice have truncated octahedra as cells: 14 faces, 36 edges of sqrt(2)/4 of its side."""
+    design = ("points = [for (i = [0:3], j = [0:3], k = [0:3], off = [0, 0.5]) [4*(i + off), 4*(j + off), 4*(k + off)]];\n"
+              'translate(5, 0, 0) voronoi_struts(points, 0.4, region=rectprism((8, 8, 8)), material="red");')
+    (foam,) = characteristics(folder, design, "--voxel", "0.4")["random_cells"]
+    expect((foam["node"], foam["line"], foam["points"]) == ("voronoi_struts", 2, 128), foam)
+    # Cells at the rim and those beside them do not count.
+    expect(foam["cells"] >= 1 and (foam["faces"]["least"], foam["faces"]["greatest"]) == (14, 14), foam)
+    near(foam["volume_mm3"]["mean"], 32, 1e-6, "the volume of a cell")
+    near(foam["edges_of_face"], 72 / 14, 1e-6, "the edges of a face")
+    near(foam["edge_mm"], 2 ** 0.5, 1e-6, "the length of an edge")
+    folder.write("foam.vcad", design)
+    expect("128 points" in folder.run("characterise", "foam.vcad", "--voxel", "0.4").stderr, "no cells in the text")
+
+
+CHECKS = [random_cells_are_counted, balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
           walls_have_their_thickness, thin_struts_have_their_length, stiffness_is_that_of_homogenise, curves_are_tables,
           wrong_use_is_reported]
 

@@ -4,6 +4,7 @@
     python3 tests/run_info.py build/dev/apps/ombre/ombre
 """
 import json
+import math
 import struct
 
 import program
@@ -76,15 +77,34 @@ def images_are_described(folder):
     expect(sorted(found["colours"]) == [["#0000FF", 2], ["#FF0000", 2]], found)
 
 
-def cad_files_are_described(folder):
-    path = program.TESTS / "cad" / "base_and_pin.step"
-    result = program.run([folder.ombre, "info", path, "--json"], cwd=folder.path)
+def described_cad(folder, name):
+    """What is said of a CAD file, or nothing if this program cannot read them."""
+    result = program.run([folder.ombre, "info", program.TESTS / "cad" / name, "--json"], cwd=folder.path)
     if program.WITHOUT_CAD in result.stdout + result.stderr:
+        return None
+    return next(event for event in map(json.loads, result.stdout.splitlines()) if event["event"] == "cad")
+
+
+def cad_files_are_described(folder):
+    found = described_cad(folder, "base_and_pin.step")
+    if not found:
         return
-    found = next(event for event in map(json.loads, result.stdout.splitlines()) if event["event"] == "cad")
     expect(found["solid_count"] == 2 and len(found["solids"]) == 2 and found["unit"] == "millimetre", found)
     near(found["solids"][1]["volume_mm3"], 125.663706, 1e-3, "the volume of the pin")
     expect(all(solid["faces"] > 0 for solid in found["solids"]), found)
+
+
+def faces_of_cad_files_are_described(folder):
+    """A cylinder of radius 5 between z = 0 and 20: its side, and two lids."""
+    found = described_cad(folder, "cylinder.step")
+    if not found:
+        return
+    faces = sorted(found["solids"][0]["surfaces"], key=lambda face: (face["kind"], face["center"][2]))
+    expect([face["kind"] for face in faces] == ["cylinder", "plane", "plane"], faces)
+    for face, area, height, normal in zip(faces, (200 * math.pi, 25 * math.pi, 25 * math.pi), (10, 0, 20), (0, -1, 1)):
+        near(face["area_mm2"], area, 1e-3 * area, "the area of a face")
+        expect(abs(face["center"][2] - height) < 1e-6 and abs(face["normal"][2] - normal) < 1e-6, face)
+    expect(faces[0]["box"][0][2] == 0 and faces[0]["box"][1][2] == 20, faces)
 
 
 DECK = """*NODE, NSET=all
@@ -173,7 +193,7 @@ def maps_on_surfaces_are_reported(folder):
 
 
 CHECKS = [meshes_are_described, drawings_are_described, tables_are_described, images_are_described,
-          cad_files_are_described, sets_of_decks_are_described, steps_of_results_are_chosen,
+          cad_files_are_described, faces_of_cad_files_are_described, sets_of_decks_are_described, steps_of_results_are_chosen,
           choices_of_volumes_are_taken, maps_on_surfaces_are_reported]
 
 

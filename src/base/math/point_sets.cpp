@@ -188,6 +188,15 @@ OfPoints<Edge3> delaunay_edges(std::span<const Vec3> points) {
   return edges;
 }
 
+OfPoints<std::array<size_t, 4>> delaunay_tetrahedra(std::span<const Vec3> points) {
+  OfPoints<std::array<size_t, 4>> found;
+  found.problem = for_tetrahedra(points, [&](const std::vector<size_t>& corners) {
+    if (corners.size() == 4) found.list.push_back({corners[0], corners[1], corners[2], corners[3]});
+  });
+  std::sort(found.list.begin(), found.list.end());
+  return found;
+}
+
 OfPoints<std::array<Vec3, 3>> delaunay_faces(std::span<const Vec3> points) {
   std::vector<std::array<size_t, 3>> triples;
   std::string problem = for_tetrahedra(points, [&](const std::vector<size_t>& corners) {
@@ -250,6 +259,7 @@ constexpr const char* no_library =
 
 OfPoints<Plane> hull_planes(std::span<const Vec3>) { return {{}, no_library}; }
 OfPoints<Edge3> delaunay_edges(std::span<const Vec3>) { return {{}, no_library}; }
+OfPoints<std::array<size_t, 4>> delaunay_tetrahedra(std::span<const Vec3>) { return {{}, no_library}; }
 OfPoints<std::array<Vec3, 3>> delaunay_faces(std::span<const Vec3>) { return {{}, no_library}; }
 OfPoints<Edge3> voronoi_edges(std::span<const Vec3>, const std::optional<Box>&) { return {{}, no_library}; }
 

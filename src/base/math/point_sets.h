@@ -1,4 +1,4 @@
-// Convex hulls and Delaunay and Voronoi edges of points in space.
+// Convex hulls, Delaunay's tetrahedra and Voronoi edges of points in space.
 #pragma once
 
 #include <array>
@@ -36,6 +36,8 @@ OfPoints<Plane> hull_planes(std::span<const Vec3> points);
 // Returns the edges of the tetrahedra whose circumspheres contain no other point. If more than four points lie on a
 // sphere, one of the possible triangulations is used.
 OfPoints<Edge3> delaunay_edges(std::span<const Vec3> points);
+// Returns the corners of those tetrahedra, by their numbers.
+OfPoints<std::array<size_t, 4>> delaunay_tetrahedra(std::span<const Vec3> points);
 // Returns the faces of those tetrahedra.
 OfPoints<std::array<Vec3, 3>> delaunay_faces(std::span<const Vec3> points);
 // Returns the edges on which three or more points are equally near and no other point is nearer. Edges that extend to

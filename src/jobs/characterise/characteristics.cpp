@@ -69,27 +69,13 @@ std::map<std::string, Measured> measured(const std::map<std::string, double>& fi
   return all;
 }
 
-SectionNumbers section_numbers(const std::vector<double>& areas, double whole) {
-  SectionNumbers numbers{areas[0], 0, areas[0], 0};
-  double squares = 0;
-  for (const double area : areas) {
-    numbers.least = std::min(numbers.least, area);
-    numbers.greatest = std::max(numbers.greatest, area);
-    numbers.mean += area / static_cast<double>(areas.size());
-  }
-  for (const double area : areas) squares += (area - numbers.mean) * (area - numbers.mean);
-  if (numbers.mean > 0) numbers.variation = std::sqrt(squares / static_cast<double>(areas.size())) / numbers.mean;
-  for (double* number : {&numbers.least, &numbers.mean, &numbers.greatest}) *number /= whole;
-  return numbers;
-}
-
 void add_sections(const SolidGrid& grid, Characteristics& found) {
   const Vec3 voxel = grid.lattice.voxel_mm(), size = found.box.size();
   for (size_t axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<int>((axis + 1) % 3), b = static_cast<int>((axis + 2) % 3);
     for (const uint64_t count : grid.sections[axis])
       found.section_areas_mm2[axis].push_back(static_cast<double>(count) * voxel[a] * voxel[b]);
-    found.sections[axis] = section_numbers(found.section_areas_mm2[axis], size[a] * size[b]);
+    found.sections[axis] = Spread::of(found.section_areas_mm2[axis]).over(size[a] * size[b]);
   }
 }
 
@@ -164,13 +150,15 @@ DataMembers Characteristics::data() const {
   members.emplace_back("material_mm3", measured_data(material_mm3));
   members.emplace_back("interface_mm2", measured_data(interface_mm2));
   DataMembers across;
-  for (size_t axis = 0; axis < 3; ++axis)
-    across.emplace_back(std::string(1, "xyz"[axis]), DataMembers{{"least", sections[axis].least},
-                                                                 {"mean", sections[axis].mean},
-                                                                 {"greatest", sections[axis].greatest},
-                                                                 {"variation", sections[axis].variation},
-                                                                 {"areas_mm2", list_of(section_areas_mm2[axis])}});
+  for (size_t axis = 0; axis < 3; ++axis) {
+    DataMembers own = sections[axis].data();
+    own.emplace_back("areas_mm2", list_of(section_areas_mm2[axis]));
+    across.emplace_back(std::string(1, "xyz"[axis]), own);
+  }
   members.emplace_back("sections", across);
+  DataList foams;
+  for (const RandomCells& foam : random_cells) foams.emplace_back(foam.data());
+  if (!foams.empty()) members.emplace_back("random_cells", foams);
   return members;
 }
 
@@ -211,6 +199,7 @@ std::optional<Characteristics> characteristics_of(const LoadedPtr& loaded, const
   found.coarse_euler = euler_number(*coarse_grid, request.periodic);
   found.wall = thinnest_place(*grid, request.periodic, false, request.stop);
   found.gap = thinnest_place(*grid, request.periodic, true, request.stop);
+  found.random_cells = random_cells_of(loaded->design);
   return found;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/text/data.h"
 #include "base/text/diagnostic.h"
+#include "jobs/characterise/random_cells.h"
 #include "jobs/characterise/solid_grid.h"
 #include "load/loaded.h"
 
@@ -20,23 +21,19 @@ struct Measured {
   static Measured from(double fine, double coarse);
 };
 
-struct SectionNumbers {
-  double least = 0, mean = 0, greatest = 0;  // shares of the box's section
-  double variation = 0;                      // standard deviation over mean
-};
-
 struct Characteristics {
   Box box;
   Vec3 voxel_mm;
   Periodic periodic{};
   Measured volume_mm3, surface_mm2, inner_mm2;
   std::map<std::string, Measured> material_mm3, interface_mm2;
-  std::array<SectionNumbers, 3> sections;
+  std::array<Spread, 3> sections;  // shares of the box's section
   std::array<std::vector<double>, 3> section_areas_mm2;
   std::array<double, 3> centroid{};
   GridPieces pieces, voids;
   int64_t euler = 0, coarse_euler = 0;
   ThinPlace wall, gap;
+  std::vector<RandomCells> random_cells;
 
   double box_mm3() const;
   double density() const { return volume_mm3.value / box_mm3(); }

@@ -146,6 +146,7 @@ void tell(const Events& events, const Characteristics& found) {
                 " with voxels of twice the size: pieces or holes are as small as the voxels; choose a smaller " +
                 spelled::option("--voxel"));
   warn_of_coarse_voxels(events, found);
+  for (const compile::RandomCells& foam : found.random_cells) events.say(foam.text());
   events.say("least wall " + place_text(found.wall) + "; least gap " + place_text(found.gap));
 }
 

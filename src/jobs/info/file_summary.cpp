@@ -73,6 +73,23 @@ std::optional<FileSummary> mesh_summary(const std::string& path, Session&, Diagn
   return summary_of_mesh(*mesh);
 }
 
+// The faces of a solid, in their order: kind, area and place.
+DataList faces_of(const cad::Solid& solid) {
+  constexpr double fine = 1e-3;  // share of the solid's size by which triangles may deviate
+  const auto point = [](Vec3 p) { return Data(DataList{p.x, p.y, p.z}); };
+  DataList faces;
+  for (const cad::FaceMesh& face : solid.face_meshes(fine * length(solid.bounds.size()))) {
+    Box box;
+    for (const Vec3 p : face.points) box = hull(box, Box{p, p});
+    faces.emplace_back(DataMembers{{"kind", face.kind},
+                                   {"area_mm2", face.area_mm2},
+                                   {"center", point(face.center)},
+                                   {"normal", point(face.normal)},
+                                   {"box", DataList{point(box.lo), point(box.hi)}}});
+  }
+  return faces;
+}
+
 std::optional<FileSummary> cad_summary(const std::string& path, Session& session, Diagnostics&) {
   const std::vector<cad::SolidPtr> solids = cad::read_solids(path, &session.stop);
   FileSummary summary{"cad", "a CAD file"};
@@ -90,6 +107,7 @@ std::optional<FileSummary> cad_summary(const std::string& path, Session& session
     list.emplace_back(DataMembers{{"name", solid->name},
                                   {"faces", static_cast<double>(solid->faces)},
                                   {"volume_mm3", solid->volume_mm3},
+                                  {"surfaces", session.events.wants_data() ? faces_of(*solid) : DataList()},
                                   {"colour", colour.empty() ? Data() : Data(colour)}});
   }
   summary.add_count("solid_count", solids.size());

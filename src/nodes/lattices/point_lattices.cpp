@@ -81,7 +81,8 @@ struct PointStruts {
         no_inputs,
         is_voronoi ? "voronoi_struts(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
                      "closed=true, material=\"red\");"
-                   : "delaunay_struts(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");"};
+                   : "delaunay_struts(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");",
+        {{"points", &PointStruts::points, "The points"}}};
   }
 
   bool makes_nothing() const { return points.at.empty(); }
@@ -144,7 +145,8 @@ struct PointWalls {
             no_inputs,
             is_voronoi ? "voronoi_walls(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
                          "material=\"red\");"
-                       : "delaunay_walls(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");"};
+                       : "delaunay_walls(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");",
+            {{"points", &PointWalls::points, "The points"}}};
   }
 
   bool makes_nothing() const { return points.at.empty(); }
