@@ -219,6 +219,15 @@ struct SurfaceColoursRequest {
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
+// The lengths of shortest ways along the surface of a mesh, with the channel "distance" in mm: to the point of the
+// surface that is nearest to a place, from the nearest of those that are nearest to `from`.
+struct GeodesicRequest {
+  using Result = program::FieldSource;
+  FilePath file;
+  std::vector<Vec3> from;
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
 // The outlines of a text as polygons; sizes in mm.
 struct TextRequest {
   using Result = program::FieldSource;
@@ -340,8 +349,8 @@ struct SurfaceRequest {
 // All kinds of requests.
 using SourceRequest =
     std::variant<MeshRequest*, SolidsRequest*, ScadRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
-                 PixelsRequest*, TableRequest*, InkRequest*, SurfaceColoursRequest*, TextRequest*, VolumeRequest*,
-                 ImageStackRequest*, ResultsRequest*, SurfaceRequest*>;
+                 PixelsRequest*, TableRequest*, InkRequest*, SurfaceColoursRequest*, GeodesicRequest*, TextRequest*,
+                 VolumeRequest*, ImageStackRequest*, ResultsRequest*, SurfaceRequest*>;
 
 // The selection of surfaces that need support, and the grid on which supports are computed.
 struct SupportUse {

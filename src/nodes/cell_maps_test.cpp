@@ -164,6 +164,72 @@ TEST_F(CellMaps, CellsAlongACurveArePerpendicular) {
   }
 }
 
+// The height of a closed curve at an angle around z; its frames turn around it.
+double wave(double angle) { return 6 * std::cos(2 * angle) + 3 * std::sin(3 * angle + 1); }
+
+// Returns points of that curve with a radius of 20, or of a circle.
+Data ring(bool is_flat) {
+  DataList points;
+  for (int n = 0; n < 96; ++n) {
+    const double angle = 2 * pi * n / 96;
+    points.emplace_back(DataList{20 * std::cos(angle), 20 * std::sin(angle), is_flat ? 0 : wave(angle)});
+  }
+  return Data(std::move(points));
+}
+
+TEST_F(CellMaps, CellsAroundACircleHaveNoSeam) {
+  const NodePtr map = make("curve_cells", {{"points", ring(true)},
+                                           {"width", Data(4.0)},
+                                           {"depth", Data(6.0)},
+                                           {"count", list({24, 2, 3})},
+                                           {"closed", Data(true)}});
+  // The curve runs as the angle does and w is up, so v is inward.
+  for (const double angle : {1e-4, 10.0, 100.0, 359.9}) {
+    const Vec3 p = around_z(21, angle, 1.5);
+    expect_near(vector_at(map, "place", p), {angle / 15, 0.5, 2.25}, 1e-4);
+    expect_near(vector_at(map, "size", p), {21 * pi / 12, 2, 2}, 1e-4);
+    EXPECT_LT(of_output(map, "region", p)[0], -0.9);
+  }
+  EXPECT_GT(of_output(map, "region", around_z(22.1, 0, 0))[0], 0);
+  const NodePtr gyroid = make("tpms", {{"map", object(map)}, {"thickness", Data(0.3)}});
+  for (int n = 0; n < 60; ++n) {
+    const double rho = 18.2 + 0.06 * n, z = -2.7 + 0.09 * n;
+    const double before = distance(gyroid, around_z(rho, -1e-7, z));
+    if (std::abs(before) > 1) continue;  // far away, where the slope vanishes, distances change fast
+    EXPECT_NEAR(distance(gyroid, around_z(rho, 1e-7, z)), before, 1e-6);
+  }
+}
+
+// Frames that turn around a curve shear the cells; slopes are those of differences, also at the seam.
+TEST_F(CellMaps, CellsAroundAClosedCurveInSpaceMeetThemselves) {
+  const NodePtr map = make("curve_cells", {{"points", ring(false)},
+                                           {"width", Data(4.0)},
+                                           {"depth", Data(6.0)},
+                                           {"count", list({24, 2, 2})},
+                                           {"closed", Data(true)}});
+  constexpr double step = 1e-4;
+  const auto wrapped = [](double v) { return v - 24 * std::round(v / 24); };
+  for (int n = 0; n < 40; ++n) {
+    const double angle = 9.0 * n + (n == 0 ? 0 : 0.5);
+    const Vec3 p = around_z(20 + 1.5 * std::sin(n), angle, wave(angle * pi / 180) + 1.5 * std::cos(3 * n));
+    const Vec3 slopes[] = {vector_at(map, "slope_u", p), vector_at(map, "slope_v", p), vector_at(map, "slope_w", p)};
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 by;
+      by[axis] = step;
+      const Vec3 change = vector_at(map, "place", p + by) - vector_at(map, "place", p - by);
+      EXPECT_NEAR(slopes[0][axis], wrapped(change.x) / (2 * step), 1e-4) << n;
+      EXPECT_NEAR(slopes[1][axis], change.y / (2 * step), 1e-4) << n;
+      EXPECT_NEAR(slopes[2][axis], change.z / (2 * step), 1e-4) << n;
+    }
+    const double volume = 1 / dot(slopes[0], cross(slopes[1], slopes[2]));
+    EXPECT_NEAR(number_at(map, "volume", p), volume, 1e-9 * volume);
+    const Vec3 stretches = vector_at(map, "stretches", p);
+    EXPECT_NEAR(stretches.x * stretches.y * stretches.z, volume, 1e-6 * volume);
+  }
+  const Named two{{"points", rows({{0, 0, 0}, {5, 0, 0}})}, {"closed", Data(true)}, {"size", list({2, 2, 2})}};
+  EXPECT_NE(error_of("curve_cells", two).find("3 to 1000 different points"), std::string::npos);
+}
+
 TEST_F(CellMaps, ACurveThatIsTighterThanItsCellsIsRefused) {
   const Named bent{
       {"points", rows({{0, 0, 0}, {5, 0, 0}, {5, 5, 0}})}, {"width", Data(8.0)}, {"size", list({2, 2, 2})}};

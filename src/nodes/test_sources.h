@@ -254,6 +254,9 @@ class BallLoader : public design::SourceLoader {
     if (request.kind != design::PathKind::path) return std::make_shared<PointsSource>(request.points);
     return std::make_shared<PathSource>(request.points);
   }
+  static program::SourceField make(const design::GeodesicRequest& request) {
+    return std::make_shared<PointsSource>(request.from);
+  }
   static std::shared_ptr<const design::ImagePixels> make(const design::PixelsRequest&) {
     auto pixels = std::make_shared<design::ImagePixels>(design::ImagePixels{2, 2, {}});
     for (const int level : {0, 80, 160, 255})

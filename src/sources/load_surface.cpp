@@ -10,6 +10,7 @@
 #include "formats/packages/read_mesh.h"
 #include "import/charts/flat_surface.h"
 #include "import/charts/shell.h"
+#include "import/charts/shortest_ways.h"
 #include "import/charts/surface_rays.h"
 #include "sources/cad_file.h"
 #include "sources/loading.h"
@@ -280,6 +281,33 @@ void add(sources::Key& key, const std::optional<Vec3>& point) {
 }
 
 }  // namespace
+
+std::shared_ptr<const program::FieldSource> GeodesicRequest::load(sources::Loading& loading) {
+  if (!loading.find(file) || !loading.read_content(file)) return nullptr;
+  sources::Key key("shortest ways");
+  key.add(file.content).add(ending_of(file.path));
+  for (const Vec3& p : from) key.add(p.x).add(p.y).add(p.z);
+  const Hash hash = key.hash();
+  return loading.cached<Result>(hash, file.path, [&](const Reader& reader) {
+    using Made = sources::Loading::Made<Result>;
+    auto mesh = formats::read_mesh(file.path, *loading.bytes(file), reader.diagnostics);
+    if (!mesh) return Made{};
+    std::erase_if(mesh->triangles, [&](const importing::Corners& t) {
+      const Vec3 a = mesh->vertices[t[0]];
+      return !(length(cross(mesh->vertices[t[1]] - a, mesh->vertices[t[2]] - a)) > 0);
+    });
+    if (mesh->triangles.empty()) {
+      reader.diagnostics.error(reader.where, '"' + file.path + "\" has no triangle with an area",
+                               "choose a mesh with a surface");
+      return Made{};
+    }
+    constexpr size_t bytes_per_triangle = 2000;
+    const size_t bytes = bytes_per_triangle * mesh->triangles.size();
+    return Made{
+        importing::make_geodesic_source(file.path, std::move(mesh->vertices), std::move(mesh->triangles), from, hash),
+        bytes};
+  });
+}
 
 std::shared_ptr<const SurfaceSpace> SurfaceRequest::load(sources::Loading& loading) {
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;

@@ -240,7 +240,7 @@ class RandomDesigns {
   std::mt19937 random_{20261129};
 };
 
-// What an item says, with ids and not numbers, so that graphs can be compared.
+// Returns the words of an item, with ids and not numbers, so that graphs can be compared.
 std::string line_of(const DesignGraph& graph, const DesignItem& item) {
   std::string line = (item.is_part ? "part " : "") + item.name + ' ' + item.type;
   for (const auto& [name, value] : item.arguments) line += ' ' + name + '=' + print_json_line(*value);
@@ -262,7 +262,7 @@ std::vector<std::string> lost(const DesignGraph& from, const DesignGraph& to) {
   return lines;
 }
 
-struct Claim {
+struct DesignClaim {
   const DesignGraph &before, &after;
 
   size_t nodes_lost() const { return before.items().size() - after.items().size(); }
@@ -360,7 +360,7 @@ TEST(RandomDesignEdits, AreWhatTheyClaimAndAreUndoneToTheByte) {
     const std::string after_text = edited(text, change);
     SCOPED_TRACE(after_text);
     const DesignGraph after = graph_of(result->text);
-    std::visit([&](const auto& one) { Claim{before, after}.check(one); }, change);
+    std::visit([&](const auto& one) { DesignClaim{before, after}.check(one); }, change);
     if (::testing::Test::HasFailure()) return;
   }
   EXPECT_EQ(count, wanted);

@@ -26,7 +26,7 @@ TextRange JsonLayout::whole(const Data& value) const {
 TextRange JsonLayout::element(const Data& holder, size_t index) const {
   TextRange range = whole(value_of(holder, index));
   if (holder.list()) return range;
-  // Between the quote that ends the key and the value stand a colon and blanks alone.
+  // Only a colon and blanks stand between the quote that ends the key and the value.
   size_t quote = text_.rfind('"', range.from - 1);
   const auto is_escaped = [&](size_t at) {
     size_t slashes = 0;

@@ -30,7 +30,7 @@ class JsonLayout {
   Replacement replaced(const Data& value, const std::string& by) const;
 
  private:
-  // What stands between two elements.
+  // Returns the text between two elements.
   std::string separator(const Data& holder) const;
   std::string_view between(size_t from, size_t to) const { return text_.substr(from, to - from); }
 

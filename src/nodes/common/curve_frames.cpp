@@ -181,9 +181,12 @@ void CurveFrames::find_tightest() {
 }
 
 std::optional<Vec3> CurveFrames::near_itself(double reach) const {
+  const bool is_closed = rule_.ends == CurveRule::Ends::closed;
   for (size_t i = 0; i < nodes_.size(); ++i)
     for (size_t j = i + 1; j < nodes_.size(); ++j) {
-      const bool are_apart = nodes_[j].along - nodes_[i].along > std::numbers::pi * reach;
+      const double onward = nodes_[j].along - nodes_[i].along;
+      const double between = is_closed ? std::min(onward, length() - onward) : onward;
+      const bool are_apart = between > std::numbers::pi * reach;
       if (are_apart && ombre::length(nodes_[j].at - nodes_[i].at) < 2 * reach) return nodes_[i].at;
     }
   return std::nullopt;

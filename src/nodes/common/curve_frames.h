@@ -37,6 +37,8 @@ class CurveFrames final : public program::FieldSource {
   // Limits ranges of channels to points at most this far from the curve, where the nearest point changes continuously.
   void set_reach(double mm) { reach_ = mm; }
   double length() const { return nodes_.back().along; }
+  // Returns the angle by which frames turn around the curve, in radians for each mm.
+  double turn() const { return turn_; }
   // Returns the least radius of curvature among sixteen points of each section, and that point.
   double least_radius() const { return least_radius_; }
   Vec3 tightest() const { return tightest_; }

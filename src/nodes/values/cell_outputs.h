@@ -20,7 +20,8 @@ inline constexpr double no_border = std::numeric_limits<double>::infinity();
 // - Field outside(ask) returns g of the region, and Box region_within(where) a box around the region.
 //
 // It sets these members when it is completed. It may have Slope size_at(p), the size of cells in mm, if the edges of
-// cells are perpendicular everywhere, and Slope slope(p, n), the derivatives of u, v or w.
+// cells are perpendicular everywhere; bool has_right_angles() may say that they are not. It may have
+// Slope slope(p, n), the derivatives of u, v or w.
 template <class T>
 struct CellOutputs {
   Vec3 counts{no_border, no_border, no_border};  // cells along each axis
@@ -76,13 +77,13 @@ struct CellOutputs {
     return vector([&](size_t n) { return edge(ask.p, n); });
   }
   Field volume(const design::Ask& ask) const {
-    if constexpr (has_size) return edge(ask.p, 0) * edge(ask.p, 1) * edge(ask.p, 2);
+    if (is_perpendicular()) return edge(ask.p, 0) * edge(ask.p, 1) * edge(ask.p, 2);
     return inverse_of(abs(determinant(slopes(ask.p))));
   }
   // The squares of the stretches are the inverse eigenvalues of the matrix of products of slopes: O. K. Smith,
   // "Eigenvalues of a symmetric 3 x 3 matrix", Communications of the ACM 4, 1961.
   design::VectorField stretches(const design::Ask& ask) const {
-    if constexpr (has_size) {
+    if (is_perpendicular()) {
       const Field a = edge(ask.p, 0), b = edge(ask.p, 1), c = edge(ask.p, 2);
       return {min(min(a, b), c), max(min(a, b), min(max(a, b), c)), max(max(a, b), c)};
     }
@@ -107,7 +108,12 @@ struct CellOutputs {
   design::VectorField slope_u(const design::Ask& ask) const { return slope_vector(ask.p, 0); }
   design::VectorField slope_v(const design::Ask& ask) const { return slope_vector(ask.p, 1); }
   design::VectorField slope_w(const design::Ask& ask) const { return slope_vector(ask.p, 2); }
-  bool is_perpendicular() const { return has_size; }
+  bool is_perpendicular() const {
+    if constexpr (requires(const T& t) { t.has_right_angles(); })
+      return self().has_right_angles();
+    else
+      return has_size;
+  }
 
   // Returns the derivatives of u, v or w.
   Slope slope(const Point& p, size_t n) const {
@@ -148,18 +154,15 @@ struct CellOutputs {
   // Returns the length of the cell's edge along an axis, a column of the inverse of the matrix of slopes.
   Field edge(const Point& p, size_t n) const {
     if constexpr (has_size)
-      return self().size_at(p)[n];
-    else {
-      const auto rows = slopes(p);
-      return length_of(cross_without_zeros(rows[(n + 1) % 3], rows[(n + 2) % 3])) / abs(determinant(rows));
-    }
+      if (is_perpendicular()) return self().size_at(p)[n];
+    const auto rows = slopes(p);
+    return length_of(cross_without_zeros(rows[(n + 1) % 3], rows[(n + 2) % 3])) / abs(determinant(rows));
   }
   // Returns the distance between opposite faces of the cell.
   Field height(const Point& p, size_t n) const {
     if constexpr (has_size)
-      return self().size_at(p)[n];
-    else
-      return inverse_of(length_of(self().slope(p, n)));
+      if (is_perpendicular()) return self().size_at(p)[n];
+    return inverse_of(length_of(self().slope(p, n)));
   }
 };
 

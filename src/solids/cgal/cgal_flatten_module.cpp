@@ -1,7 +1,6 @@
 // Lays out surfaces in a plane by CGAL's Surface_mesh_parameterization.
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Discrete_authalic_parameterizer_3.h>
@@ -12,27 +11,19 @@
 
 #include "base/text/error.h"
 #include "import/charts/flat_surface.h"
+#include "solids/cgal/cgal_sheet.h"
 
 namespace ombre::importing {
 namespace {
 
 namespace Parameterization = CGAL::Surface_mesh_parameterization;
 using Kernel = CGAL::Simple_cartesian<double>;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Mesh = Sheet<Kernel>;
 
 template <class Method>
 Parameterization::Error_code run(Mesh& mesh, Mesh::Property_map<Mesh::Vertex_index, Kernel::Point_2>& places) {
   const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
   return Parameterization::parameterize(mesh, Method(), border, places);
-}
-
-Mesh mesh_of(const std::vector<Vec3>& points, const std::vector<std::array<uint32_t, 3>>& triangles) {
-  Mesh mesh;
-  for (const Vec3& p : points) mesh.add_vertex({p.x, p.y, p.z});
-  for (const auto& [a, b, c] : triangles)
-    if (mesh.add_face(Mesh::Vertex_index(a), Mesh::Vertex_index(b), Mesh::Vertex_index(c)) == Mesh::null_face())
-      throw Error(Code::file_content, "the surface cannot be laid out in a plane: its triangles do not form one sheet");
-  return mesh;
 }
 
 }  // namespace
@@ -42,7 +33,7 @@ void ombre_flatten(const std::vector<ombre::Vec3>& points, const std::vector<std
                    ombre::importing::Flattening method, std::vector<ombre::Vec2>& places) {
   using namespace ombre;
   using namespace ombre::importing;
-  Mesh mesh = mesh_of(points, triangles);
+  Mesh mesh = sheet_of<Kernel>(points, triangles, "the surface cannot be laid out in a plane");
   auto found = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:place").first;
   Parameterization::Error_code code = Parameterization::OK;
   try {

@@ -4,11 +4,13 @@ import { page } from "./language";
 import { NodeForm } from "./nodeform";
 import { NodePicture } from "./nodepicture";
 import { useSearch } from "./search";
+import { isDesignFile } from "./session/graph";
 import { insert } from "./session/script";
 import { NodeType, useStore } from "./store";
 
 function NodePage({ node }: { node: NodeType }) {
   const [isOpen, setIsOpen] = useState(false);
+  const writesScript = !isDesignFile(); // nodes of design files (JSON) are added in the graph
   return (
     <details class={`reference node-${node.name}`} onToggle={(e) => setIsOpen(e.currentTarget.open)}>
       <summary>
@@ -18,8 +20,8 @@ function NodePage({ node }: { node: NodeType }) {
       {isOpen && (
         <div>
           <div ref={(element) => element?.replaceChildren(page(node))} />
-          {node.example && <button onClick={() => insert(node.example, node.library)}>Add the example to the script</button>}
-          <NodeForm node={node} />
+          {writesScript && node.example && <button onClick={() => insert(node.example, node.library)}>Add the example to the script</button>}
+          {writesScript && <NodeForm node={node} />}
         </div>
       )}
     </details>
