@@ -50,6 +50,21 @@ def faults_are_corrected_by_so_much(folder):
     expect("the job has corrections" in said and "everything that was checked holds" in said, said)
 
 
+def hollows_get_drains(folder):
+    """A wall of 5 voxels above a hollow of 20 x 20 x 20; a ball of three voxels cuts 3 x 3 of each layer."""
+    folder.write("trap.vcad", "difference() { rectprism([4, 4, 4], red); translate(0, 0, 0.5) rectprism([2, 2, 2], red); }")
+    events = folder.events("check", "trap.vcad", "--voxel", "0.1", "--fix", "drained", "--drain", "0.3")
+    before, after = [event for event in events if event["event"] == "checked"]
+    expect([finding["kind"] for finding in before["findings"]] == ["hollow"] and after["findings"] == [], f"{events}")
+    correction, = next(e for e in events if e["event"] == "corrected")["corrections"]
+    expect(correction["kind"] == "drain", f"{correction}")
+    near(correction["gained_mm3"]["red"], -9 * 5 / 1000, 1e-9, "the channel")
+    said = folder.run("check", "trap.vcad", "--voxel", "0.1", "--fix", "other").stdout
+    expect("closed hollows" in said and "channel" not in said, said)
+    wrong = folder.run("check", "trap.vcad", "--voxel", "0.1", "--drain", "0.3", status=1).stderr
+    expect("--fix" in wrong, wrong)
+
+
 def what_it_cannot_correct_is_said(folder):
     printer = machine(folder)
     folder.write("part.vcad", PART)
@@ -101,4 +116,4 @@ def trays_hold_copies(folder):
 
 if __name__ == "__main__":
     sys.exit(program.main(program.Folder, program.named([
-        faults_are_corrected_by_so_much, what_it_cannot_correct_is_said, slicing_warns_beforehand, trays_hold_copies])))
+        faults_are_corrected_by_so_much, hollows_get_drains, what_it_cannot_correct_is_said, slicing_warns_beforehand, trays_hold_copies])))

@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
@@ -151,7 +152,10 @@ def slips_get_remedies(drawing):
                                (["r", "--z", "9"], "is beside the part, which lies from z -2 to 2 mm"),
                                (["r", "--layer-height", "thin"], "write for example --layer-height"),
                                (["r", "--cell", "0.00000001"], "too small"),
-                               (["r", "--by", "materials", "--bands", "3"], "--by materials has no bands")]:
+                               (["r", "--by", "materials", "--bands", "3"], "--by materials has no bands"),
+                               (["r", "--hatch", "0.1"], "--hatch is for .cli files"),
+                               (["r.cli", "--hatch", "0.00001"], "are too many"),
+                               (["r.cli", "--hatch-turn", "3"], "--hatch")]:
         error = drawing.contours("ring.vcad", *arguments, status=1).stderr
         expect(message in error, f"{arguments}: {error}")
     expect(drawing.names() == [], str(drawing.names()))
@@ -211,8 +215,73 @@ def interrupts_leave_nothing(drawing):
         expect(drawing.names() == [], str(drawing.names()))
 
 
+def hatches_of(text):
+    """The layers of a .cli file: for each the lines by region, and the area of its outlines by region."""
+    layers = []
+    for line in text.splitlines():
+        command, _, numbers = line.partition("/")
+        values = [float(n) for n in numbers.split(",")] if command in ("$$LAYER", "$$HATCHES", "$$POLYLINE") else []
+        if command == "$$LAYER":
+            layers.append(({}, {}))
+        elif command == "$$HATCHES":
+            ends = values[2:]
+            expect(len(ends) == 4 * values[1], line[:80])
+            layers[-1][0][values[0]] = [((a, b), (c, d)) for a, b, c, d in zip(*[iter(ends)] * 4)]
+        elif command == "$$POLYLINE":
+            points = list(zip(values[3::2], values[4::2]))
+            layers[-1][1][values[0]] = layers[-1][1].get(values[0], 0) + area(points)
+    return layers
+
+
+def hatches_fill_bands_of_a_value(drawing):
+    """Lines times their distance have the area of their band, and a turn of 90 degrees turns them."""
+    drawing.write("melt.vcad", 'attribute("laser_power", "200 + 10*x") difference() { cylinder(10, 2); cylinder(3, 3); }')
+    drawing.contours("melt.vcad", "melt.cli", "--layer-height", "1", "--by", "laser_power", "--bands", "4", "--hatch",
+                     "0.05", "--hatch-angle", "30", "--hatch-turn", "90")
+    text = (drawing.path / "melt.cli").read_text()
+    labels = dict(line[8:].split(",", 1) for line in text.splitlines() if line.startswith("$$LABEL/"))
+    expect(len(labels) == 4 and all("laser_power" in name for name in labels.values()), f"{labels}")
+    first, *layers = hatches_of(text)
+    expect(first == ({}, {}) and len(layers) == 2, f"{len(layers)} layers")
+    for n, (lines, areas) in enumerate(layers):
+        expect(set(lines) == set(areas) == {1, 2, 3, 4}, f"{set(lines)}")
+        for region, its in lines.items():
+            covered = 0.05 * sum(math.dist(a, b) for a, b in its)
+            expect(abs(covered - areas[region]) < 0.02 * areas[region] + 0.1, f"{covered} of {areas[region]} mm2")
+            angle = math.radians(30 + 90 * n)
+            for (a, b), (c, d) in its:
+                across = abs((c - a) * math.sin(angle) - (d - b) * math.cos(angle))
+                expect(across < 1e-5, f"a line of layer {n} has another angle")
+        expect(abs(sum(areas.values()) - math.pi * 91) < 0.5, f"{areas}")
+    drawing.contours("melt.vcad", "melt.cli", "--layer-height", "1", "--by", "laser_power", "--bands", "4", "--hatch",
+                     "0.05", "--hatch-angle", "30", "--hatch-turn", "90", "--binary", "--force")
+    binary = (drawing.path / "melt.cli").read_bytes()
+    header, _, body = binary.partition(b"$$HEADEREND")
+    expect(b"$$BINARY" in header, "the header does not say that numbers are binary")
+    at, heights, numbers = 0, [], []
+    while at < len(body):
+        command, = struct.unpack_from("<H", body, at)
+        at += 2
+        if command == 127:
+            heights.append(struct.unpack_from("<f", body, at)[0])
+            at += 4
+        elif command in (130, 132):
+            head = struct.unpack_from("<iii" if command == 130 else "<ii", body, at)
+            at += 4 * len(head)
+            count = head[-1] * (2 if command == 130 else 4)
+            numbers += struct.unpack_from(f"<{count}f", body, at)
+            at += 4 * count
+        else:
+            raise AssertionError(f"command {command} at {at}")
+    expect(heights == [-1, 0, 1], f"{heights}")
+    texts = [float(n) for line in text.splitlines() if line.startswith(("$$POLYLINE", "$$HATCHES"))
+             for n in line.partition("/")[2].split(",")[3 if "POLY" in line else 2:]]
+    expect(len(texts) == len(numbers) and max(abs(a - b) for a, b in zip(texts, numbers)) < 2e-6, "other numbers")
+
+
 CHECKS = [rings_are_in_millimetres, commands_are_those_of_the_interface, halves_share_points,
           examples_have_the_areas_of_their_voxels, threads_change_no_byte, slips_get_remedies, files_are_kept,
+          hatches_fill_bands_of_a_value,
           unwritable_folders_are_reported, full_disks_leave_nothing, interrupts_leave_nothing]
 
 

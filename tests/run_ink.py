@@ -220,6 +220,30 @@ def colours_of_surfaces_are_values(folder):
     expect("have no colours" in wrong, wrong)
 
 
+def colours_and_a_property_share_the_droplets(folder):
+    """A modulus chooses the share of a soft material, and the colour the inks in the rest: all inks are stiff."""
+    chosen = folder.calibrated()
+    stiff = {"name": "stiff", "title": "stiff", "property": "modulus", "unit": "MPa", "citation": "made up", "licence": "free",
+             "inputs": [{"fraction": [*LIGHTS]}], "rest": "clear", "interpolant": "mixture", "constants": {"values": [0, 2000]}}
+    folder.write("stiff.json", stiff)
+    chosen += ["--calibration", "stiff.json"]
+    folder.write("both.vcad", 'attribute("modulus", "1000 + 100*x") ' + RAMP)
+    folder.run("resolve", "both.vcad", *chosen, "-o", "both.json")
+    folder.run("resolve", "ramp.vcad", *chosen[:2], "-o", "inks_alone.json")
+    both, alone = (folder.compositions(name, POINTS) for name in ("both.json", "inks_alone.json"))
+    for (x, _, _), mixed, inks in zip(POINTS, both, alone):
+        share = (1000 + 100 * x) / 2000
+        near(mixed["clear"], 1 - share, 1e-6, "the share of the soft material")
+        for name in LIGHTS:
+            near(mixed.get(name, 0), share * inks.get(name, 0), 1e-6, f"the share of {name}")
+    report = next(e for e in folder.events("resolve", "both.vcad", *chosen) if e["event"] == "resolved")["printers"][0]
+    near(report["intent"][0]["mean_miss"], 0, 1e-3, "the modulus")
+    folder.write("other.json", stiff | {"inputs": [{"fraction": ["cyan", "magenta"]}]})
+    wrong = folder.run("resolve", "both.vcad", *chosen[:2], "--calibration", "other.json", status=1).stderr
+    expect("two chains of calibrations lead to fractions" in wrong and "--deciding ATTRIBUTE" in wrong, wrong)
+    folder.run("resolve", "both.vcad", *chosen[:2], "--calibration", "other.json", "--deciding", "color_rgb")
+
+
 def wrong_words(folder):
     folder.calibrated()
     inks = json.loads(folder.read("inks.json"))
@@ -248,7 +272,8 @@ def wrong_words(folder):
 
 CHECKS = program.named((shares_are_those_of_little_cms, droplets_have_the_shares, layers_and_checks_take_the_profile,
                         alpha_becomes_clear, reports_say_what_is_out_of_gamut, mixtures_of_ones_own_are_judged,
-                        measured_patches_make_a_calibration, colours_of_surfaces_are_values, wrong_words))
+                        measured_patches_make_a_calibration, colours_of_surfaces_are_values,
+                        colours_and_a_property_share_the_droplets, wrong_words))
 
 if __name__ == "__main__":
     raise SystemExit(program.main(Folder, CHECKS))

@@ -106,6 +106,113 @@ def processes_compare(folder):
     expect("modulus to fractions by agilus-vero-modulus" in text and "doi:10.3390/ma16083014" in text, text)
 
 
+def calibration_of(folder, name, members):
+    about = {"title": name, "unit": "MPa", "property": "modulus", "citation": "made up for a test", "licence": "free"}
+    folder.write(f"{name}.json", {"name": name, **about, **members})
+
+
+def printer_of(folder, name, members):
+    about = {"title": name, "source": "made up for a test", "pitch": {"x": "0.2", "y": "0.2", "z": "0.25"}, "image": "gray"}
+    folder.write(f"{name}-printer.json", {"name": name, **about, **members})
+
+
+def five_processes(folder):
+    """One part with two properties on five machines; what each gives is known by hand."""
+    mixture = {"inputs": [{"fraction": "VeroClear"}], "rest": "Agilus30Clr", "interpolant": "mixture"}
+    calibration_of(folder, "droplets", {**mixture, "constants": {"values": [50, 250]}, "sd": 5})
+    calibration_of(folder, "weights", {**mixture, "property": "density", "unit": "g/cm3", "constants": {"values": [1.0, 1.4]}})
+    calibration_of(folder, "thirds", {"inputs": [{"attribute": "intensity", "unit": "1"}], "interpolant": "linear", "points": [
+        {"inputs": [0], "value": 0, "sd": 0}, {"inputs": [1], "value": 300, "sd": 30}]})
+    calibration_of(folder, "weak", {"inputs": [{"attribute": "infill_density", "unit": "%"}], "interpolant": "linear",
+                                    "points": [{"inputs": [20], "value": 30}, {"inputs": [100], "value": 150}]})
+    calibration_of(folder, "layers", {**mixture, "constants": {"values": [0, 400]}})
+    # Paths of calibrations begin in the profile's folder.
+    printer_of(folder, "ink", {"calibrations": ["./droplets.json", "./weights.json"]})
+    printer_of(folder, "dose", {"needs": ["intensity"], "steps": {"intensity": 0.1}, "calibrations": ["./thirds.json"]})
+    printer_of(folder, "infill", {"needs": ["infill_density"], "calibrations": ["./weak.json"]})
+    printer_of(folder, "mixed", {"steps": {"fractions": 0.25}, "calibrations": ["./layers.json"]})
+    folder.write("part.vcad", 'attribute("density", 1.2) attribute("modulus", "100 + 10*(z + 5)") cube(10);')
+    names = ["./ink-printer.json", "./dose-printer.json", "./infill-printer.json", "./mixed-printer.json", "fff-foaming-pla"]
+    arguments = ["part.vcad", "--materials", MATERIALS, "--deciding", "modulus"]
+    for name in names:
+        arguments += ["--printer", name]
+    parts = resolved(folder, *arguments, "--report", "page.html", status=3)["printers"]
+    row = {(part["printer"], intent["attribute"]): intent for part in parts for intent in part.get("intent", [])}
+
+    moduli = [100 + 2.5 * (n + 0.5) for n in range(40)]  # of layers of 0.25 mm
+    mean = lambda values: sum(values) / len(values)
+    ink, weight = row["ink", "modulus"], row["ink", "density"]
+    near(ink["mean_miss"], 0, 1e-4, "droplets")
+    near(ink["expected_sd"], 5, 1e-9, "the spread of droplets")
+    near(weight["given"], 1.2, 1e-6, "the mean density of droplets")
+    near(weight["mean_miss"], mean([abs(0.4 * ((m - 50) / 200 - 0.5)) for m in moduli]), 1e-6, "their density")
+    near(abs(weight["worst_miss"]), 0.0975, 1e-6, "the worst density")
+    dose = row["dose", "modulus"]
+    near(dose["mean_miss"], mean([abs(30 * round(m / 30) - m) for m in moduli]), 1e-4, "steps of light")
+    near(abs(dose["worst_miss"]), max(abs(30 * round(m / 30) - m) for m in moduli), 1e-4, "the worst step")
+    near(dose["expected_sd"], mean([30 * 0.1 * round(m / 30) for m in moduli]), 1e-4, "the spread of light")
+    infill = row["infill", "modulus"]
+    expect(infill["share_out_of_reach"] == 0.5, f"{infill}")
+    near(infill["mean_miss"], mean([max(0, m - 150) for m in moduli]), 1e-4, "what is too weak")
+    near(infill["worst_miss"], 150 - moduli[-1], 1e-4, "the weakest")
+    near(infill["worst_at_mm"][2], 4.875, 1e-9, "its place")
+    mixed = row["mixed", "modulus"]
+    near(mixed["mean_miss"], mean([min(m - 100, 200 - m) for m in moduli]), 1e-4, "quarters")
+    near(abs(mixed["worst_miss"]), 48.75, 1e-4, "the worst quarter")
+    expect(mixed["share_out_of_reach"] == 0, f"{mixed}")
+    for printer in ("dose", "infill", "mixed"):
+        expect("given" not in row[printer, "density"], f"{printer} knows no density")
+    expect("no calibration leads from there to temperature" in parts[4]["problem"], f"{parts[4]}")
+    page = folder.read("page.html")
+    expect(page.count("<tr") >= 1 + 9 and "multiples of 0.25" in page, "the page lacks rows")
+    text = folder.run("resolve", *arguments, status=3).stdout
+    for words in ("modulus to intensity by thirds", "the machine takes multiples of 0.1, to which intensity is rounded",
+                  "unknown", "50 %"):
+        expect(words in text, f"{words!r} is not in {text}")
+
+
+def shipped_processes(folder):
+    """The example of the page on properties."""
+    grip = program.SOURCE / "examples" / "tuned_grip.vcad"
+    arguments = [grip, "--materials", program.SOURCE / "materials" / "processes.json", "--deciding", "modulus"]
+    for name in ("j750", "vat-two-resins", "fff-infill", "fff-two-filaments", "fff-foaming-pla"):
+        arguments += ["--printer", name]
+    parts = resolved(folder, *arguments, status=3)["printers"]
+    reached = {part["printer"]: part["intent"] for part in parts if "intent" in part}
+    by_name = {(printer, row["attribute"]): row for printer, rows in reached.items() for row in rows}
+    near(by_name["j750", "modulus"]["share_out_of_reach"], 0, 1e-12, "droplets reach 50 to 2000 MPa")
+    # 2000 * (50 / 2000)^depth is above 1600 up to a depth of 0.0605, between 8 and 8.42 mm; grooves take some of the rest.
+    expect(by_name["vat-two-resins", "modulus"]["share_out_of_reach"] > 0.9, "two resins are both stiff")
+    near(by_name["fff-infill", "modulus"]["share_out_of_reach"], 0, 1e-12, "infills reach 9 to 3600 MPa")
+    expect(abs(by_name["fff-two-filaments", "modulus"]["worst_miss"]) > 400, "quarters of 3588 MPa are coarse")
+
+
+def slices_take_what_decides(folder):
+    folder.write("both.vcad", STRAP.replace("cube", 'attribute("density", 1.15) cube'))
+    arguments = ["slice", "both.vcad", "--materials", MATERIALS, "--voxel", "0.5"]
+    wrong = " ".join(folder.run(*arguments, "-o", "out", status=1).stderr.split())
+    expect("they contradict each other: at (" in wrong and "--deciding" in wrong, wrong)
+    folder.run(*arguments, "--deciding", "modulus", "-o", "out")
+    folder.write("strap.vcad", STRAP)
+    folder.run("slice", "strap.vcad", *arguments[2:], "-o", "one")
+    for path in sorted((folder.path / "one").glob("*.png")):
+        expect(path.read_bytes() == (folder.path / "out" / path.name).read_bytes(), f"{path.name} differs")
+
+
+def what_remains_is_left_to_the_next_process(folder):
+    """A design with a modulus and a temperature is resolved for one machine, then for another one."""
+    folder.write("two.vcad", STRAP.replace("cube", 'attribute("temperature", 238) cube'))
+    folder.run("resolve", "two.vcad", *POLYJET, "-o", "mixed.json")
+    folder.run("resolve", "mixed.json", "--printer", "fff-foaming-pla", "-o", "hot.json")
+    point, = folder.events("probe", "hot.json", "--at", "0,0,0")
+    near(point["attributes"]["flow_rate"], 1.04, 1e-9, "the flow")
+    near(point["attributes"]["modulus"], 510, 1e-9, "the modulus")
+    near(point["composition"]["VeroClear"], share_of_stiff(510), 1e-6, "the share of VeroClear")
+    folder.write("cold.vcad", STRAP)
+    wrong = folder.run("resolve", "cold.vcad", "--printer", "fff-foaming-pla", status=1).stderr
+    expect("no calibration leads from there to temperature" in wrong and "it could give flow_rate" in wrong, wrong)
+
+
 def resolved_designs_are_designs(folder):
     folder.write("hot.vcad", 'attribute("temperature", "238 + 3*x") cube(10);')
     folder.run("resolve", "hot.vcad", "--printer", "fff-foaming-pla", "-o", "resolved.json")
@@ -157,7 +264,8 @@ def wrong_words(folder):
 
 
 CHECKS = program.named((slices_have_the_fractions, out_of_reach_is_refused, reports_of_intent,
-                        mixtures_of_ones_own_are_judged, processes_compare, resolved_designs_are_designs,
+                        mixtures_of_ones_own_are_judged, processes_compare, five_processes, shipped_processes,
+                        slices_take_what_decides, what_remains_is_left_to_the_next_process, resolved_designs_are_designs,
                         values_are_resolved_too, a_job_without_a_calibration_says_so, wrong_words))
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Checks masks for vat printers: how much of a pixel is inside, and .sl1 archives beside PrusaSlicer's own."""
+import json
 import math
 import shutil
 import zipfile
@@ -104,8 +105,89 @@ def what_cannot_be_is_said(folder):
     expect("leave out --box" in wrong, wrong)
 
 
+# A resin that was made up for the test: 0.1 mm deep, light falls to 1/e, and 8 mJ/cm2 gel it.
+DEPTH, GEL = 0.1, 8
+RESIN = {"name": "resin", "title": "resin", "property": "cure_depth", "unit": "mm", "citation": "made up", "licence": "free",
+         "inputs": [{"attribute": "dose", "unit": "mJ/cm2", "valid": [GEL, 400]}], "interpolant": "working-curve",
+         "constants": {"penetration": DEPTH, "critical": GEL}}
+MACHINE = {"name": "grey", "title": "grey vat", "source": "made up", "pitch": {"x": "0.2", "y": "0.2", "z": "0.05"},
+           "image": "gray", "background": [0, 0, 0, 255], "files": "layer{index:05}.png", "vat": True, "needs": ["dose"],
+           "build_mm": [8, 8, 10], "origin": "center",
+           "exposure": {"seconds": 8, "first_seconds": 35, "fade_layers": 0, "irradiance": 2.5},
+           "calibrations": ["./resin.json"]}
+
+
+def resolved(folder, *arguments):
+    return next(e for e in folder.events("resolve", *arguments) if e["event"] == "resolved")
+
+
+def grey_vat(folder):
+    folder.write("resin.json", RESIN)
+    folder.write("grey.json", MACHINE)
+
+
+def doses_follow_the_working_curve(folder):
+    """Jacobs: E = Ec exp(Cd / Dp)."""
+    grey_vat(folder)
+    folder.write("part.vcad", 'attribute("cure_depth", "0.1 + 0.01*x") cube(4);')
+    folder.run("slice", "part.vcad", "--printer", "./grey.json", "--by", "dose", "--range", "0,50", "-o", "part.sl1")
+    files = layers_of(folder.path / "part.sl1")
+    row = shades_of(files["layer00040.png"])[20][10:30]  # the part is in the middle of 40 pixels
+    for i, shade in enumerate(row):
+        depth = 0.1 + 0.01 * (-2 + 0.2 * (i + 0.5))
+        near(shade, 255 * GEL * math.exp(depth / DEPTH) / 50, 0.51, f"the shade of pixel {i}")
+    settings = settings_of(files["config.ini"])
+    near(float(settings["expTime"]), 50 / 2.5, 1e-9, "the time in which white gets 50 mJ/cm2")
+    expect(settings["expTimeFirst"] == "35", f"{settings}")
+    arguments = ["slice", "part.vcad", "--printer", "./grey.json", "--by", "dose", "-o", "other.sl1"]
+    wrong = folder.run(*arguments, status=1).stderr
+    expect("black gets no light" in wrong and "--range 0," in wrong, wrong)
+    folder.write("deep.vcad", 'attribute("cure_depth", "0.3 + 0.1*x") cube(4);')
+    wrong = folder.run("slice", "deep.vcad", *arguments[2:], "--range", "0,400", status=1).stderr
+    expect("cure_depth is out of reach at" in wrong, wrong)
+
+
+def light_is_added_up(folder):
+    """A plate on a post: what lies below the plate is cured, too; and doses that do not reach through a layer are found."""
+    grey_vat(folder)
+    folder.write("table.vcad", 'attribute("dose", 20) union() { translate(0, 0, 1.5) rectprism((4, 4, 1)); '
+                               'translate(0, 0, 0.5) rectprism((0.8, 0.8, 1)); }')
+    part, = resolved(folder, "table.vcad", "--printer", "./grey.json")["printers"]
+    cure = part["cure"]
+    fall = math.exp(-0.05 / DEPTH)
+    below = 20 * sum(fall ** n for n in range(1, 21))  # of 20 layers of the plate
+    deep = DEPTH * math.log(below / GEL)
+    near(cure["deepest_mm"], deep, 1e-6, "the depth below the plate")
+    near(cure["over_mm3"], deep * (16 - 0.64), 1e-4, "what is cured below it")
+    expect(cure["under_mm3"] == 0, f"{cure}")
+    folder.write("weak.vcad", 'attribute("dose", 10) cube(1);')
+    part, = resolved(folder, "weak.vcad", "--printer", "./grey.json")["printers"]
+    cure = part["cure"]
+    # The top layer is cured to Dp ln(10 / 8) = 0.0223 mm alone; the one below it gets light through it, too.
+    near(cure["least_depth_mm"], DEPTH * math.log(10 / GEL), 1e-9, "the top layer")
+    near(cure["under_mm3"], 0.05 - DEPTH * math.log(10 / GEL), 1e-6, "what is not cured")
+    text = folder.run("resolve", "weak.vcad", "--printer", "./grey.json").stdout
+    expect("stay below the critical dose" in text, text)
+
+
+def vats_share_no_pixel(folder):
+    folder.write("two.vcad", 'fgrade(["x/4 + 0.5", "0.5 - x/4"], ["StiffResin", "TougherResin"]) cube(4);')
+    materials = ["--materials", program.SOURCE / "materials" / "processes.json"]
+    folder.run("slice", "two.vcad", "--printer", "vat-two-resins", *materials, "--voxel", "0.2", "-o", "two")
+    job = json.loads(folder.read("two/job.json"))
+    expect(job["images"]["vats"] == {"wash_seconds": 30}, f"{job['images']}")
+    for layer in (0, 7, 19):
+        images = [png.Image((folder.path / "two" / f"slice_{layer:05}_{vat}.png").read_bytes())
+                  for vat in ("StiffResin", "TougherResin")]
+        lit = [[pixel[0] > 0 for row in image.rows for pixel in row] for image in images]
+        expect(all(a + b == 1 for a, b in zip(*lit)), f"layer {layer} has pixels of both vats, or of none")
+        expect(any(lit[0]) and any(lit[1]), "a vat is not used")
+    folder.run("verify", "two", "--design", "two.vcad", *materials)
+
+
 CHECKS = program.named((an_archive_has_settings_and_layers, the_images_are_those_of_prusaslicer,
-                        soft_edges_have_the_area_of_a_disc, what_cannot_be_is_said))
+                        soft_edges_have_the_area_of_a_disc, doses_follow_the_working_curve, light_is_added_up, vats_share_no_pixel,
+                        what_cannot_be_is_said))
 
 if __name__ == "__main__":
     raise SystemExit(program.main(program.Folder, CHECKS))

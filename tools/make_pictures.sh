@@ -36,6 +36,7 @@ declare -A options=(
   [value_nodes]="--from 0,90"
   [wood]="--from -20,35"
   [turned_handle]="--cut z=12 --from -50,35"
+  [tuned_grip]="--by modulus --cut y=0 --legend --palette plasma --from -30,30"
 )
 
 # Designs of Ombre, and scripts of OpenSCAD in a folder of their own.

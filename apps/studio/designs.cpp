@@ -52,6 +52,8 @@ void make_coarser(compile::PlanOptions& options, const design::Design& design, i
 CutDesignPtr OpenDesign::make(const JobChoices& choices) const {
   auto made = std::make_shared<CutDesign>();
   compile::PlanOptions options = plan_options(choices, program_, made->remarks);
+  // Designs are loaded with the usual materials.
+  if (!choices.calibrations.apply(options, "", made->remarks)) throw design_error(made->remarks);
   made->printer = options.printer;
   options.memory = &memory;
   if (choices.level > 0) make_coarser(options, loaded->design, choices.level);

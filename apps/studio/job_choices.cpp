@@ -16,11 +16,14 @@ bool is_of_request(const std::string& name, std::initializer_list<std::string_vi
   return std::ranges::find(usual, name) != std::end(usual) || std::ranges::find(others, name) != others.end();
 }
 
+bool is_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".json"); }
+
 }  // namespace
 
 const options::Spec<JobChoices>& JobChoices::options() {
   static const options::Spec<JobChoices> spec{options::group(&JobChoices::sampling),
-                                              options::group(&JobChoices::images)};
+                                              options::group(&JobChoices::images),
+                                              options::group(&JobChoices::calibrations)};
   return spec;
 }
 
@@ -36,9 +39,10 @@ JobChoices read_job_choices(const Request& request, std::initializer_list<std::s
   } catch (const options::WrongValue& error) {
     throw wrong_value(error);
   }
-  const std::string& printer = choices.sampling.printer;
-  if (printer.find('/') != std::string::npos || printer.ends_with(".json"))
+  if (is_path(choices.sampling.printer))
     throw RequestError("name", "\"printer\" is the name of a profile that comes with Ombre");
+  if (std::ranges::any_of(choices.calibrations.calibrations, is_path))
+    throw RequestError("name", "\"calibration\" is the name of one that comes with Ombre");
   if (request.body.find("level")) choices.level = static_cast<int>(request.whole("level", 0, coarsest_level));
   return choices;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "jobs/common/calibration_options.h"
 #include "jobs/common/job_options.h"
 #include "studio/workspace/studio_messages.h"
 
@@ -13,6 +14,7 @@ namespace ombre::studio {
 struct JobChoices {
   compile::SamplingOptions sampling;
   compile::ImageOptions images;
+  compile::CalibrationOptions calibrations;
   int level = 0;      // voxels are 2^level times as long along x and y; 0 for the job's own
   DataMembers given;  // the options as in the request, in the order of the rows
 

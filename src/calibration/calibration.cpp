@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "base/math/math.h"
 #include "base/system/assert.h"
@@ -52,6 +54,7 @@ Interval Calibration::choices(size_t input, std::span<const double> at) const {
 
 bool Calibration::is_invertible(size_t input) const {
   if (has_points(interpolant)) return grid.direction(input) != 0;
+  if (interpolant == Interpolant::working_curve) return true;
   return constants.values[0] != constants.values[input + 1];
 }
 
@@ -63,6 +66,30 @@ Interval Calibration::reach(size_t input, std::span<const double> at) const {
   inputs_at[input] = ends.hi;
   const double last = value(inputs_at);
   return {std::min(first, last), std::max(first, last)};
+}
+
+Interval Calibration::whole_reach(size_t input) const {
+  // The values between the points of a grid lie between those of the points.
+  std::vector<size_t> others;
+  for (size_t n = 0; n < inputs.size(); ++n)
+    if (n != input && !inputs[n].usual) others.push_back(n);
+  std::vector<double> at = usual();
+  if (others.empty() || !has_points(interpolant)) return reach(input, at);
+  Interval all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const std::function<void(size_t)> visit = [&](size_t n) {
+    if (n == others.size()) {
+      const Interval here = reach(input, at);
+      all = {std::min(all.lo, here.lo), std::max(all.hi, here.hi)};
+      return;
+    }
+    const Interval& valid = *inputs[others[n]].valid;
+    for (const double key : grid.axes()[others[n]]) {
+      at[others[n]] = math::min(math::max(key, valid.lo), valid.hi);
+      visit(n + 1);
+    }
+  };
+  visit(0);
+  return all;
 }
 
 Inverse Calibration::inverse(size_t input, double wanted, std::span<const double> at) const {

@@ -90,6 +90,8 @@ struct Calibration {
   bool is_invertible(size_t input) const;
   // Returns the values that the choices of an input reach.
   Interval reach(size_t input, std::span<const double> at) const;
+  // Returns the values that an input reaches for some values of the inputs that have no usual one.
+  Interval whole_reach(size_t input) const;
   // Returns the choice of an input that gives the value, or the nearest one that there is; is_invertible(input). The
   // input is exact to the last places of the value.
   Inverse inverse(size_t input, double value, std::span<const double> at) const;

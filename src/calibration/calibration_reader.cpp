@@ -96,12 +96,15 @@ const Record<Constants>& constant_record() {
   static const Record<C> record(
       "\"constants\"",
       {number_list("values", &C::values)
-           .required("give the value of the rest alone, then that of each input's material alone")
-           .means("the property of the rest alone, then that of each input's material alone"),
+           .means("of laws of fractions: the property of the rest alone, then that of each input's material alone"),
        field::number("poissons_ratio", &C::poissons_ratio, {0, 0.5}).means("of the matrix, for `kerner` (default 0)"),
        field::number("threshold", &C::threshold, {0, 0.99})
            .means("fraction at which `percolation` begins (default 0); below it the value is that of the rest"),
-       field::number("exponent", &C::exponent, {0, 10, false, true}).means("power of `percolation` (default 2)")});
+       field::number("exponent", &C::exponent, {0, 10, false, true}).means("power of `percolation` (default 2)"),
+       field::number("penetration", &C::penetration, above_zero)
+           .means("of `working-curve`: the depth at which light has fallen to 1/e (Dp), in the unit of the property"),
+       field::number("critical", &C::critical, above_zero)
+           .means("of `working-curve`: the dose at which the resin gels (Ec), in the unit of the input")});
   return record;
 }
 
@@ -222,11 +225,15 @@ class Checker {
       return fail("interpolant", "the law " + interpolant() + " needs \"constants\"",
                   R"(write for example "constants": {"values": [1, 2000]})");
     if (c_.sd && c_.relative_sd) fail("sd", "\"sd\" and \"relative_sd\" exclude each other");
+    if (law == Interpolant::working_curve) return check_working_curve();
     if (!std::ranges::all_of(c_.inputs, &Input::is_fraction))
       return fail("inputs", "the inputs of the law " + interpolant() + " are fractions");
     const bool takes_one = law == Interpolant::kerner || law == Interpolant::percolation;
     if (takes_one && c_.inputs.size() > 1)
       return fail("inputs", "the law " + interpolant() + " has one input, not " + std::to_string(c_.inputs.size()));
+    if (!data_.find("constants")->find("values"))
+      return fail("constants", "\"constants\" needs \"values\"",
+                  "give the value of the rest alone, then that of each input's material alone");
     if (c_.constants.values.size() != c_.inputs.size() + 1)
       return fail("constants",
                   "\"values\" has " + std::to_string(c_.constants.values.size()) + " numbers for " +
@@ -240,6 +247,22 @@ class Checker {
       if (!input.valid) input.valid = Interval(0, 1);
     if (law == Interpolant::percolation && c_.constants.threshold >= c_.inputs[0].valid->hi)
       fail("constants", "the threshold is not below what is valid");
+  }
+
+  void check_working_curve() {
+    if (c_.inputs.size() != 1 || c_.inputs[0].is_fraction())
+      return fail("inputs", "the input of a working curve is a dose",
+                  R"(write {"attribute": "dose", "unit": "mJ/cm2"})");
+    if (c_.constants.penetration == 0 || c_.constants.critical == 0)
+      return fail("constants", "a working curve needs the \"penetration\" depth and the \"critical\" dose",
+                  R"(write for example {"penetration": 0.1, "critical": 8})");
+    const std::optional<Interval>& valid = c_.inputs[0].valid;
+    if (!valid)
+      return fail("inputs", "a working curve needs the doses for which it is \"valid\"",
+                  "give the least and the greatest dose that was measured");
+    if (valid->lo < c_.constants.critical)
+      fail("inputs", "below the critical dose, " + format_number(c_.constants.critical) + ", nothing is cured",
+           "let \"valid\" begin there");
   }
 
   void check_usual() {
@@ -292,7 +315,9 @@ const Record<Calibration>& calibration_record() {
                field::choice("interpolant", &C::interpolant, interpolant_names())
                    .required()
                    .means("between points: `pchip` (monotone cubics, one input), `linear`, `log-linear` (linear in the "
-                          "logarithm); or a law of fractions: `mixture`, `log-mixture`, `kerner` or `percolation`"),
+                          "logarithm); or a law of fractions: `mixture`, `log-mixture`, `kerner` or `percolation`; or "
+                          "`working-curve`, the depth that a "
+                          "dose of light cures"),
                field::objects("points", &C::points, point_record())
                    .means("what was measured, at all combinations of the inputs' numbers; of a law, what it was fitted "
                           "to"),

@@ -118,6 +118,26 @@ TEST(Calibration, InverseAfterForwardIsTheIdentityForAllInterpolants) {
       "constants": {"values": [1, 5, 9]})"));
 }
 
+// Jacobs 1992: the depth grows by the penetration depth whenever the dose grows by a factor of e.
+TEST(Calibration, WorkingCurvesAreThoseOfJacobs) {
+  const std::string members = R"("property": "cure_depth", "unit": "mm", "interpolant": "working-curve", )";
+  const std::string constants = R"("constants": {"penetration": 0.1, "critical": 8})";
+  const auto curve =
+      made(members + R"("inputs": [{"attribute": "dose", "unit": "mJ/cm2", "valid": [8, 400]}], )" + constants);
+  EXPECT_EQ(curve->value(std::vector{8.0}), 0);
+  EXPECT_NEAR(curve->value(std::vector{8 * std::exp(1.5)}), 0.15, 1e-12);
+  EXPECT_NEAR(curve->inverse(0, 0.05, curve->usual()).input, 8 * std::exp(0.5), 1e-9);
+  EXPECT_FALSE(curve->inverse(0, 0.5, curve->usual()).is_within);
+  expect_inverse(*curve);
+  expect_message(members + R"("inputs": [{"fraction": "A"}], "rest": "B", )" + constants,
+                 "input of a working curve is a dose");
+  expect_message(members + R"("inputs": [{"attribute": "dose"}], )" + constants, "for which it is \"valid\"");
+  expect_message(members + R"("inputs": [{"attribute": "dose", "valid": [1, 9]}], )" + constants,
+                 "below the critical dose, 8, nothing is cured");
+  expect_message(members + R"("inputs": [{"attribute": "dose", "valid": [8, 9]}], "constants": {"critical": 8})",
+                 "needs the \"penetration\" depth and the \"critical\" dose");
+}
+
 // Expected values come from scipy.interpolate.PchipInterpolator of SciPy 1.17.1.
 TEST(Calibration, PchipIsThatOfSciPy) {
   const auto rising = made(R"("inputs": [{"fraction": "Vero"}], "rest": "Agilus", "interpolant": "pchip",

@@ -11,18 +11,25 @@ namespace {
 
 std::string quantity(const Input& input) { return input.is_fraction() ? std::string(fractions) : input.attribute; }
 
+constexpr size_t most_chains = 8;
+
 // Returns the ways in which a calibration can be used. An input is found if all others have usual values, or are
-// attributes, which a design may give.
+// attributes, which a design or other steps may give.
 std::vector<Step> uses_of(const CalibrationPtr& calibration) {
   if (calibration->inks) return {{calibration, 0}};  // all inks together
   std::vector<Step> uses{{calibration, std::nullopt}};
   for (size_t n = 0; n < calibration->inputs.size(); ++n) {
     bool is_possible = calibration->is_invertible(n);
     for (size_t other = 0; other < calibration->inputs.size(); ++other)
-      is_possible = is_possible && (other == n || calibration->inputs[other].usual);
+      is_possible =
+          is_possible && (other == n || calibration->inputs[other].usual || !calibration->inputs[other].is_fraction());
     if (is_possible) uses.push_back({calibration, n});
   }
   return uses;
+}
+
+void keep_some(std::vector<Chain>& chains) {
+  if (chains.size() > most_chains) chains.resize(most_chains);
 }
 
 // Quantities by the number of steps that lead to them, with all steps that do so first.
@@ -38,7 +45,7 @@ class Search {
 
   bool knows(const std::string& quantity) const { return known_.contains(quantity); }
 
-  // Returns all shortest chains to a known quantity, at most two of them.
+  // Returns the shortest chains to a known quantity.
   std::vector<Chain> chains(const std::string& quantity) const {
     const auto found = steps_.find(quantity);
     if (found == steps_.end()) return {{}};  // it is given
@@ -51,7 +58,7 @@ class Search {
         all.push_back(std::move(chain));
       }
     }
-    if (all.size() > 2) all.resize(2);
+    keep_some(all);
     return all;
   }
 
@@ -89,7 +96,7 @@ class Search {
             both.push_back(step);
         all.push_back(std::move(both));
       }
-    if (all.size() > 2) all.resize(2);
+    keep_some(all);
     return all;
   }
 
@@ -101,11 +108,12 @@ class Search {
 }  // namespace
 
 std::vector<std::string> Step::from() const {
-  if (input) return {calibration->property};
   std::vector<std::string> names;
-  for (const Input& input : calibration->inputs) {
-    const std::string name = quantity(input);
-    if (!input.usual && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  if (input) names.push_back(calibration->property);
+  for (size_t n = 0; n < calibration->inputs.size() && !calibration->inks; ++n) {
+    const std::string name = quantity(calibration->inputs[n]);
+    if (n == input || calibration->inputs[n].usual) continue;
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   return names;
 }
@@ -120,22 +128,34 @@ std::string chain_text(const Chain& chain) {
   return join(texts, ", then ");
 }
 
-std::variant<Chain, ChainProblem> find_chain(const std::vector<CalibrationPtr>& calibrations,
-                                             const std::vector<std::string>& given, const std::string& wanted) {
+std::vector<std::string> begins_with(const Chain& chain) {
+  std::vector<std::string> first;
+  std::set<std::string> made;
+  for (const Step& step : chain) {
+    for (const std::string& from : step.from())
+      if (!made.contains(from) && std::ranges::find(first, from) == first.end()) first.push_back(from);
+    made.insert(step.to());
+  }
+  return first;
+}
+
+std::variant<std::vector<Chain>, ChainProblem> find_chains(const std::vector<CalibrationPtr>& calibrations,
+                                                           const std::vector<std::string>& given,
+                                                           const std::string& wanted) {
   const Search search(calibrations, given);
   const std::string has = given.empty() ? "the design gives no attribute" : "the design gives " + join(given, ", ");
   if (!search.knows(wanted)) {
     const std::vector<std::string> sources = search.sources_of(wanted);
     return ChainProblem{
-        ChainProblem::Kind::none, has + ", and no calibration leads from there to " + wanted,
+        has + ", and no calibration leads from there to " + wanted,
         sources.empty() ? "no calibration that is chosen gives " + wanted : "it could give " + join(sources, ", or ")};
   }
-  std::vector<Chain> chains = search.chains(wanted);
-  if (chains.size() < 2) return std::move(chains.front());
-  return ChainProblem{
-      ChainProblem::Kind::several,
-      "two chains of calibrations lead to " + wanted + ": " + chain_text(chains[0]) + "; and " + chain_text(chains[1]),
-      "leave one out"};
+  return search.chains(wanted);
+}
+
+std::string several_text(const std::vector<Chain>& chains, const std::string& wanted) {
+  return "two chains of calibrations lead to " + wanted + ": " + chain_text(chains[0]) + "; and " +
+         chain_text(chains[1]);
 }
 
 }  // namespace ombre::calibration

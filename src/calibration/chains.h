@@ -1,6 +1,7 @@
 // Finds the calibrations that lead from what a design gives to what a process needs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,15 +24,19 @@ struct Step {
 // Steps in the order in which they are taken.
 using Chain = std::vector<Step>;
 std::string chain_text(const Chain& chain);
+// Returns the quantities that a chain begins with, each once.
+std::vector<std::string> begins_with(const Chain& chain);
 
 struct ChainProblem {
-  enum class Kind { none, several } kind = Kind::none;
   std::string message, hint;
 };
 
-// Returns the shortest chain from given quantities to the wanted one, which is empty if that is given. Returns a
-// problem if there is none, or if several are equally short.
-std::variant<Chain, ChainProblem> find_chain(const std::vector<CalibrationPtr>& calibrations,
-                                             const std::vector<std::string>& given, const std::string& wanted);
+// Returns the shortest chains from given quantities to the wanted one, at most eight: a single empty one if that is
+// given. Returns a problem if there is none.
+std::variant<std::vector<Chain>, ChainProblem> find_chains(const std::vector<CalibrationPtr>& calibrations,
+                                                           const std::vector<std::string>& given,
+                                                           const std::string& wanted);
+// Returns for example "two chains of calibrations lead to fractions: ...; and ...".
+std::string several_text(const std::vector<Chain>& chains, const std::string& wanted);
 
 }  // namespace ombre::calibration

@@ -22,9 +22,10 @@ CalibrationPtr by_fraction(const std::string& name, const std::string& property)
 
 std::string found(const std::vector<CalibrationPtr>& calibrations, const std::vector<std::string>& given,
                   const std::string& wanted) {
-  const auto chain = find_chain(calibrations, given, wanted);
-  if (const auto* problem = std::get_if<ChainProblem>(&chain)) return problem->message + "; " + problem->hint;
-  return chain_text(std::get<Chain>(chain));
+  const auto answer = find_chains(calibrations, given, wanted);
+  if (const auto* problem = std::get_if<ChainProblem>(&answer)) return problem->message + "; " + problem->hint;
+  const auto& chains = std::get<std::vector<Chain>>(answer);
+  return chains.size() > 1 ? several_text(chains, wanted) : chain_text(chains.front());
 }
 
 }  // namespace
@@ -43,8 +44,24 @@ TEST(Chains, AreTheShortest) {
 
 TEST(Chains, TwoOfOneLengthAreListed) {
   EXPECT_EQ(found({by_fraction("m", "modulus"), by_fraction("d", "density")}, {"modulus", "density"}, "fractions"),
-            "two chains of calibrations lead to fractions: modulus to fractions by m; and density to fractions by d; "
-            "leave one out");
+            "two chains of calibrations lead to fractions: modulus to fractions by m; and density to fractions by d");
+}
+
+// A second input that is an attribute comes from the design, or from another chain.
+TEST(Chains, SeveralInputsComeTogether) {
+  const auto density = made(R"("name": "d", "property": "density", "unit": "1", "interpolant": "linear",
+      "inputs": [{"attribute": "infill_density"}, {"attribute": "temperature"}], "points": [
+      {"inputs": [0, 0], "value": 1}, {"inputs": [0, 1], "value": 2},
+      {"inputs": [1, 0], "value": 3}, {"inputs": [1, 1], "value": 4}])");
+  const auto hardness = by("h", "shore_hardness", "temperature");
+  EXPECT_EQ(found({density, hardness}, {"density", "shore_hardness"}, "infill_density"),
+            "shore_hardness to temperature by h, then density and temperature to infill_density by d");
+  const auto chains = find_chains({density, hardness}, {"density", "shore_hardness"}, "infill_density");
+  EXPECT_EQ(begins_with(std::get<0>(chains).front()), (std::vector<std::string>{"shore_hardness", "density"}));
+  EXPECT_EQ(
+      found({density}, {"density"}, "infill_density"),
+      "the design gives density, and no calibration leads from there to infill_density; it could give density and "
+      "temperature (d)");
 }
 
 TEST(Chains, NoneSaysWhatCouldBeGiven) {

@@ -40,8 +40,8 @@ double percolation(const Constants& c, double share) {
 }  // namespace
 
 const std::vector<std::string>& interpolant_names() {
-  static const std::vector<std::string> names{"pchip",       "linear", "log-linear", "mixture",
-                                              "log-mixture", "kerner", "percolation"};
+  static const std::vector<std::string> names{"pchip",       "linear", "log-linear",  "mixture",
+                                              "log-mixture", "kerner", "percolation", "working-curve"};
   return names;
 }
 
@@ -84,17 +84,19 @@ int Grid::direction(size_t axis) const {
   return rises ? 1 : falls ? -1 : 0;
 }
 
-double law_value(Interpolant law, const Constants& constants, std::span<const double> fractions) {
+double law_value(Interpolant law, const Constants& constants, std::span<const double> inputs) {
   ASSERT(!has_points(law));
   switch (law) {
     case Interpolant::mixture:
-      return weighted(constants.values, fractions);
+      return weighted(constants.values, inputs);
     case Interpolant::log_mixture:
-      return math::exp(weighted(logarithms(constants.values), fractions));
+      return math::exp(weighted(logarithms(constants.values), inputs));
     case Interpolant::kerner:
-      return kerner(constants, fractions[0]);
+      return kerner(constants, inputs[0]);
+    case Interpolant::working_curve:
+      return constants.penetration * math::log(inputs[0] / constants.critical);
     default:
-      return percolation(constants, fractions[0]);
+      return percolation(constants, inputs[0]);
   }
 }
 

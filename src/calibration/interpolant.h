@@ -10,13 +10,14 @@
 namespace ombre::calibration {
 
 enum class Interpolant : uint8_t {
-  pchip,        // monotone cubics of one input (F. N. Fritsch and J. Butland, 1984)
-  linear,       // linear along each of one to three inputs, on a full grid of points
-  log_linear,   // the same for logarithms of values
-  mixture,      // rule of mixtures: the mean of the materials' values by their fractions
-  log_mixture,  // the mean of the logarithms of the materials' values by their fractions
-  kerner,       // inclusions in a matrix (E. H. Kerner, 1956)
-  percolation,  // a power of the share above a threshold (S. Kirkpatrick, 1973)
+  pchip,          // monotone cubics of one input (F. N. Fritsch and J. Butland, 1984)
+  linear,         // linear along each of one to three inputs, on a full grid of points
+  log_linear,     // the same for logarithms of values
+  mixture,        // rule of mixtures: the mean of the materials' values by their fractions
+  log_mixture,    // the mean of the logarithms of the materials' values by their fractions
+  kerner,         // inclusions in a matrix (E. H. Kerner, 1956)
+  percolation,    // a power of the share above a threshold (S. Kirkpatrick, 1973)
+  working_curve,  // depth to which a dose of light cures a resin (P. F. Jacobs, 1992)
 };
 // Returns the names, in the order of the enumeration.
 const std::vector<std::string>& interpolant_names();
@@ -29,6 +30,8 @@ struct Constants {
   double poissons_ratio = 0;   // of the matrix, for kerner
   double threshold = 0;        // share at which percolation begins
   double exponent = 2;         // power of percolation
+  double penetration = 0;      // of a working curve: the depth at which light has fallen to 1/e
+  double critical = 0;         // of a working curve: the dose at which a resin gels
 };
 
 // Values at all combinations of keys of one to three inputs. The last input varies fastest.
@@ -52,7 +55,8 @@ class Grid {
   std::vector<double> values_, slopes_;  // slopes of a single input's cubics
 };
 
-// Returns the value of a law at these fractions, one for each input; the rest takes what they leave.
-double law_value(Interpolant law, const Constants& constants, std::span<const double> fractions);
+// Returns the value of a law at these fractions, one for each input; the rest takes what they leave. The input of a
+// working curve is a dose.
+double law_value(Interpolant law, const Constants& constants, std::span<const double> inputs);
 
 }  // namespace ombre::calibration

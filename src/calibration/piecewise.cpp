@@ -72,16 +72,6 @@ Points simplified(const Points& points, double tolerance) {
   return kept;
 }
 
-// Returns the ends of the input's choices, and the points' numbers between them.
-std::vector<double> corners_of(const Calibration& calibration, size_t input, const Interval& choices) {
-  std::vector<double> corners{choices.lo};
-  if (has_points(calibration.interpolant))
-    for (const double key : calibration.grid.axes()[input])
-      if (key > choices.lo && key < choices.hi) corners.push_back(key);
-  corners.push_back(choices.hi);
-  return corners;
-}
-
 Function value_of(const Calibration& calibration, size_t input, std::span<const double> at) {
   return [&calibration, input, others = std::vector<double>(at.begin(), at.end())](double choice) {
     std::vector<double> inputs = others;
@@ -104,6 +94,15 @@ Points ascending(Points points) {
 }
 
 }  // namespace
+
+std::vector<double> corners_of(const Calibration& calibration, size_t input, const Interval& choices) {
+  std::vector<double> corners{choices.lo};
+  if (has_points(calibration.interpolant))
+    for (const double key : calibration.grid.axes()[input])
+      if (key > choices.lo && key < choices.hi) corners.push_back(key);
+  corners.push_back(choices.hi);
+  return corners;
+}
 
 Piecewise inverse_curve(const Calibration& calibration, size_t input, std::span<const double> at) {
   const Interval choices = calibration.choices(input, at);

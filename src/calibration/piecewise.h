@@ -14,6 +14,9 @@ struct Piecewise {
   std::vector<std::pair<double, double>> points;
 };
 
+// Returns the ends of some choices of an input, and the numbers of the calibration's points between them, ascending.
+std::vector<double> corners_of(const Calibration& calibration, size_t input, const Interval& choices);
+
 // Error of the curves, as a share of the range of what they give.
 inline constexpr double piecewise_tolerance = 2e-7;
 

@@ -28,6 +28,7 @@ const StandardAttribute table[] = {
      0,
      "of the nozzle, or of the part"},
     {"dose", ValueType::number, "mJ/cm2", from_zero, 0, "energy of light for each layer"},
+    {"cure_depth", ValueType::number, "mm", from_zero, 0, "to which light cures a resin"},
     {"intensity", ValueType::number, "1", one, 1, "share of a projector's light"},
     {"flow_rate", ValueType::number, "1", from_zero, 1, "factor on what a nozzle extrudes"},
     {"infill_density", ValueType::number, "%", {0, 100}, 0, "share of the inside that a slicer fills"},
@@ -52,6 +53,10 @@ const StandardAttribute table[] = {
     {"bridge_speed", ValueType::number, "mm/s", from_zero, 0, "over air"},
     {"ironing_speed", ValueType::number, "mm/s", from_zero, 0, "while ironing"},
     {"ironing_flowrate", ValueType::number, "%", from_zero, 0, "of what ironing extrudes"},
+    {"laser_power", ValueType::number, "W", from_zero, 0, "of a beam that melts"},
+    {"scan_speed", ValueType::number, "mm/s", from_zero, 0, "of a beam along its line"},
+    {"hatch_spacing", ValueType::number, "mm", from_zero, 0, "between a beam's lines"},
+    {"wire_feed", ValueType::number, "mm/s", from_zero, 0, "of wire into a melt pool"},
     {"color_rgb", ValueType::vector, "1", one, 0, "red, green and blue, in sRGB"},
     {"color_rgba", ValueType::colour, "1", one, 0, "red, green, blue and alpha, in sRGB"},
 };

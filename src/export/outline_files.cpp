@@ -12,7 +12,6 @@
 #include "base/text/file_ending.h"
 #include "base/text/text.h"
 #include "export/output_file.h"
-#include "formats/drawings/cli.h"
 #include "formats/drawings/svg.h"
 
 namespace ombre::exporting {
@@ -69,20 +68,22 @@ class SvgFile : public OutlineFiles {
 
 class CliFile : public OutlineFiles {
  public:
-  CliFile(const OutlineTarget& target, const OutlineDocument& document) : file_(target.path) {
-    file_.append(formats::cli_header(document, target.layers, target.bottom_mm));
+  CliFile(const OutlineTarget& target, const OutlineDocument& document) : file_(target.path), rules_(target.cli) {
+    file_.append(formats::cli_header(document, target.layers, target.bottom_mm, rules_));
   }
   void add(double, double top_mm, const OutlinePolygons& polygons) override {
-    file_.append(formats::cli_layer(top_mm, polygons));
+    file_.append(formats::cli_layer(top_mm, polygons, rules_, layer_++));
   }
   void commit() override {
-    file_.append(formats::cli_end());
+    file_.append(formats::cli_end(rules_));
     file_.close();
     file_.commit();
   }
 
  private:
   NewFile file_;
+  formats::CliRules rules_;
+  int64_t layer_ = 0;
 };
 
 // A folder; if it did not exist before, it is removed again unless it contains something.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "formats/drawings/cli.h"
 #include "formats/drawings/outlines.h"
 
 namespace ombre::exporting {
@@ -26,6 +27,7 @@ struct OutlineTarget {
   OutlineFormat format = OutlineFormat::svg_folder;
   uint64_t layers = 0;
   double bottom_mm = 0;  // height at which the first layer begins
+  formats::CliRules cli = {};
 };
 
 // Begins writing. A missing folder is created; its files are layer_0000.svg and so on. Layer files of an earlier run

@@ -24,6 +24,9 @@ std::optional<voxel::Printer> find_printer(const std::string& name_or_path, Diag
   const size_t known = diagnostics.list().size();
   auto printer = voxel::parse_printer(make_source(*path, formats::read_file(*path)), diagnostics);
   diagnostics.tell_code(known, Code::printer_file);
+  if (printer)
+    for (std::string& calibration : printer->calibrations)
+      if (is_path(calibration)) calibration = (fs::path(*path).parent_path() / calibration).string();
   return printer;
 }
 

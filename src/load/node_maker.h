@@ -53,12 +53,11 @@ class NodeMaker {
   static Data formula_data(const expr::Expression& formula) {
     return Data(std::make_shared<design::FormulaObject>(formula));
   }
-
- private:
   static expr::Expression first_output(const design::NodePtr& node) {
     return design::expression_of({node, node->first_output()});
   }
 
+ private:
   const design::Design& design_;
   SourceRange where_;
   Diagnostics& diagnostics_;

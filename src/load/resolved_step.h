@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,25 @@
 
 namespace ombre::compile {
 
+// An attribute that a step reads, in the calibration's unit, and its values for which the calibration is valid.
+struct ReadAttribute {
+  std::string attribute, unit;
+  Interval reach;
+};
+
 // A step of a chain, on a design.
 struct ResolvedStep {
   calibration::Step step;
-  std::string attribute, unit;         // the attribute that it reads, in the calibration's unit
-  Interval reach;                      // the attribute's values for which it is valid
-  std::vector<std::string> materials;  // of the inputs' fractions, "" for other inputs, then of the rest; then clear
-  std::shared_ptr<const design::InkShares> inks;  // of a calibration of inks
+  std::string attribute, unit;  // the attribute that it reads, in the calibration's unit; of several the property
+  Interval reach;               // the attribute's values for which it is valid, wherever the others are
+  std::vector<ReadAttribute> others = {};  // the other attributes that it reads
+  // An attribute of the resolved design that goes from 1 to 2 over what is reached at a point; empty unless the reach
+  // varies with the others.
+  std::string place_in_reach = {};
+  std::optional<double> rounds_to = {};  // a step of the machine, whose multiples it gives
+  bool is_over_inks = false;  // the varied material is the mixture of inks that the steps before gave the solid
+  std::vector<std::string> materials = {};  // of the inputs' fractions, "" for others, then of the rest; then clear
+  std::shared_ptr<const design::InkShares> inks = {};  // of a calibration of inks
 };
 
 }  // namespace ombre::compile

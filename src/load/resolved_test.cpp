@@ -37,14 +37,14 @@ CalibrationPtr shipped(const std::string& name) {
 std::string problem(const LoadedPtr& design, const std::vector<CalibrationPtr>& calibrations,
                     const std::vector<std::string>& needs = {"fractions"}) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(resolve(design, calibrations, needs, Unresolved::is_error, diagnostics));
+  EXPECT_FALSE(resolve(design, calibrations, {needs}, diagnostics));
   return to_text(diagnostics);
 }
 
 Resolution resolved(const LoadedPtr& design, const std::vector<CalibrationPtr>& calibrations,
-                    const std::vector<std::string>& needs = {"fractions"}) {
+                    const Needs& needs = {{"fractions"}}) {
   Diagnostics diagnostics;
-  auto resolution = resolve(design, calibrations, needs, Unresolved::is_error, diagnostics);
+  auto resolution = resolve(design, calibrations, needs, diagnostics);
   EXPECT_TRUE(resolution) << to_text(diagnostics);
   return resolution.value_or(Resolution());
 }
@@ -53,7 +53,7 @@ Resolution resolved(const LoadedPtr& design, const std::vector<CalibrationPtr>& 
 double value_at(const Resolution& resolution, const std::string& name, const Vec3& point) {
   SampleQuery query;
   query.fractions = true;
-  for (const char* attribute : {"temperature", "flow_rate"})
+  for (const char* attribute : {"temperature", "flow_rate", "infill_density", "density_place_in_reach"})
     if (name == attribute) query.attributes.push_back(name);
   Diagnostics diagnostics;
   const auto sampler = Sampler::build(resolution.loaded->design, query, diagnostics);
@@ -106,9 +106,9 @@ TEST(Resolved, ValuesOutOfReachGiveTheNearest) {
 TEST(Resolved, SettingsFollowOneAnother) {
   const auto flow = shipped("foaming-pla-flow");
   const std::vector<std::string> needs{"temperature", "flow_rate"};
-  const Resolution from_temperature = resolved(loaded("attribute(\"temperature\", 238) cube(10);"), {flow}, needs);
+  const Resolution from_temperature = resolved(loaded("attribute(\"temperature\", 238) cube(10);"), {flow}, {needs});
   EXPECT_NEAR(value_at(from_temperature, "flow_rate", {0, 0, 0}), 1.04, 1e-9);  // the middle of 1.42 and 0.66
-  const Resolution from_flow = resolved(loaded("attribute(\"flow_rate\", 1.04) cube(10);"), {flow}, needs);
+  const Resolution from_flow = resolved(loaded("attribute(\"flow_rate\", 1.04) cube(10);"), {flow}, {needs});
   EXPECT_NEAR(value_at(from_flow, "temperature", {0, 0, 0}), 238, 1e-6);
 }
 
@@ -124,6 +124,117 @@ TEST(Resolved, ProblemsAreExplained) {
   const auto unknown = calibration::test::law("mixture", R"("values": [1, 2])");  // of Vero and Agilus
   EXPECT_NE(problem(loaded(graded), {unknown}).find("needs the material Vero, which the materials file lacks"),
             std::string::npos);
+}
+
+namespace {
+
+// Density by two settings, linear in both: 0.1 g/cm3 for each 10 % of infill at 200 degrees, half of that at 250.
+CalibrationPtr foam(const std::string& interpolant = "linear") {
+  return calibration::test::made(R"("name": "foam", "property": "density", "unit": "g/cm3", "interpolant": ")" +
+                                 interpolant + R"(", "inputs": [{"attribute": "infill_density", "unit": "%"},
+      {"attribute": "temperature"}], "points": [
+      {"inputs": [20, 200], "value": 0.2}, {"inputs": [20, 250], "value": 0.1},
+      {"inputs": [60, 200], "value": 0.6}, {"inputs": [60, 250], "value": 0.3},
+      {"inputs": [100, 200], "value": 1.0}, {"inputs": [100, 250], "value": 0.5}])");
+}
+
+CalibrationPtr softness() {
+  return calibration::test::made(R"("name": "softness", "property": "shore_hardness", "unit": "Shore A",
+      "inputs": [{"attribute": "temperature"}], "interpolant": "linear",
+      "points": [{"inputs": [200], "value": 90}, {"inputs": [250], "value": 40}])");
+}
+
+CalibrationPtr density_of_mixture() {
+  return calibration::test::made(R"("name": "d", "property": "density", "unit": "g/cm3", "interpolant": "mixture",
+      "inputs": [{"fraction": "VeroClear"}], "rest": "Agilus30Clr", "constants": {"values": [1, 2]})");
+}
+
+CalibrationPtr hardness_of_mixture() {
+  return calibration::test::made(R"("name": "h", "property": "shore_hardness", "unit": "Shore A",
+      "inputs": [{"fraction": "VeroClear"}], "rest": "Agilus30Clr", "interpolant": "mixture",
+      "constants": {"values": [30, 90]})");
+}
+
+}  // namespace
+
+// The hardness gives the temperature, and both together the infill.
+TEST(Resolved, TwoPropertiesGiveTwoSettings) {
+  const auto design = loaded(R"(attribute("density", "0.25 + 0.01*z") attribute("shore_hardness", 65) cube(10);)");
+  for (const char* interpolant : {"linear", "log-linear"}) {
+    const Resolution both = resolved(design, {foam(interpolant), softness()}, {{"temperature", "infill_density"}});
+    ASSERT_EQ(both.steps.size(), 2U);
+    EXPECT_NEAR(value_at(both, "temperature", {0, 0, 2}), 225, 1e-6);
+    // At 225 degrees the density is 0.15, 0.45 and 0.75 at the three keys, or the geometric means of 0.2 and 0.1, ...
+    const bool is_log = std::string(interpolant) == "log-linear";
+    const double low = is_log ? std::sqrt(0.2 * 0.1) : 0.15, high = is_log ? std::sqrt(0.6 * 0.3) : 0.45;
+    for (const double z : {-4.0, 0.0, 4.0}) {
+      const double wanted = 0.25 + 0.01 * z;
+      const double share = is_log ? std::log(wanted / low) / std::log(high / low) : (wanted - low) / (high - low);
+      EXPECT_NEAR(value_at(both, "infill_density", {1, 1, z}), 20 + 40 * share, 1e-6) << interpolant;
+    }
+  }
+}
+
+TEST(Resolved, ReachVariesWithOtherAttributes) {
+  const auto design = loaded(R"x(attribute("density", "0.1*(z + 5)") attribute("temperature", 250) cube(10);)x");
+  const Resolution hot = resolved(design, {foam()}, {{"temperature", "infill_density"}});
+  ASSERT_EQ(hot.steps.size(), 1U);
+  EXPECT_EQ(hot.steps[0].place_in_reach, "density_place_in_reach");
+  EXPECT_EQ(hot.steps[0].reach.lo, 0.1);
+  EXPECT_EQ(hot.steps[0].reach.hi, 1.0);
+  // 0.1 to 0.5 is reached at 250 degrees.
+  EXPECT_NEAR(value_at(hot, "density_place_in_reach", {0, 0, -4}), 1, 1e-9);
+  EXPECT_NEAR(value_at(hot, "density_place_in_reach", {0, 0, -2}), 1.5, 1e-9);
+  EXPECT_NEAR(value_at(hot, "density_place_in_reach", {0, 0, 4}), 1 + 0.8 / 0.4, 1e-9);
+  EXPECT_EQ(value_at(hot, "infill_density", {0, 0, 4}), 100);
+  EXPECT_NEAR(value_at(hot, "infill_density", {0, 0, -2}), 60, 1e-6);
+}
+
+TEST(Resolved, TwoPropertiesOfOneMixtureAgreeOrContradict) {
+  const std::vector<CalibrationPtr> both{density_of_mixture(), hardness_of_mixture()};
+  // A quarter of Vero has 1.25 g/cm3 and 45 Shore A.
+  const auto agreeing =
+      loaded(R"(attribute("density", "1.25 + z/20") attribute("shore_hardness", "45 + 3*z") cube(10);)");
+  const Resolution one = resolved(agreeing, both);
+  EXPECT_EQ(one.steps.size(), 1U);
+  EXPECT_EQ(one.agreeing.size(), 1U);
+  EXPECT_NEAR(value_at(one, "VeroClear", {0, 0, 2}), 0.35, 1e-6);
+  const auto contrary = loaded(R"(attribute("density", 1.25) attribute("shore_hardness", "47.4 + 2.4*z") cube(10);)");
+  const std::string text = problem(contrary, both);
+  EXPECT_NE(text.find("two chains of calibrations lead to fractions: density to fractions by d; and shore_hardness to "
+                      "fractions by h; they contradict each other: at"),
+            std::string::npos)
+      << text;
+  // At the highest points, z = 4.875, the hardness is 59.1, which needs 0.485 of Vero.
+  EXPECT_NE(text.find("density needs a fraction of Agilus30Clr 0.75, and shore_hardness needs 0.515"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("--deciding ATTRIBUTE"), std::string::npos) << text;
+  Needs needs{{"fractions"}};
+  needs.deciding = {"shore_hardness"};
+  EXPECT_NEAR(value_at(resolved(contrary, both, needs), "VeroClear", {0, 0, 2}), 0.37, 1e-6);
+  needs.deciding = {"shore_hardnes"};
+  Diagnostics diagnostics;
+  EXPECT_FALSE(resolve(contrary, both, needs, diagnostics));
+  EXPECT_NE(to_text(diagnostics).find("did you mean \"shore_hardness\"?"), std::string::npos) << to_text(diagnostics);
+}
+
+TEST(Resolved, MachinesRoundWhatTheyTake) {
+  Needs needs{{"fractions"}};
+  needs.steps = {{"fractions", 0.25}};
+  const auto mixture = loaded(R"(attribute("density", "1.5 + z/10") cube(10);)");
+  const Resolution quarters = resolved(mixture, {density_of_mixture()}, needs);
+  EXPECT_EQ(value_at(quarters, "VeroClear", {0, 0, -1.5}), 0.25);  // 0.35
+  EXPECT_EQ(value_at(quarters, "VeroClear", {0, 0, -1}), 0.5);     // 0.4
+  EXPECT_EQ(value_at(quarters, "Agilus30Clr", {0, 0, -1}), 0.5);
+  EXPECT_EQ(value_at(quarters, "VeroClear", {0, 0, 4.9}), 1);  // 0.99
+  // Values that a design gives itself are rounded, too, before they give other settings.
+  needs = {{"temperature", "flow_rate"}, {{"temperature", 6}}};
+  const Resolution hot =
+      resolved(loaded("attribute(\"temperature\", 239) cube(10);"), {shipped("foaming-pla-flow")}, needs);
+  EXPECT_EQ(value_at(hot, "temperature", {0, 0, 0}), 240);
+  EXPECT_NEAR(value_at(hot, "flow_rate", {0, 0, 0}), 1.42 - 0.76 * 20 / 36, 1e-9);
+  EXPECT_EQ(hot.rounded.size(), 1U);
 }
 
 // Materials that the design names stay.

@@ -68,6 +68,10 @@ void warn_of_colours(const std::string& path, const formats::Mesh& mesh, const M
     reader.diagnostics.warning(reader.where,
                                "the vertices of the mesh \"" + path + "\" have colours, which do not become materials",
                                "surface_colour(\"" + path + "\").colour gives them as a value that varies in space");
+  if (!mesh.shadings.empty())
+    reader.diagnostics.warning(
+        reader.where, "the mesh \"" + path + "\" has textures or shaded triangles, which do not become materials",
+        "surface_colour(\"" + path + "\").colour gives them as a value that varies in space");
   const bool is_named = use.material.material != &reader.materials.first();
   if (use.materials != "one" || !use.object.empty() || is_named) return;
   std::set<Rgba> colours;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "base/text/json.h"
 #include "base/text/record.h"
@@ -99,6 +100,27 @@ void read_needs(Printer& printer, const Data& data, const MemberReader& reader) 
   if (data.list() && data.list()->empty()) reader.fail(data, "a printer needs something", R"(write ["fractions"])");
 }
 
+void read_steps(Printer& printer, const Data& data, const MemberReader& reader) {
+  const DataMembers* const steps = reader.named(data, "\"steps\"");
+  if (!steps) return;
+  for (const auto& [name, size] : *steps)
+    if (const auto number = reader.number(size, name, above_zero)) printer.steps.push_back({name, *number});
+}
+
+// Steps are of what the machine needs, and those of fractions share out the whole.
+void check_steps(const Printer& printer, const Data& data, const MemberReader& reader) {
+  for (const ValueStep& step : printer.steps) {
+    const Data& at = *data.find("steps");
+    if (std::ranges::find(printer.needs, step.of) == printer.needs.end())
+      reader.fail(at, "\"steps\" has " + step.of + ", which is not among the \"needs\"",
+                  "the machine needs " + join(printer.needs, " and "));
+    const double count = 1 / step.size;
+    if (step.of == "fractions" && std::abs(count - std::round(count)) > 1e-9 * count)
+      reader.fail(at, "1 is no multiple of " + format_number(step.size) + ", the step of fractions",
+                  "write for example 0.25");
+  }
+}
+
 const Record<Printer>& printer_record() {
   using P = Printer;
   static const Record<P> record =
@@ -144,7 +166,12 @@ const Record<Printer>& printer_record() {
            field::object("exposure", &P::exposure, exposure_record())
                .means(
                    R"(`{"seconds": 8, "first_seconds": 35, "fade_layers": 10}`: light for a layer and for the first )"
-                   R"(one, and how many layers lie between them, for `.sl1` archives)"),
+                   R"(one, and how many layers lie between them, for `.sl1` archives; with `"irradiance": 2.5`, that )"
+                   R"(of white in mW/cm2, layers of doses get the time that gives white its dose)"),
+           field::object("vats", &P::vats, vats_record())
+               .means(R"(`{"wash_seconds": 30}`: a vat for each material, which take turns within a layer, and how )"
+                      R"(long the part is washed between them; `job.json` lists the vats. It needs `{material}` in )"
+                      R"(`files`)"),
            field::whole("max_materials", &P::max_materials, 1, 255)
                .means("the most materials in one job, 1 to 255, void not counted"),
            field::object("smallest_feature", &P::smallest_feature, feature_record())
@@ -165,10 +192,18 @@ const Record<Printer>& printer_record() {
                .means(
                    R"(what the machine must know at each point of a part, into which [properties](../user/properties.md) )"
                    R"(are resolved: `["fractions"]` of materials (default), or names of attributes, such as )"
-                   R"(`["temperature", "flow_rate"]`)")})
+                   R"(`["temperature", "flow_rate"]`)"),
+           field::special("steps", read_steps)
+               .means(
+                   R"(`{"infill_density": 5}`: the machine takes whole multiples of this step, to which values are )"
+                   R"(rounded when [properties](../user/properties.md) are resolved; a step of `fractions` divides 1)")})
           .checked([](P& printer, const Data& data, const MemberReader& reader) {
             if (printer.origin == Placement::center && !printer.build_mm)
               reader.fail(data, R"("origin": "center" needs "build_mm", the plate to centre on)");
+            check_steps(printer, data, reader);
+            if (printer.vats && !printer.files.has_material())
+              reader.fail(*data.find("vats"), "vats have an image each, and \"files\" has no {material}",
+                          R"(write for example "files": "slice_{index:05}_{material}.png")");
           });
   return record;
 }
@@ -179,7 +214,12 @@ Record<Exposure> exposure_record() {
   using E = Exposure;
   return Record<E>("\"exposure\"", {field::number("seconds", &E::seconds, above_zero).required(),
                                     field::number("first_seconds", &E::first_seconds, above_zero).required(),
-                                    field::whole("fade_layers", &E::fade_layers, 0, 1000)});
+                                    field::whole("fade_layers", &E::fade_layers, 0, 1000),
+                                    field::number("irradiance", &E::irradiance, above_zero)});
+}
+
+Record<Vats> vats_record() {
+  return Record<Vats>("\"vats\"", {field::number("wash_seconds", &Vats::wash_seconds, {0, 86400}).required()});
 }
 
 const std::vector<std::string>& placement_names() {

@@ -65,11 +65,24 @@ struct ForbiddenNeighbour {
   double within_mm = 0;
 };
 
+// A machine rounds a value to whole multiples of a step.
+struct ValueStep {
+  std::string of;  // an attribute, or "fractions"
+  double size = 0;
+};
+
 // Light for the layers of a vat printer.
 struct Exposure {
   double seconds = 0, first_seconds = 0;  // for a layer, for the first layer
   int fade_layers = 0;                    // layers after the first one whose times fall to the usual one
+  std::optional<double> irradiance = {};  // of white, mW/cm2
   bool operator==(const Exposure&) const = default;
+};
+
+// Vats that take turns within a layer, one for each material, in the order of the job's materials.
+struct Vats {
+  double wash_seconds = 0;  // the part is washed so long between them
+  bool operator==(const Vats&) const = default;
 };
 
 // Everything that determines the images of layers, except the voxels and the materials' colours.
@@ -79,6 +92,7 @@ struct Images : ImageLayout {
   int64_t first_index = 0;              // number of the lowest layer
   bool drop_empty_layers = false;
   std::optional<Exposure> exposure;  // in .sl1 archives
+  std::optional<Vats> vats;          // in job.json
 };
 
 struct Printer : Images {
@@ -94,10 +108,12 @@ struct Printer : Images {
   bool is_vat = false;                          // layers are made in a bath of resin
   std::vector<std::string> calibrations;        // names or paths of those that hold for the machine
   std::vector<std::string> needs{"fractions"};  // what it must know of a part: fractions of materials, attributes
+  std::vector<ValueStep> steps;                 // of what it needs; it takes all other values as they are
 };
 
-// Reads the light of layers from a profile or a job.json.
+// Read the light of layers, and vats, from a profile or a job.json.
 Record<Exposure> exposure_record();
+Record<Vats> vats_record();
 
 // Returns the members of a profile, for its reference.
 const std::vector<MemberInfo>& printer_members();

@@ -55,6 +55,17 @@ TEST(Printer, SaysWhatItNeeds) {
   expect_message(R"("calibrations": [3])", "expected a text");
 }
 
+TEST(Printer, SaysWhatItRounds) {
+  ASSERT_EQ(shipped("fff-infill").steps.size(), 1U);
+  EXPECT_EQ(shipped("fff-infill").steps[0].of, "infill_density");
+  EXPECT_EQ(shipped("fff-infill").steps[0].size, 5);
+  EXPECT_TRUE(shipped("j750").steps.empty());
+  expect_message(R"("steps": {"dose": 1})", "\"steps\" has dose, which is not among the \"needs\"");
+  expect_message(R"("steps": {"fractions": 0.3})", "1 is no multiple of 0.3, the step of fractions");
+  expect_message(R"("steps": {"fractions": 0})", "a number above 0");
+  expect_message(R"("steps": [0.5])", "\"steps\"");
+}
+
 TEST(Printer, AllShippedProfilesLoadUnderTheirFileNames) {
   size_t count = 0;
   for (const auto& entry : fs::directory_iterator(profiles)) {

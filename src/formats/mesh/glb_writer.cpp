@@ -6,13 +6,12 @@
 #include "base/text/error.h"
 #include "base/text/json.h"
 #include "formats/containers/append_numbers.h"
+#include "formats/mesh/glb_format.h"
 #include "formats/mesh/mesh_writers.h"
 
 namespace ombre::formats {
 namespace {
 
-constexpr uint32_t glb_magic = 0x46546C67, json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
-constexpr size_t file_header_bytes = 12, chunk_header_bytes = 8;
 constexpr double float_type = 5126, uint16_type = 5123, uint32_type = 5125;
 constexpr double vertex_buffer = 34962, index_buffer = 34963;
 constexpr size_t point_bytes = 12, colour_bytes = 8, triangle_bytes = 12;
@@ -197,7 +196,7 @@ LazyBytes glb_bytes(const MeshDocument& document) {
   }
   std::string json = scene.json(document);
   json.append((4 - json.size() % 4) % 4, ' ');
-  const uint64_t size = file_header_bytes + 2 * chunk_header_bytes + json.size() + scene.binary_bytes();
+  const uint64_t size = glb_header_bytes + 2 * glb_chunk_header_bytes + json.size() + scene.binary_bytes();
   if (size > UINT32_MAX)
     throw Error(Code::too_large, "a .glb file holds at most 4 GiB; write a .ply file, or a coarser mesh");
   LazyBytes bytes;

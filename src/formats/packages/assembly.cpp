@@ -54,6 +54,7 @@ class Assembler {
       const AssemblyObject& object = find(item.object);
       place(object, Affine::scaling({mm, mm, mm}) * item.parent_from_object, object.name);
     }
+    mesh_.images = assembly_.images;
     return std::move(mesh_);
   }
 
@@ -135,6 +136,27 @@ class Assembler {
       group.first_triangle += first_triangle;
       mesh_.groups.push_back(named(std::move(group), object, whole));
     }
+    append_shadings(object.mesh, is_mirrored);
+  }
+
+  // Adds the shadings of an object's triangles, which are those of the last groups, if it or one before it has some.
+  void append_shadings(const Mesh& mesh, bool is_mirrored) {
+    if (mesh.shadings.empty() && mesh_.shadings.empty()) return;
+    const size_t before = mesh_.triangles.size() - mesh.triangles.size();
+    const auto fill = [this](size_t end) {
+      for (const MeshGroup& group : mesh_.groups)
+        for (size_t n = mesh_.shadings.size(); n < std::min<size_t>(end, group.first_triangle + group.triangle_count);
+             ++n)
+          mesh_.shadings.push_back(shading_of(group));
+    };
+    fill(mesh.shadings.empty() ? mesh_.triangles.size() : before);
+    for (TriangleShading shading : mesh.shadings) {
+      if (is_mirrored) {
+        std::swap(shading.colours[1], shading.colours[2]);
+        std::swap(shading.places[1], shading.places[2]);
+      }
+      mesh_.shadings.push_back(shading);
+    }
   }
 
   static MeshGroup named(MeshGroup group, const AssemblyObject& object, const std::string& whole) {
@@ -168,6 +190,12 @@ class Assembler {
 };
 
 }  // namespace
+
+TriangleShading shading_of(const MeshGroup& group) {
+  TriangleShading shading;
+  if (group.colour) shading.colours.fill(shares_of(*group.colour));
+  return shading;
+}
 
 std::optional<double> mm_per_unit(std::string_view unit) {
   struct Unit {

@@ -26,9 +26,13 @@ struct AssemblyObject {
 struct Assembly {
   double mm_per_unit = 1;
   std::map<std::string, AssemblyObject> objects;
-  std::vector<Placement> build;  // the objects to build
-  CountedWarnings warnings;      // about contents that the reader left out
+  std::vector<Placement> build;        // the objects to build
+  std::vector<MeshImage> images = {};  // of the objects' shadings
+  CountedWarnings warnings;            // about contents that the reader left out
 };
+
+// Returns the shading of the triangles of a group that have nothing but its colour.
+TriangleShading shading_of(const MeshGroup& group);
 
 // Returns the number of millimetres in a unit of these formats, or null for an unknown name.
 std::optional<double> mm_per_unit(std::string_view unit);

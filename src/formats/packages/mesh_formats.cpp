@@ -25,6 +25,12 @@ bool is_amf(std::string_view bytes, const std::string& ending) {
 }
 bool is_3mf(std::string_view bytes, const std::string& ending) { return is_zip(bytes) && ending != ".amf"; }
 
+// JSON is a mesh only where the ending says so.
+bool is_gltf_text(std::string_view bytes, const std::string& ending) {
+  const size_t first = bytes.find_first_not_of(" \t\r\n");
+  return ending == ".gltf" && first != std::string_view::npos && bytes[first] == '{';
+}
+
 template <bool test(std::string_view)>
 bool by_content(std::string_view bytes, const std::string&) {
   return test(bytes);
@@ -60,7 +66,10 @@ constexpr MeshFormat rows[]{
      .ending = ".glb",
      .holds_bodies = true,
      .holds_colours = true,
+     .recognises = by_content<is_glb>,
+     .read = read_gltf,
      .bytes = bytes_of<glb_bytes>},
+    {.name = "glTF", .ending = ".gltf", .recognises = is_gltf_text, .read = read_gltf},
     {.name = "Wavefront OBJ",
      .ending = ".obj",
      .holds_bodies = true,

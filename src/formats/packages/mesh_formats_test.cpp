@@ -27,7 +27,7 @@ TEST(MeshFormats, AreReadOrWrittenInOneWay) {
 // The expected lists follow the specifications of the formats.
 TEST(MeshFormats, ListsEndingsByWhatTheyHold) {
   using Endings = std::vector<std::string>;
-  EXPECT_EQ(read_mesh_endings(), (Endings{".3mf", ".amf", ".obj", ".off", ".ply", ".stl"}));
+  EXPECT_EQ(read_mesh_endings(), (Endings{".3mf", ".amf", ".glb", ".gltf", ".obj", ".off", ".ply", ".stl"}));
   EXPECT_EQ(written_mesh_endings(), (Endings{".3mf", ".amf", ".glb", ".obj", ".off", ".ply", ".stl"}));
   EXPECT_EQ(mesh_endings_with(&MeshFormat::holds_bodies), (Endings{".3mf", ".amf", ".glb", ".obj"}));
   EXPECT_EQ(mesh_endings_with(&MeshFormat::holds_colours), (Endings{".3mf", ".amf", ".glb", ".obj", ".ply"}));

@@ -152,7 +152,8 @@ TEST(Mesh, EveryFormatGivesTheSameTriangles) {
 
 TEST(Mesh, UnknownFormatsAreNamed) {
   expect_message_of("a.xyz", "1 2 3\n", "neither the name nor the content tells which mesh format this is");
-  expect_message_of("a.glb", "glTF", "name the file .3mf, .amf, .obj, .off, .ply or .stl");
+  expect_message_of("a.dae", "<x/>", "name the file .3mf, .amf, .glb, .gltf, .obj, .off, .ply or .stl");
+  expect_message_of("a.glb", "glTF", "this binary glTF file ends in its header");
 }
 
 TEST(Mesh, EmptyFilesAreNamed) {

@@ -104,7 +104,7 @@ class ObjectReader {
       last = property;
       last_painted = painted;
       count_mixture(property);
-      count_gradient(triangle);
+      add_shading(triangle, usual, object.mesh);
       object.mesh.triangles.push_back(corners(triangle, object.mesh.vertices.size()));
       ++object.mesh.groups.back().triangle_count;
     }
@@ -131,16 +131,26 @@ class ObjectReader {
     assembly_.warnings.add("a triangle has its material" + rest, "triangles have their materials" + rest);
   }
 
-  // Counts a triangle whose corners have different colours or places of a texture.
-  void count_gradient(xml_node triangle) {
-    const auto first = file_.attribute(triangle, "p1");
-    const auto differs = [&](const char* name) {
-      const auto other = file_.attribute(triangle, name);
-      return first && other && *other != *first;
-    };
-    if (differs("p2") || differs("p3"))
-      assembly_.warnings.add("a triangle has different colours at its corners, which are not read",
-                             "triangles have different colours at their corners, which are not read");
+  // Adds the shading of the next triangle, if it or one before it has more than the colour of its group.
+  void add_shading(xml_node triangle, const PropertyReference& usual, Mesh& mesh) const {
+    auto shading = properties_.shading(triangle, usual);
+    if (!shading && mesh.shadings.empty()) return;
+    for (const MeshGroup& group : mesh.groups)
+      for (size_t n = mesh.shadings.size(); n < group.first_triangle + group.triangle_count; ++n)
+        mesh.shadings.push_back(shading_of(group));
+    if (!shading) shading = shading_of(mesh.groups.back());
+    if (shading->image >= 0) shading->image = add_image(properties_.images()[static_cast<size_t>(shading->image)]);
+    mesh.shadings.push_back(*shading);
+  }
+
+  // Returns the number of an image among those of the package.
+  int32_t add_image(const MeshImage& image) const {
+    const auto known = std::ranges::find(assembly_.images, image);
+    if (known == assembly_.images.end()) {
+      assembly_.images.push_back(image);
+      return static_cast<int32_t>(assembly_.images.size() - 1);
+    }
+    return static_cast<int32_t>(known - assembly_.images.begin());
   }
 
   Vec3 point(xml_node vertex) const {

@@ -36,7 +36,9 @@ class ThreeMfReader {
     apply(prusa_settings_path, apply_prusa_volumes, of_prusa, root);
     apply(bambu_settings_path, apply_bambu_parts, of_bambu, root);
     paint_surfaces(archive_.has(bambu_project_path) ? of_bambu : of_prusa);
-    return assemble(assembly_, name_, diagnostics_);
+    Mesh mesh = assemble(assembly_, name_, diagnostics_);
+    for (MeshImage& image : mesh.images) image.bytes = archive_.read(image.name);
+    return mesh;
   }
 
  private:

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "formats/mesh/test_documents.h"
 #include "formats/packages/package_readers.h"
 #include "formats/packages/package_writers.h"
@@ -295,12 +297,23 @@ TEST(ThreeMf, PaintThatIsNotReadIsReported) {
   EXPECT_EQ(painted("paint_color=\"\""), "");
 }
 
-TEST(ThreeMf, ColoursOfCornersAreCounted) {
+TEST(ThreeMf, ColoursOfCornersAreRead) {
   const std::string colours =
       "<m:colorgroup id=\"7\"><m:color color=\"#FF0000\"/><m:color color=\"#0000FF\"/></m:colorgroup>";
-  EXPECT_EQ(warnings(archive(model(colours + object(1, "", "pid=\"7\" p1=\"0\" p2=\"1\" p3=\"0\"")))),
-            "warning: a.3mf: a triangle has different colours at its corners, which are not read\n");
-  EXPECT_EQ(warnings(archive(model(colours + object(1, "", "pid=\"7\" p1=\"1\" p2=\"1\" p3=\"1\"")))), "");
+  const std::string shaded = archive(model(colours + object(1, "", "pid=\"7\" p1=\"0\" p2=\"1\" p3=\"0\"")));
+  EXPECT_EQ(warnings(shaded), "");
+  const Mesh mesh = read(shaded);
+  ASSERT_EQ(mesh.shadings.size(), mesh.triangles.size());
+  EXPECT_EQ(std::ranges::count_if(mesh.shadings,
+                                  [](const TriangleShading& shading) {
+                                    return shading.colours[0] == std::array<float, 4>{1, 0, 0, 1} &&
+                                           shading.colours[1] == std::array<float, 4>{0, 0, 1, 1} &&
+                                           shading.colours[2] == shading.colours[0] && shading.image < 0;
+                                  }),
+            1);
+  const std::string plain = archive(model(colours + object(1, "", "pid=\"7\" p1=\"1\" p2=\"1\" p3=\"1\"")));
+  EXPECT_EQ(warnings(plain), "");
+  EXPECT_TRUE(read(plain).shadings.empty());
 }
 
 TEST(ThreeMf, UnknownExtensionsAreReported) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math/box_tree.h"
+#include "base/math/srgb.h"
 #include "base/system/assert.h"
 #include "import/fields/triangle_distance.h"
 
@@ -12,14 +13,15 @@ namespace ombre::importing {
 namespace {
 
 constexpr std::array<std::string_view, 4> colour_channels{"red", "green", "blue", "alpha"};
+using formats::ImageWrap;
 using Colour4 = std::array<double, 4>;
+constexpr Colour4 white{1, 1, 1, 1};
 
 class SurfaceColours final : public program::FieldSource {
  public:
-  SurfaceColours(std::string name, formats::Mesh mesh, SurfaceImage image, Hash content)
-      : name_(std::move(name)), mesh_(std::move(mesh)), image_(std::move(image)), content_(content) {
-    ASSERT(!mesh_.triangles.empty());
-    ASSERT(image_.columns > 0 ? !mesh_.texture_triangles.empty() : !mesh_.vertex_colours.empty());
+  SurfaceColours(std::string name, formats::Mesh mesh, std::vector<SurfaceImage> images, Hash content)
+      : name_(std::move(name)), mesh_(std::move(mesh)), images_(std::move(images)), content_(content) {
+    ASSERT(!mesh_.triangles.empty() && mesh_.shadings.size() == mesh_.triangles.size());
     std::vector<Box> boxes;
     for (uint32_t n = 0; n < mesh_.triangles.size(); ++n) boxes.push_back(box_of(corners(n)));
     tree_ = BoxTree(boxes);
@@ -66,33 +68,56 @@ class SurfaceColours final : public program::FieldSource {
     if (!is_finite(p)) return {};
     const uint32_t triangle = nearest_triangle(p);
     const std::array<double, 3> shares = nearest_shares(corners(triangle), p);
-    return image_.columns > 0 ? colour_of_image(triangle, shares) : colour_of_corners(triangle, shares);
+    const formats::TriangleShading& shading = mesh_.shadings[triangle];
+    Colour4 colour = colour_of_corners(shading, shares);
+    if (shading.image < 0) return colour;
+    const Colour4 pixel = colour_of_image(images_[static_cast<size_t>(shading.image)], shading, shares);
+    if (colour == white) return pixel;
+    for (size_t n = 0; n < 3; ++n) colour[n] = srgb_of_linear(linear_of_srgb(colour[n]) * linear_of_srgb(pixel[n]));
+    colour[3] *= pixel[3];
+    return colour;
   }
 
-  Colour4 colour_of_corners(uint32_t triangle, const std::array<double, 3>& shares) const {
+  static Colour4 colour_of_corners(const formats::TriangleShading& shading, const std::array<double, 3>& shares) {
+    if (shading.colours[0] == shading.colours[1] && shading.colours[1] == shading.colours[2])
+      return plain(shading.colours[0]);
     Colour4 colour{};
     for (size_t corner = 0; corner < 3; ++corner)
       for (size_t n = 0; n < colour.size(); ++n)
-        colour[n] += shares[corner] * static_cast<double>(mesh_.vertex_colours[mesh_.triangles[triangle][corner]][n]);
+        colour[n] += shares[corner] * static_cast<double>(shading.colours[corner][n]);
     for (double& part : colour) part = std::clamp(part, 0.0, 1.0);
     return colour;
   }
 
+  static Colour4 plain(const std::array<float, 4>& colour) {
+    Colour4 made;
+    for (size_t n = 0; n < made.size(); ++n) made[n] = std::clamp(static_cast<double>(colour[n]), 0.0, 1.0);
+    return made;
+  }
+
+  // Returns where a place in an image lies, from 0 to 1.
+  static double wrapped(double place, ImageWrap wrap) {
+    if (wrap == ImageWrap::clamp) return std::clamp(place, 0.0, 1.0);
+    const double part = place - std::floor(place);
+    const bool is_mirrored = wrap == ImageWrap::mirror && std::fmod(std::floor(place), 2) != 0;
+    return is_mirrored ? 1 - part : part;
+  }
+
   // Interpolates linearly between the centres of pixels. v runs upwards.
-  Colour4 colour_of_image(uint32_t triangle, const std::array<double, 3>& shares) const {
+  static Colour4 colour_of_image(const SurfaceImage& image, const formats::TriangleShading& shading,
+                                 const std::array<double, 3>& shares) {
     double u = 0, v = 0;
     for (size_t corner = 0; corner < 3; ++corner) {
-      const auto& at = mesh_.texture_coordinates[mesh_.texture_triangles[triangle][corner]];
-      u += shares[corner] * at[0];
-      v += shares[corner] * at[1];
+      u += shares[corner] * shading.places[corner][0];
+      v += shares[corner] * shading.places[corner][1];
     }
-    const double x = (u - std::floor(u)) * static_cast<double>(image_.columns) - 0.5;
-    const double y = (1 - (v - std::floor(v))) * static_cast<double>(image_.rows) - 0.5;
+    const double x = wrapped(u, image.wrap_u) * static_cast<double>(image.columns) - 0.5;
+    const double y = (1 - wrapped(v, image.wrap_v)) * static_cast<double>(image.rows) - 0.5;
     const double i = std::floor(x), j = std::floor(y);
     Colour4 colour{};
     for (size_t n = 0; n < colour.size(); ++n) {
       const auto mix = [&](double row) {
-        const double left = pixel(i, row, n), right = pixel(i + 1, row, n);
+        const double left = pixel(image, i, row, n), right = pixel(image, i + 1, row, n);
         return left + (x - i) * (right - left);
       };
       const double above = mix(j), below = mix(j + 1);
@@ -101,26 +126,30 @@ class SurfaceColours final : public program::FieldSource {
     return colour;
   }
 
-  double pixel(double column, double row, size_t part) const {
-    const auto placed = [](double at, size_t count) {
+  // Beyond an edge lies the opposite one of an image that repeats, else the edge itself.
+  static double pixel(const SurfaceImage& image, double column, double row, size_t part) {
+    const auto placed = [](double at, size_t count, ImageWrap wrap) {
       const auto size = static_cast<double>(count);
+      if (wrap != ImageWrap::repeat) return static_cast<size_t>(std::clamp(at, 0.0, size - 1));
       return static_cast<size_t>(at < 0 ? at + size : at >= size ? at - size : at);
     };
-    const size_t at = placed(row, image_.rows) * image_.columns + placed(column, image_.columns);
-    return image_.rgba[4 * at + part] / 255.0;
+    const size_t at =
+        placed(row, image.rows, image.wrap_v) * image.columns + placed(column, image.columns, image.wrap_u);
+    return image.rgba[4 * at + part] / 255.0;
   }
 
   std::string name_;
   formats::Mesh mesh_;
-  SurfaceImage image_;
+  std::vector<SurfaceImage> images_;
   Hash content_;
   BoxTree tree_;
 };
 
 }  // namespace
 
-program::SourceField make_surface_colours(std::string name, formats::Mesh mesh, SurfaceImage image, Hash content) {
-  return std::make_shared<SurfaceColours>(std::move(name), std::move(mesh), std::move(image), content);
+program::SourceField make_surface_colours(std::string name, formats::Mesh mesh, std::vector<SurfaceImage> images,
+                                          Hash content) {
+  return std::make_shared<SurfaceColours>(std::move(name), std::move(mesh), std::move(images), content);
 }
 
 }  // namespace ombre::importing

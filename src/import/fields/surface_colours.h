@@ -14,12 +14,13 @@ namespace ombre::importing {
 struct SurfaceImage {
   size_t columns = 0, rows = 0;
   std::vector<uint8_t> rgba;
+  formats::ImageWrap wrap_u = formats::ImageWrap::repeat, wrap_v = formats::ImageWrap::repeat;
 };
 
 // Returns a source with the channels "red", "green", "blue" and "alpha", from 0 to 1 in sRGB: the colour of the nearest
-// point of the mesh. That is the one of the image at the point's texture coordinates, which repeat beyond 0 to 1, or
-// without an image the mean of the colours of the triangle's corners. The mesh has the one or the other. `content` is
-// the hash of the files' bytes.
-program::SourceField make_surface_colours(std::string name, formats::Mesh mesh, SurfaceImage image, Hash content);
+// point of the mesh, as its triangle's shading says. The mesh has a shading for each triangle, and `images` are those
+// that they name. `content` is the hash of the files' bytes.
+program::SourceField make_surface_colours(std::string name, formats::Mesh mesh, std::vector<SurfaceImage> images,
+                                          Hash content);
 
 }  // namespace ombre::importing

@@ -13,6 +13,7 @@ enum class OutOfReachRule : uint8_t { error, nearest };
 
 struct CalibrationOptions {
   std::vector<std::string> calibrations = {};
+  std::vector<std::string> deciding = {};
   OutOfReachRule out_of_reach = OutOfReachRule::error;
 
   static const options::Spec<CalibrationOptions>& options() {
@@ -20,8 +21,12 @@ struct CalibrationOptions {
     static const options::Spec<CalibrationOptions> spec{
         options::list("--calibration", &CalibrationOptions::calibrations, kind::text,
                       "A calibration that resolves properties into materials or settings: a name, or the path of a\n"
-                      ".json file; may be repeated (default: those of the printer and of the materials file)",
+                      ".json file; may be repeated (default: those of the printer, or else of the materials file)",
                       "NAME|FILE"),
+        options::list("--deciding", &CalibrationOptions::deciding, kind::text,
+                      "An attribute that decides materials and settings; may be repeated. Others are compared with\n"
+                      "what these give (default: all attributes for which there is a calibration)",
+                      "ATTRIBUTE"),
         choice("--out-of-reach", &CalibrationOptions::out_of_reach, {"error", "nearest"},
                "Values that no mixture reaches are an error (default), or give the nearest value that is reached",
                "error|nearest")};

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/math/interval.h"
 #include "base/math/pitch.h"
@@ -26,6 +27,7 @@ struct ValueChoice {
 // How a job resolves properties that the design asks for.
 struct Resolving {
   CalibrationNames calibrations;
+  std::vector<std::string> deciding = {};  // attributes that chains begin with; empty: all
   bool takes_nearest = false;  // values out of reach give the nearest that is reached; otherwise they are an error
 };
 

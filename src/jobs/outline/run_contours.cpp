@@ -1,4 +1,5 @@
 // `ombre contours` writes outlines of layers for machines that draw them.
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -24,13 +25,14 @@ using compile::ContourChoices;
 
 constexpr const char* contours_footer =
     "Lengths are millimetres.\n\n"
-    "An output that ends in .cli is one file of all layers (Common Layer Interface 2.0, ASCII). One that ends in .svg\n"
-    "is the layer at --z. Any other is a folder, with layer_0000.svg and so on.\n\n"
+    "An output that ends in .cli is one file of all layers (Common Layer Interface 2.0), with hatches by --hatch. One\n"
+    "that ends in .svg is the layer at --z. Any other is a folder, with layer_0000.svg and so on.\n\n"
     "Borders are drawn in the middles of layers. Regions share them exactly: no gaps, no overlaps. Details\n"
     "thinner than a cell may be lost.\n\n"
     "Examples:\n"
     "  ombre contours part.vcad -o part/ --layer-height 0.05\n"
     "  ombre contours part.vcad -o part.cli --by materials\n"
+    "  ombre contours part.vcad -o part.cli --by laser_power --bands 8 --hatch 0.1\n"
     "  ombre contours part.vcad -o cut.svg --z 3.2 --bands 4\n";
 
 void refuse_to_overwrite_layers(const ContourChoices& a, OutlineFormat format) {
@@ -45,6 +47,17 @@ void refuse_to_overwrite_layers(const ContourChoices& a, OutlineFormat format) {
                 a.output + " has layers already; replace them with " + spelled::option("--force") +
                     ", or choose another folder",
                 {{"file", a.output}});
+}
+
+void refuse_too_many_hatches(const compile::ContourPlan& plan, double spacing_mm) {
+  constexpr double most = 100'000;  // lines beside each other in a layer
+  const Vec3 size = plan.box.size();
+  const double across = std::hypot(size.x, size.y);
+  if (across / spacing_mm <= most) return;
+  throw WrongArgument("lines " + format_rounded(spacing_mm) + " mm apart are too many: a layer is " +
+                      format_rounded(across) + " mm wide, and takes " + format_count(static_cast<uint64_t>(most)) +
+                      " at most; write " + spelled::option("--hatch") + " with at least " +
+                      format_rounded(across / most));
 }
 
 formats::OutlineDocument document_of(const compile::ContourPlan& plan, const std::string& title) {
@@ -111,7 +124,7 @@ int write(const ContourChoices& a, OutlineFormat format, const compile::ContourP
   const auto document = document_of(plan, std::filesystem::path(a.design.design).stem().string());
   Totals totals(plan.regions.size());
   const auto files = exporting::begin_outline_files(
-      {a.output, format, static_cast<uint64_t>(plan.layers()), plan.face_mm(0)}, document);
+      {a.output, format, static_cast<uint64_t>(plan.layers()), plan.face_mm(0), a.cli()}, document);
   JobProgress progress(session.events, Counted::steps);
   compile::draw_contours(
       plan, a.work.threads,
@@ -132,12 +145,17 @@ int contours(const ContourChoices& a, Session& session) {
   if (format == OutlineFormat::svg && !request.z_mm)
     throw WrongArgument(spelled::option("-o", a.output) + " holds one layer; say which with " + spelled::option("--z") +
                         ", or name a folder: -o " + std::filesystem::path(a.output).stem().string() + "/");
+  if ((a.hatch_mm || a.binary) && format != OutlineFormat::cli)
+    throw WrongArgument(spelled::option(a.binary ? "--binary" : "--hatch") + " is for .cli files; name one with " +
+                        spelled::option("-o", "part.cli"));
   request.stop = &session.stop;
   JobSteps<compile::ContourPlan> steps;
   steps.refuse = [&] { refuse_to_overwrite_layers(a, format); };
   steps.plan = [&](Diagnostics& diagnostics) {
     const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
-    return loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
+    auto planned = loaded ? compile::plan_contours(*loaded, request, diagnostics) : std::nullopt;
+    if (planned && a.hatch_mm) refuse_too_many_hatches(*planned, *a.hatch_mm);
+    return planned;
   };
   steps.check = [&](const compile::ContourPlan& plan) { tell_plan(session.events, plan, a.work.threads); };
   steps.run = [&](const compile::ContourPlan& plan) { return write(a, format, plan, session, session.stop); };

@@ -17,7 +17,7 @@ struct CheckChoices {
   std::optional<double> details_mm, overhang_degrees;
   bool each_material = false;
   std::string fix, neutral;
-  std::optional<double> drop_mm3;
+  std::optional<double> drop_mm3, drain_mm;
   jobs::ReportOptions report;
   WorkOptions work;
 
@@ -46,6 +46,9 @@ struct CheckChoices {
         option("--drop", &CheckChoices::drop_mm3, kind::number,
                "Remove loose bodies below this volume, too, but not the largest body; mm3", "MM3")
             .between(1e-9, 1e9)
+            .needs("--fix"),
+        option("--drain", &CheckChoices::drain_mm, kind::length,
+               "Open each closed hollow by a straight channel of this diameter, too, where it removes least; mm", "MM")
             .needs("--fix"),
         group(&CheckChoices::report,
               jobs::ReportOptions::options("Write a page with what was found, and pictures of where",

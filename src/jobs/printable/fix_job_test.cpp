@@ -59,6 +59,42 @@ std::string plate(int length, int thickness, int height, const std::string& mate
          std::to_string(height / 10.0) + "], " + material + ");";
 }
 
+// The wall of a hollow is 4 voxels thick at x = 1.1 to 1.5 mm, and thicker elsewhere. A ball of one voxel cuts a line,
+// and one of three voxels, a cube without its corners, a channel of 3 x 3 voxels.
+TEST_F(Fixes, HollowsGetADrainWhereTheWallIsThinnest) {
+  const std::string box = "difference() { rectprism([3, 3, 3], red); translate(0.6, 0, 0) rectprism([1, 1, 1], red); }";
+  for (const auto& [diameter, cut] : {std::pair{0.1, 4}, {0.3, 36}}) {
+    FixRules rules;
+    rules.drain_mm = diameter;
+    for (const int threads : {1, 3}) {
+      threads_ = threads;
+      const Fixed drained = fixed(box, {}, rules);
+      EXPECT_EQ(drained.gained("red"), -cut);
+      EXPECT_TRUE(drained.left.empty());
+      EXPECT_EQ(drained.job.hollows_left, 0U);
+      // The channel lies in the middle of the hollow, along x.
+      const std::vector<MaterialId> voxels = drained.voxels();
+      const auto at = [&](int i, int j, int k) { return voxels[static_cast<size_t>((k * 30 + j) * 30 + i)]; };
+      EXPECT_TRUE(at(27, 14, 14) == 0 || at(27, 15, 15) == 0);
+    }
+  }
+  FixRules none;
+  EXPECT_EQ(fixed(box, {}, none).left.size(), 1U);
+}
+
+// A hollow with a hollow block in it: the outer wall has 10 voxels, that of the block 5.
+TEST_F(Fixes, HollowsWithinHollowsAreOpenedToo) {
+  FixRules rules;
+  rules.drain_mm = 0.3;
+  const Fixed drained = fixed(
+      "difference() { rectprism([5, 5, 5], red); rectprism([3, 3, 3], red); } "
+      "difference() { rectprism([2, 2, 2], red); rectprism([1, 1, 1], red); }",
+      {}, rules);
+  EXPECT_EQ(drained.gained("red"), -9 * (10 + 5));
+  for (const PrintFinding& finding : drained.left) EXPECT_NE(finding.kind, "hollow");
+  EXPECT_EQ(drained.job.corrections.size(), 2U);
+}
+
 // A ball of two voxels is a cube, one of three is a cube without its eight corners. A plate of one voxel, of p by q,
 // grows by them to 2 (p + 1) (q + 1) and to 3 (p + 2) (q + 2) - 8 voxels.
 TEST_F(Fixes, PlatesGrowToTheLimit) {

@@ -123,6 +123,7 @@ int fix(const CheckChoices& a, const CheckPlan& planned, const std::vector<compi
   rules.drop_below_mm3 = a.drop_mm3.value_or(0);
   rules.support = compile::id_of(before.request, planned.limits.support);
   rules.may_grow = planned.may_grow;
+  if (has_kind(findings, "hollow")) rules.drain_mm = a.drain_mm.value_or(0);
   if (const auto& details = planned.limits.details; details && has_kind(findings, "thin"))
     rules.thick_mm = std::max(details->distorts_mm, details->fails_mm);
   if (has_kind(findings, "neighbour")) {
@@ -134,6 +135,9 @@ int fix(const CheckChoices& a, const CheckPlan& planned, const std::vector<compi
   compile::Plan& after = corrected.plan;
   after.request.corrections = describe(corrected.corrections, after.request);
   tell_corrections(session.events, corrected.corrections, after.request);
+  if (corrected.hollows_left > 0)
+    session.events.say(std::to_string(corrected.hollows_left) +
+                       " closed hollows have no straight way outside along x, y or z, and stay; turn the part");
   const CheckedPart part{
       a.design.design + " with these corrections", planned.printer, compile::run_print_checks(after, checks, how), {}};
   tell_findings(session.events, part, after.request.lattice);

@@ -53,6 +53,8 @@ std::string describe(const voxel::Printer& printer) {
     text += row("overhang", "at most " + format_number(*printer.overhang_degrees) + " degrees from the vertical");
   if (printer.is_vat) text += row("vat", "layers are made in a bath of resin");
   text += row("needs", join(printer.needs, " and "));
+  for (const voxel::ValueStep& step : printer.steps)
+    text += row("steps", step.of + ": multiples of " + format_rounded(step.size));
   if (!printer.calibrations.empty()) text += row("calibrations", join(printer.calibrations, ", "));
   return text;
 }

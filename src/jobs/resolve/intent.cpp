@@ -54,35 +54,41 @@ bool has_unit(const Calibration& calibration, const design::AttributeDeclaration
   return declared.unit.empty() || declared.unit == calibration.unit;
 }
 
+bool is_within(double value, const Interval& reach) {
+  return value >= reach.lo - rounding * std::abs(reach.lo) && value <= reach.hi + rounding * std::abs(reach.hi);
+}
+
 // An intent while it is summed.
 struct Sum {
   Intent intent;
-  size_t wanted = 0;  // a column
+  size_t wanted = 0;           // a column of the design as it is written
+  size_t setting = no_column;  // of a setting: a column of the resolved design
   CalibrationPtr by;
   ReadColumns columns;
-  std::optional<Interval> reach;
+  std::optional<Interval> reach;                    // of what is requested
+  std::vector<std::pair<size_t, Interval>> places;  // of columns that say where in a reach what is requested lies
   uint64_t out_of_reach = 0;
   double spread = 0;
   double worst = -1;
   bool has_spread = true, is_known = true;
 
-  bool is_reached(double value) const {
-    return !reach ||
-           (value >= reach->lo - rounding * std::abs(reach->lo) && value <= reach->hi + rounding * std::abs(reach->hi));
+  bool is_reached(double value, const Values& values, size_t point) const {
+    return (!reach || is_within(value, *reach)) && std::ranges::all_of(places, [&](const auto& place) {
+             return is_within(values[place.first][point], place.second);
+           });
   }
 
   // Returns false if the wanted value is out of reach.
-  bool take(const Values& values, size_t point, const Vec3& place) {
-    const double requested = values[wanted][point];
-    const bool is_within = is_reached(requested);
-    if (!is_within) ++out_of_reach;
+  bool take(double requested, const Values& values, size_t point, const Vec3& place) {
+    const bool is_there = is_reached(requested, values, point);
+    if (!is_there) ++out_of_reach;
     intent.mean_wanted += requested;
-    if (intent.is_setting) add(requested, requested, std::nullopt, place);
-    if (!by || !is_known) return is_within;
+    if (intent.is_setting) add(requested, values[setting][point], std::nullopt, place);
+    if (!by || !is_known) return is_there;
     const auto at = columns.at(*by, values, point);
     is_known = at.has_value();
     if (at) add(requested, by->value(*at), by->spread(*at), place);
-    return is_within;
+    return is_there;
   }
 
   void add(double requested, double given, const std::optional<double>& expected, const Vec3& place) {
@@ -103,7 +109,7 @@ struct Sum {
     intent.mean_wanted /= count;
     intent.mean_given /= count;
     intent.mean_miss /= count;
-    if (reach) intent.share_out_of_reach = static_cast<double>(out_of_reach) / count;
+    if (reach || !places.empty()) intent.share_out_of_reach = static_cast<double>(out_of_reach) / count;
     if (!is_known) intent.by.clear();  // some of the part has other materials
     if (has_spread && by && is_known) intent.spread = spread / count;
     return intent;
@@ -113,34 +119,43 @@ struct Sum {
 class IntentSurvey {
  public:
   IntentSurvey(const design::Design& design, const IntentQuery& query, const voxel::Lattice& lattice)
-      : design_as_written_(design), query_(query), design_(query.resolution.loaded->design), report_{{}, lattice, 0,
-                                                                                                     {}, {},      {}} {}
+      : design_as_written_(design), query_(query), design_(query.resolution.loaded->design) {
+    report_.lattice = lattice;
+  }
 
   std::optional<IntentReport> run(Diagnostics& diagnostics) {
-    const design::Design staged =
-        with_stages(design::for_lattice(design_, {report_.lattice.origin, report_.lattice.pitch}), query_.loan);
-    SampleQuery samples;
-    samples.inside = samples.fractions = true;
-    for (const design::AttributeDeclaration& declared : declared_attributes(design_))
-      if (declared.type == design::ValueType::number || is_colour(declared))
-        std::ranges::copy(parts_of(declared), std::back_inserter(samples.attributes));
-    const auto sampler = Sampler::build(staged, samples, diagnostics);
+    const auto requested = sampler_of(design_as_written_, false, diagnostics);
+    const auto sampler = requested ? sampler_of(design_, true, diagnostics) : std::nullopt;
     if (!sampler) return std::nullopt;
+    requested_columns_ = requested->columns();
     columns_ = sampler->columns();
     add_sums();
     add_colours();
-    sample_all(*sampler);
+    sample_all(*requested, *sampler);
     for (Sum& sum : sums_) report_.intents.push_back(sum.finished(report_.points));
     for (ColourSurvey& survey : colours_) report_.colours.push_back(survey.finished());
     return std::move(report_);
   }
 
  private:
-  size_t column(Kind kind, const std::string& name) const {
-    const auto found = std::ranges::find_if(
-        columns_, [&](const Sampler::Column& column) { return column.kind == kind && column.name == name; });
-    return found == columns_.end() ? no_column : static_cast<size_t>(found - columns_.begin());
+  std::optional<Sampler> sampler_of(const design::Design& design, bool with_fractions, Diagnostics& diagnostics) const {
+    const design::Design staged =
+        with_stages(design::for_lattice(design, {report_.lattice.origin, report_.lattice.pitch}), query_.loan);
+    SampleQuery samples;
+    samples.inside = true;
+    samples.fractions = with_fractions;
+    for (const design::AttributeDeclaration& declared : declared_attributes(design))
+      if (declared.type == design::ValueType::number || is_colour(declared))
+        std::ranges::copy(parts_of(declared), std::back_inserter(samples.attributes));
+    return Sampler::build(staged, samples, diagnostics);
   }
+
+  static size_t column_among(const std::vector<Sampler::Column>& columns, Kind kind, const std::string& name) {
+    const auto found = std::ranges::find_if(
+        columns, [&](const Sampler::Column& column) { return column.kind == kind && column.name == name; });
+    return found == columns.end() ? no_column : static_cast<size_t>(found - columns.begin());
+  }
+  size_t column(Kind kind, const std::string& name) const { return column_among(columns_, kind, name); }
 
   bool has_fractions() const {
     return names_materials(design_as_written_) ||
@@ -182,9 +197,9 @@ class IntentSurvey {
       Sum sum;
       sum.intent.attribute = declared.name;
       sum.intent.unit = declared.unit;
-      sum.wanted = column(Kind::attribute, declared.name);
-      for (const ResolvedStep& step : query_.resolution.steps)
-        if (step.attribute == declared.name) sum.reach = step.reach;
+      sum.wanted = column_among(requested_columns_, Kind::attribute, declared.name);
+      add_reaches(sum, query_.resolution.steps);
+      add_reaches(sum, query_.resolution.agreeing);
       for (const CalibrationPtr& calibration : query_.calibrations) {
         const auto columns = calibration->property == declared.name && has_unit(*calibration, declared)
                                  ? columns_of(*calibration, knows_fractions)
@@ -197,42 +212,63 @@ class IntentSurvey {
       }
       if (sums_.size() > first) continue;
       sum.intent.is_setting = std::ranges::find(query_.needs, declared.name) != query_.needs.end();
+      sum.setting = column(Kind::attribute, declared.name);
       sums_.push_back(sum);
     }
   }
 
+  // Adds what steps reach of an attribute.
+  void add_reaches(Sum& sum, const std::vector<ResolvedStep>& steps) const {
+    for (const ResolvedStep& step : steps) {
+      const size_t place = column(Kind::attribute, step.place_in_reach);
+      if (step.attribute == sum.intent.attribute && place != no_column)
+        sum.places.emplace_back(place, Interval(1, 2));
+      else if (step.attribute == sum.intent.attribute && !step.inks)
+        sum.reach = step.reach;
+      for (const ReadAttribute& other : step.others)
+        if (other.attribute == sum.intent.attribute) sum.reach = other.reach;
+    }
+  }
+
   void add_colours() {
-    if (!has_fractions()) return;
     for (const CalibrationPtr& calibration : query_.calibrations) {
-      if (!calibration->inks) continue;
+      if (!calibration->inks || !has_fractions()) continue;
       own_.push_back(for_colours_of(design_as_written_, calibration));
       if (auto survey = ColourSurvey::of(*own_.back(), columns_, design_.materials))
         colours_.push_back(std::move(*survey));
     }
+    if (!colours_.empty()) return;
+    for (const design::AttributeDeclaration& declared : declared_attributes(design_as_written_))
+      if (is_colour(declared)) report_.unknown_colours.push_back(declared.name);
   }
 
-  void sample_all(const Sampler& sampler) {
+  void sample_all(const Sampler& requested, const Sampler& sampler) {
     const auto& count = report_.lattice.count;
     report_.flags.reserve(report_.lattice.voxels());
     std::vector<Vec3> points;
     for (int64_t k = 0; k < count[2]; ++k)
       for (int64_t j = 0; j < count[1]; ++j) {
         for (int64_t i = 0; i < count[0]; ++i) points.push_back(report_.lattice.center(i, j, k));
-        if (points.size() >= points_at_once) take(sampler, points);
+        if (points.size() >= points_at_once) take(requested, sampler, points);
       }
-    take(sampler, points);
+    take(requested, sampler, points);
   }
 
-  void take(const Sampler& sampler, std::vector<Vec3>& points) {
-    std::vector<std::vector<double>> values(columns_.size(), std::vector<double>(points.size()));
+  Values values_of(const Sampler& sampler, const std::vector<Vec3>& points) const {
+    Values values(sampler.columns().size(), std::vector<double>(points.size()));
     std::vector<double*> columns;
     for (auto& column : values) columns.push_back(column.data());
     sampler.sample(points, columns, query_.loan.threads, query_.loan.stop);
+    return values;
+  }
+
+  void take(const Sampler& requested, const Sampler& sampler, std::vector<Vec3>& points) {
+    const Values wanted = values_of(requested, points), values = values_of(sampler, points);
     for (size_t point = 0; point < points.size(); ++point) {
       const bool is_inside = values[0][point] != 0;
       bool is_reached = true;
       for (size_t n = 0; n < sums_.size() && is_inside; ++n)
-        is_reached = sums_[n].take(values, point, points[point]) && is_reached;
+        is_reached = sums_[n].take(wanted[sums_[n].wanted][point], values, point, points[point]) && is_reached;
       if (is_inside) ++report_.points;
       report_.flags.push_back(static_cast<uint8_t>(!is_inside ? 0 : is_reached ? 1 : 2));
     }
@@ -252,7 +288,7 @@ class IntentSurvey {
   const IntentQuery& query_;
   const design::Design& design_;
   IntentReport report_;
-  std::vector<Sampler::Column> columns_;
+  std::vector<Sampler::Column> requested_columns_, columns_;
   std::vector<Sum> sums_;
   std::vector<CalibrationPtr> own_;  // of the colours
   std::vector<ColourSurvey> colours_;

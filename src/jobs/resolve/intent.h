@@ -29,12 +29,14 @@ struct Intent {
 };
 
 struct IntentReport {
-  std::vector<Intent> intents;
-  voxel::Lattice lattice;             // of the points that were looked at
-  uint64_t points = 0;                // inside
-  std::vector<uint8_t> flags;         // for each point of the lattice: 0 outside, 1 inside, 2 inside and out of reach
-  std::vector<ColourIntent> colours;  // of each calibration of inks
-  std::vector<uint8_t> colour_flags;  // as flags, 2 where a colour is out of gamut; empty without such calibrations
+  std::vector<Intent> intents = {};
+  voxel::Lattice lattice = {};             // of the points that were looked at
+  uint64_t points = 0;                     // inside
+  std::vector<uint8_t> flags = {};         // of each point of the lattice: 0 outside, 1 inside, 2 inside, out of reach
+  std::vector<ColourIntent> colours = {};  // of each calibration of inks
+  std::vector<uint8_t> colour_flags =
+      {};  // as flags, 2 where a colour is out of gamut; empty without such calibrations
+  std::vector<std::string> unknown_colours = {};  // attributes that no calibration of inks judges
 };
 
 struct IntentQuery {

@@ -39,16 +39,26 @@ std::string inks_text(const ResolvedStep& step) {
          " at most (CIEDE2000)";
 }
 
+std::string reach_text(const compile::ReadAttribute& read) {
+  return "reaches " + read.attribute + ' ' + format_rounded(read.reach.lo, 6) + " to " +
+         format_rounded(read.reach.hi, 6) + (read.unit.empty() || read.unit == "1" ? "" : ' ' + read.unit);
+}
+
+std::string rounding_text(const std::string& what, double step) {
+  return "the machine takes multiples of " + format_rounded(step) + ", to which " + what +
+         (what == calibration::fractions ? " are" : " is") + " rounded";
+}
+
 // Returns what a step does and where its numbers come from, a line each.
 std::vector<std::string> lines_of(const ResolvedStep& step) {
   const calibration::Calibration& calibration = *step.step.calibration;
   std::vector<std::string> lines{
-      step.attribute + " to " + step.step.to() + materials_text(step) + " by " + calibration.name,
+      join(step.step.from(), " and ") + " to " + step.step.to() + materials_text(step) + " by " + calibration.name,
       calibration.title + (calibration.is_illustrative ? " (illustrative)" : "")};
-  lines.push_back(step.inks ? inks_text(step)
-                            : "reaches " + step.attribute + ' ' + format_rounded(step.reach.lo, 6) + " to " +
-                                  format_rounded(step.reach.hi, 6) +
-                                  (step.unit.empty() || step.unit == "1" ? "" : ' ' + step.unit));
+  lines.push_back(step.inks ? inks_text(step) : reach_text({step.attribute, step.unit, step.reach}));
+  for (const compile::ReadAttribute& other : step.others) lines.push_back(reach_text(other));
+  if (!step.place_in_reach.empty()) lines.push_back("at each place less is reached, as the other attributes allow");
+  if (step.rounds_to) lines.push_back(rounding_text(step.step.to(), *step.rounds_to));
   if (!calibration.method.empty()) lines.push_back("method: " + calibration.method);
   lines.push_back("source: " + calibration.citation);
   return lines;
@@ -93,7 +103,24 @@ Row row_of(const ResolvedPart& part, const Intent& intent) {
           intent.spread       ? with_unit(*intent.spread, intent.unit)
           : intent.by.empty() ? ""
                               : "unknown",
-          intent.by.empty() ? "as it is" : intent.by};
+          !intent.by.empty()     ? intent.by
+          : intent.mean_miss > 0 ? "rounded"
+                                 : "as it is"};
+}
+
+Row row_of(const ResolvedPart& part, const ColourIntent& colour) {
+  if (colour.points == 0) return {part.printer, colour.attribute, "", "unknown", "", "", "", "", "", ""};
+  const auto difference = [](double value) { return "CIEDE2000 " + format_rounded(value, 3); };
+  return {part.printer,
+          colour.attribute,
+          "",
+          "",
+          difference(colour.mean),
+          difference(colour.worst),
+          format_point(colour.worst_mm),
+          percent(colour.share_out_of_gamut),
+          "",
+          colour.by};
 }
 
 std::vector<Row> table_of(const std::vector<ResolvedPart>& parts) {
@@ -101,8 +128,54 @@ std::vector<Row> table_of(const std::vector<ResolvedPart>& parts) {
   for (const ResolvedPart& part : parts) {
     if (!part.problem.empty()) rows.push_back({part.printer, part.problem});
     for (const Intent& intent : part.report.intents) rows.push_back(row_of(part, intent));
+    for (const ColourIntent& colour : part.report.colours) rows.push_back(row_of(part, colour));
+    for (const std::string& colour : part.report.unknown_colours)
+      rows.push_back({part.printer, colour, "", "unknown", "", "", "", "", "", ""});
   }
   return rows;
+}
+
+std::vector<std::string> cure_lines(const compile::CureReport& cure) {
+  std::vector<std::string> lines;
+  if (cure.under_mm3 > 0)
+    lines.push_back("too little light, by " + cure.by + ": " + format_rounded(cure.under_mm3) + " mm3, " +
+                    percent(cure.under_share) + " of the part, stay below the critical dose; at " +
+                    format_point(cure.least_mm) + " mm " + format_rounded(cure.least_depth) + " mm of the layer of " +
+                    format_rounded(cure.layer_mm) + " mm are cured");
+  else
+    lines.push_back("all of the part gets the critical dose, by " + cure.by);
+  if (cure.over_mm3 > 0)
+    lines.push_back("too much light: " + format_rounded(cure.over_mm3) +
+                    " mm3 below overhangs are cured, too, down to " + format_rounded(cure.deepest) +
+                    " mm below the part at " + format_point(cure.deepest_mm) + " mm");
+  return lines;
+}
+
+Data cure_data(const compile::CureReport& cure) {
+  const auto point = [](const Vec3& v) { return Data(DataList{v.x, v.y, v.z}); };
+  DataMembers members{{"by", Data(cure.by)},
+                      {"layer_mm", Data(cure.layer_mm)},
+                      {"under_mm3", Data(cure.under_mm3)},
+                      {"under_share", Data(cure.under_share)},
+                      {"over_mm3", Data(cure.over_mm3)},
+                      {"deepest_mm", Data(cure.deepest)}};
+  if (cure.under_mm3 > 0) {
+    members.emplace_back("least_depth_mm", Data(cure.least_depth));
+    members.emplace_back("least_at_mm", point(cure.least_mm));
+  }
+  if (cure.over_mm3 > 0) members.emplace_back("deepest_at_mm", point(cure.deepest_mm));
+  return Data(std::move(members));
+}
+
+// Returns what happens to a part beside its steps, a line each.
+std::vector<std::string> further_lines(const ResolvedPart& part) {
+  std::vector<std::string> lines;
+  for (const voxel::ValueStep& step : part.resolution.rounded) lines.push_back(rounding_text(step.of, step.size));
+  for (const ResolvedStep& step : part.resolution.agreeing)
+    lines.push_back(step.step.text() + " gives the same, within " + percent(compile::agreement_tolerance) +
+                    " of the whole");
+  if (part.cure) std::ranges::move(cure_lines(*part.cure), std::back_inserter(lines));
+  return lines;
 }
 
 // Returns the number of letters, which take several bytes each in UTF-8 if they are not ASCII.
@@ -156,11 +229,15 @@ Data part_data(const ResolvedPart& part) {
   DataList steps, intents;
   for (const ResolvedStep& step : part.resolution.steps) steps.push_back(compile::describe(step));
   for (const Intent& intent : part.report.intents) intents.push_back(intent_data(intent));
+  for (const voxel::ValueStep& step : part.resolution.rounded) steps.push_back(compile::describe(step));
+  for (const std::string& colour : part.report.unknown_colours)
+    intents.push_back(DataMembers{{"attribute", Data(colour)}});
   members.emplace_back("steps", Data(std::move(steps)));
   members.emplace_back("intent", Data(std::move(intents)));
   DataList colours;
   for (const ColourIntent& colour : part.report.colours) colours.push_back(colour_data(colour));
   if (!colours.empty()) members.emplace_back("colours", Data(std::move(colours)));
+  if (part.cure) members.emplace_back("cure", cure_data(*part.cure));
   members.emplace_back("points", number(part.report.points));
   members.emplace_back("is_within_reach", Data(is_reached(part)));
   return Data(std::move(members));
@@ -216,6 +293,7 @@ void tell_resolved(const Events& events, const std::vector<ResolvedPart>& parts)
     text += heading(part) + '\n';
     for (const ResolvedStep& step : part.resolution.steps)
       for (const std::string& line : lines_of(step)) text += "  " + line + '\n';
+    for (const std::string& line : further_lines(part)) text += "  " + line + '\n';
     for (const std::string& sentence : part.resolution.unusable) text += "  not used: " + sentence + '\n';
     text += "  looked at " + points_text(part) + '\n';
     for (const ColourIntent& colour : part.report.colours) {
@@ -234,6 +312,7 @@ std::string resolved_page(const std::string& design, const std::vector<ResolvedP
     if (!part.problem.empty()) continue;
     page.add_heading(heading(part));
     for (const ResolvedStep& step : part.resolution.steps) page.add_list(step.step.text(), lines_of(step));
+    page.add_list("Further", further_lines(part));
     page.add_list("Not used", part.resolution.unusable);
     for (const ColourIntent& colour : part.report.colours) page.add_list(colour_heading(colour), colour_lines(colour));
     if (!is_reached(part)) add_picture(page, part.report, part.report.flags, "out of reach");

@@ -1,10 +1,12 @@
 // Reports how a design's properties are resolved for printers, and what the printers give.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "jobs/common/events.h"
+#include "jobs/resolve/cure_survey.h"
 #include "jobs/resolve/intent.h"
 
 namespace ombre::jobs {
@@ -15,6 +17,7 @@ struct ResolvedPart {
   std::string problem;  // why it cannot be resolved; then the rest is empty
   compile::Resolution resolution;
   compile::IntentReport report;
+  std::optional<compile::CureReport> cure = {};  // of a vat printer with a working curve
 };
 
 // True if all of the part is within reach.

@@ -59,7 +59,12 @@ voxel::Lattice lattice_of(const ResolvePlan& plan, const compile::PlanOptions& o
     if (options.pitch[axis]) lattice.pitch[axis] = *options.pitch[axis];
     lattice.count[axis] = voxel::voxels_along(plan.box.size()[static_cast<int>(axis)], lattice.pitch[axis]);
   }
-  return compile::coarse_lattice(lattice);
+  return lattice;
+}
+
+bool gives_dose(const design::Design& design) {
+  const std::vector<std::string> given = compile::given_quantities(design);
+  return std::ranges::find(given, "dose") != given.end();
 }
 
 // Resolves the design for one printer. Returns nothing, and adds diagnostics, if that is impossible.
@@ -67,14 +72,20 @@ std::optional<ResolvedPart> resolved_part(const ResolvePlan& plan, const compile
                                           const ResolveChoices& a, Session& session, Diagnostics& diagnostics) {
   const auto calibrations = compile::load_calibrations(options.resolving->calibrations, diagnostics);
   if (!calibrations) return std::nullopt;
-  auto resolution =
-      compile::resolve(plan.loaded, *calibrations, options.printer.needs, compile::Unresolved::is_error, diagnostics);
+  const compile::Needs needs{options.printer.needs, options.printer.steps, options.resolving->deciding};
+  auto resolution = compile::resolve(plan.loaded, *calibrations, needs, diagnostics);
   if (!resolution) return std::nullopt;
   const compile::StageLoan loan{a.work.threads, a.work.memory_bytes, nullptr, &session.stop};
   const compile::IntentQuery query{*resolution, *calibrations, options.printer.needs, loan};
-  auto report = compile::survey_intent(plan.loaded->design, query, lattice_of(plan, options), diagnostics);
+  const voxel::Lattice lattice = lattice_of(plan, options);
+  auto report = compile::survey_intent(plan.loaded->design, query, compile::coarse_lattice(lattice), diagnostics);
   if (!report) return std::nullopt;
-  return ResolvedPart{options.printer.name, options.printer.title, "", std::move(*resolution), std::move(*report)};
+  ResolvedPart part{options.printer.name, options.printer.title, "", std::move(*resolution), std::move(*report)};
+  const design::Design& resolved = part.resolution.loaded->design;
+  const calibration::Calibration* const curve = compile::working_curve_among(*calibrations);
+  if (!options.printer.is_vat || !curve || !gives_dose(resolved)) return part;
+  part.cure = compile::survey_cure(resolved, *curve, compile::columns_of(lattice), loan, diagnostics);
+  return part.cure ? std::optional(std::move(part)) : std::nullopt;
 }
 
 void write_files(const ResolveChoices& a, const std::vector<ResolvedPart>& parts, const Session& session) {

@@ -52,10 +52,15 @@ Data images(const SliceRequest& request) {
                       {"first_index", number(request.first_index)},
                       {"empty_layers", request.drop_empty_layers ? "drop" : "keep"},
                       {"flip", flip}};
-  if (const auto& exposure = request.exposure)
-    members.emplace_back("exposure", DataMembers{{"seconds", exposure->seconds},
-                                                 {"first_seconds", exposure->first_seconds},
-                                                 {"fade_layers", number(exposure->fade_layers)}});
+  if (const auto& exposure = request.exposure) {
+    DataMembers light{{"seconds", exposure->seconds},
+                      {"first_seconds", exposure->first_seconds},
+                      {"fade_layers", number(exposure->fade_layers)}};
+    if (exposure->irradiance) light.emplace_back("irradiance", *exposure->irradiance);
+    members.emplace_back("exposure", std::move(light));
+  }
+  if (request.vats && request.has_materials() && request.files.has_material())
+    members.emplace_back("vats", DataMembers{{"wash_seconds", request.vats->wash_seconds}});
   return members;
 }
 

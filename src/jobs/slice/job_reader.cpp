@@ -149,13 +149,14 @@ void read_flip(voxel::Images& images, const Data& data, const MemberReader& read
 
 Record<voxel::Images> images_record() {
   using I = voxel::Images;
-  return Record<I>("\"images\"",
-                   {field::choice("format", &I::format, voxel::image_format_names()).required(),
-                    field::value("files", &I::files, read_pattern).required(),
-                    field::whole("first_index", &I::first_index, -most_voxels, 2 * most_voxels).required(),
-                    field::choice("empty_layers", &I::drop_empty_layers, {"keep", "drop"}).required(),
-                    field::special("flip", read_flip).required(),
-                    field::object("exposure", &I::exposure, voxel::exposure_record())});
+  return Record<I>(
+      "\"images\"",
+      {field::choice("format", &I::format, voxel::image_format_names()).required(),
+       field::value("files", &I::files, read_pattern).required(),
+       field::whole("first_index", &I::first_index, -most_voxels, 2 * most_voxels).required(),
+       field::choice("empty_layers", &I::drop_empty_layers, {"keep", "drop"}).required(),
+       field::special("flip", read_flip).required(), field::object("exposure", &I::exposure, voxel::exposure_record()),
+       field::object("vats", &I::vats, voxel::vats_record())});
 }
 
 void read_checks(DescribedJob& job, const Data& data, const MemberReader& reader) {

@@ -196,6 +196,20 @@ SliceRequest base_request(const PlanOptions& options, const voxel::Lattice& latt
   return request;
 }
 
+// Sets the light of layers that show doses, if the machine's irradiance is known: white gets its dose in this time.
+// Returns false, and adds an error, if black would need light, too.
+bool set_light(SliceRequest& request, const SourceRange& where, Diagnostics& diagnostics) {
+  const voxel::Channel& channel = request.channels.front();
+  if (!request.exposure || !request.exposure->irradiance || channel.unit != "mJ/cm2") return true;
+  request.exposure->seconds = channel.range.hi / *request.exposure->irradiance;
+  if (channel.range.lo == 0) return true;
+  diagnostics.error(Code::option, where,
+                    "black gets no light, and the range of " + channel.name + " begins at " +
+                        format_rounded(channel.range.lo) + " mJ/cm2",
+                    "write " + spelled::option("--range", "0," + format_rounded(channel.range.hi)));
+  return false;
+}
+
 // Diffuses errors within this lattice only.
 std::vector<voxel::LayerResult> diffused_alone(const voxel::MaterialProgram& program, const voxel::Lattice& lattice,
                                                uint64_t seed, const voxel::EvaluatorOptions& how,
@@ -230,6 +244,7 @@ std::optional<Plan> plan_value(const LoadedPtr& loaded, const PlanOptions& optio
   Plan plan;
   plan.stages = stages_of(design);
   plan.request = base_request(options, lattice, design::hash(loaded->design), *channel);
+  if (!set_light(plan.request, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
   auto regions = value_layers(design, lattice, plan.request.channels, plan.request.evaluator, diagnostics);
   if (!regions) return std::nullopt;
   plan.regions = [loaded, regions = std::move(*regions)](const voxel::TileBox& region, const StopFlag* stop) {
@@ -244,13 +259,14 @@ std::optional<Plan> plan_value(const LoadedPtr& loaded, const PlanOptions& optio
 // reach and the job does not take the nearest.
 bool take_resolution(Plan& plan, const design::Design& on_lattice, const Resolution& resolution,
                      const PlanOptions& options, Diagnostics& diagnostics) {
-  if (resolution.steps.empty()) return true;
+  for (const voxel::ValueStep& step : resolution.rounded) plan.request.resolved.push_back(compile::describe(step));
   for (const ResolvedStep& step : resolution.steps) plan.request.resolved.push_back(describe(step));
+  if (resolution.steps.empty()) return true;
   if (options.resolving->takes_nearest) return true;
   const size_t errors = diagnostics.error_count();
   stages_of(on_lattice)
       ->prepare({options.threads, options.memory_bytes, options.progress, options.stop, options.memory});
-  report_out_of_reach(on_lattice, plan.request.lattice, resolution.steps, options, {resolution.loaded->source, 0, 0},
+  report_out_of_reach(on_lattice, plan.request.lattice, resolution, options, {resolution.loaded->source, 0, 0},
                       diagnostics);
   return diagnostics.error_count() == errors;
 }

@@ -9,6 +9,7 @@
 #include "load/ink_step.h"
 #include "questions/question.h"
 #include "questions/reach_survey.h"
+#include "questions/sampler.h"
 
 namespace ombre::compile {
 namespace {
@@ -21,6 +22,12 @@ std::string with_unit(double value, const std::string& unit) {
 std::string need_of(const Loaded& loaded, const PlanOptions& options) {
   if (!options.value || loaded.design.materials.find(options.value->of)) return std::string(calibration::fractions);
   return std::string(design::attribute_of_part(options.value->of));
+}
+
+std::vector<voxel::ValueStep> steps_of(const voxel::Printer& printer, const std::string& need) {
+  std::vector<voxel::ValueStep> steps = printer.steps;
+  std::erase_if(steps, [&](const voxel::ValueStep& step) { return step.of != need; });
+  return steps;
 }
 
 // Returns false, and adds an error, if the printer takes no fractions of materials.
@@ -84,55 +91,104 @@ void note_what_chooses_none(const LoadedPtr& loaded, Diagnostics& diagnostics) {
                        "calibrations\" lists those that come with Ombre");
 }
 
+// An attribute that may be out of reach.
+struct ReachCheck {
+  const ResolvedStep* step;
+  std::string attribute, unit;
+  std::string surveyed;  // the attribute, or its place in what is reached beside others
+  Interval reach;        // of what is surveyed
+};
+
+std::vector<ReachCheck> checks_of(const Resolution& resolution) {
+  std::vector<ReachCheck> checks;
+  const auto add = [&checks](const std::vector<ResolvedStep>& steps) {
+    for (const ResolvedStep& step : steps) {
+      if (step.inks) continue;  // a rendering intent says what replaces colours that inks do not show
+      const bool varies = !step.place_in_reach.empty();
+      checks.push_back({&step, step.attribute, step.unit, varies ? step.place_in_reach : step.attribute,
+                        varies ? Interval(1, 2) : step.reach});
+      for (const ReadAttribute& other : step.others)
+        checks.push_back({&step, other.attribute, other.unit, other.attribute, other.reach});
+    }
+  };
+  add(resolution.steps);
+  add(resolution.agreeing);
+  return checks;
+}
+
+// Returns a number of the design at a point.
+double number_at(const design::Design& design, const std::string& attribute, const Vec3& point,
+                 Diagnostics& diagnostics) {
+  SampleQuery query;
+  query.attributes = {attribute};
+  double value = 0;
+  double* const column = &value;
+  if (const auto sampler = Sampler::build(design, query, diagnostics)) sampler->sample({&point, 1}, {&column, 1});
+  return value;
+}
+
+// Returns the values that a step reaches at a point, where that varies with other attributes.
+Interval reach_at(const ResolvedStep& step, const design::Design& design, const Vec3& point, Diagnostics& diagnostics) {
+  std::vector<double> at = step.step.calibration->usual();
+  for (const ReadAttribute& other : step.others)
+    at[step.step.calibration->input_called(other.attribute)] = number_at(design, other.attribute, point, diagnostics);
+  return step.step.calibration->reach(*step.step.input, at);
+}
+
+void report(const ReachCheck& check, const OutOfReach& beyond, const design::Design& design, const SourceRange& where,
+            Diagnostics& diagnostics) {
+  const bool varies = check.surveyed != check.attribute;
+  const double worst = varies ? number_at(design, check.attribute, beyond.worst_mm, diagnostics) : beyond.worst;
+  const Interval reach = varies ? reach_at(*check.step, design, beyond.worst_mm, diagnostics) : check.reach;
+  std::vector<std::string> others;
+  for (const ReadAttribute& other : check.step->others)
+    if (varies) others.push_back(other.attribute);
+  const std::string there = varies ? " beside this " + join(others, " and ") : "";
+  diagnostics.error(Code::limit, where,
+                    check.attribute + " is out of reach at " + format_count(beyond.voxels) + " voxels: it is " +
+                        with_unit(worst, check.unit) + " at " + format_point(beyond.worst_mm) +
+                        " mm, and the nearest value that " + check.step->step.calibration->name + " reaches" + there +
+                        " is " + with_unit(std::clamp(worst, reach.lo, reach.hi), check.unit),
+                    "ask for " + format_rounded(reach.lo, 6) + " to " + format_rounded(reach.hi, 6) +
+                        (varies ? " there" : "") + ", or take the nearest with " +
+                        spelled::option("--out-of-reach", "nearest"));
+}
+
 }  // namespace
 
 std::optional<Resolution> resolve_for_job(const LoadedPtr& loaded, const PlanOptions& options,
                                           Diagnostics& diagnostics) {
-  if (!options.resolving) return Resolution{loaded, {}, {}};
+  if (!options.resolving) return Resolution{loaded};
   if (!options.value && !takes_fractions(options.printer, loaded, diagnostics)) return std::nullopt;
   const CalibrationNames& names = options.resolving->calibrations;
   const bool are_chosen = !names.chosen.empty();
   const auto calibrations = load_calibrations(names, diagnostics);
   if (!calibrations) return std::nullopt;
   const std::vector<std::string> attributes = attributes_of(*calibrations, loaded->design);
-  if (!are_chosen && attributes.empty()) {
-    if (calibrations->empty() && !options.value) note_what_chooses_none(loaded, diagnostics);
-    return Resolution{loaded, {}, {}};
-  }
   const std::string need = need_of(*loaded, options);
-  auto resolution =
-      resolve(loaded, *calibrations, {need}, are_chosen ? Unresolved::is_error : Unresolved::is_left, diagnostics);
-  if (!resolution || !resolution->steps.empty()) return resolution;
+  const std::vector<voxel::ValueStep> steps = steps_of(options.printer, need);
+  if (!are_chosen && attributes.empty() && steps.empty()) {
+    if (calibrations->empty() && !options.value) note_what_chooses_none(loaded, diagnostics);
+    return Resolution{loaded};
+  }
+  const Needs needs{
+      {need}, steps, options.resolving->deciding, are_chosen ? Unresolved::is_error : Unresolved::is_left};
+  auto resolution = resolve(loaded, *calibrations, needs, diagnostics);
+  if (!resolution || !resolution->steps.empty() || !resolution->rounded.empty()) return resolution;
   const bool names_some = need == calibration::fractions && names_materials(loaded->design);
   if (are_chosen || names_some) report_nothing_to_do(need, attributes, are_chosen, {loaded->source, 0, 0}, diagnostics);
   return are_chosen ? std::nullopt : std::move(resolution);
 }
 
-void report_out_of_reach(const design::Design& resolved, const voxel::Lattice& lattice,
-                         const std::vector<ResolvedStep>& all_steps, const PlanOptions& options,
-                         const SourceRange& where, Diagnostics& diagnostics) {
-  // A rendering intent says what replaces colours that inks do not show.
-  std::vector<ResolvedStep> steps;
-  std::ranges::remove_copy_if(all_steps, std::back_inserter(steps),
-                              [](const ResolvedStep& step) { return !!step.inks; });
-  if (steps.empty()) return;
+void report_out_of_reach(const design::Design& resolved, const voxel::Lattice& lattice, const Resolution& resolution,
+                         const PlanOptions& options, const SourceRange& where, Diagnostics& diagnostics) {
+  const std::vector<ReachCheck> checks = checks_of(resolution);
+  if (checks.empty()) return;
   std::vector<AttributeReach> reaches;
-  for (const ResolvedStep& step : steps) reaches.push_back({step.attribute, step.reach});
+  for (const ReachCheck& check : checks) reaches.push_back({check.surveyed, check.reach});
   const auto found = survey_reach(resolved, lattice, reaches, options.threads, options.stop, diagnostics);
-  for (size_t n = 0; found && n < steps.size(); ++n) {
-    const OutOfReach& beyond = (*found)[n];
-    if (beyond.voxels == 0) continue;
-    const std::string& unit = steps[n].unit;
-    const double nearest = std::clamp(beyond.worst, steps[n].reach.lo, steps[n].reach.hi);
-    diagnostics.error(Code::limit, where,
-                      steps[n].attribute + " is out of reach at " + format_count(beyond.voxels) + " voxels: it is " +
-                          with_unit(beyond.worst, unit) + " at " + format_point(beyond.worst_mm) +
-                          " mm, and the nearest value that " + steps[n].step.calibration->name + " reaches is " +
-                          with_unit(nearest, unit),
-                      "ask for " + format_rounded(steps[n].reach.lo, 6) + " to " +
-                          format_rounded(steps[n].reach.hi, 6) + ", or take the nearest with " +
-                          spelled::option("--out-of-reach", "nearest"));
-  }
+  for (size_t n = 0; found && n < checks.size(); ++n)
+    if ((*found)[n].voxels > 0) report(checks[n], (*found)[n], resolved, where, diagnostics);
 }
 
 }  // namespace ombre::compile

@@ -15,11 +15,10 @@ namespace ombre::compile {
 std::optional<Resolution> resolve_for_job(const LoadedPtr& loaded, const PlanOptions& options,
                                           Diagnostics& diagnostics);
 
-// Adds an error for each step whose attribute, unless it is a colour, has values at voxels of the job that it does not
-// reach. `resolved` is the
-// resolved design on the job's lattice; its stages must be prepared. Throws Cancelled.
-void report_out_of_reach(const design::Design& resolved, const voxel::Lattice& lattice,
-                         const std::vector<ResolvedStep>& steps, const PlanOptions& options, const SourceRange& where,
-                         Diagnostics& diagnostics);
+// Adds an error for each attribute that a step reads, unless it is a colour, with values at voxels of the job that the
+// step does not reach. `resolved` is the resolved design on the job's lattice; its stages must be prepared. Throws
+// Cancelled.
+void report_out_of_reach(const design::Design& resolved, const voxel::Lattice& lattice, const Resolution& resolution,
+                         const PlanOptions& options, const SourceRange& where, Diagnostics& diagnostics);
 
 }  // namespace ombre::compile

@@ -66,6 +66,10 @@ void append(DataMembers& members, DataMembers more) { std::ranges::move(more, st
 
 // Returns for example "modulus to fractions of VeroClear, Agilus30Clr by agilus-vero-modulus (illustrative)".
 std::string step_text(const Data& step) {
+  const Data* const rounded = step.find("rounded_to");
+  const std::string rounding =
+      rounded ? ", rounded to multiples of " + format_rounded(*rounded->number()) + " as the machine takes them" : "";
+  if (!step.find("calibration")) return *step.find("to")->string() + rounding;
   const auto texts = [&](const char* name) {
     std::vector<std::string> found;
     if (const Data* list = step.find(name))
@@ -74,7 +78,8 @@ std::string step_text(const Data& step) {
   };
   const std::string materials = texts("materials");
   return texts("from") + " to " + *step.find("to")->string() + (materials.empty() ? "" : " of " + materials) + " by " +
-         *step.find("calibration")->string() + (*step.find("illustrative")->boolean() ? " (illustrative)" : "");
+         *step.find("calibration")->string() + (*step.find("illustrative")->boolean() ? " (illustrative)" : "") +
+         rounding;
 }
 
 }  // namespace

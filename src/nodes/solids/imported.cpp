@@ -154,8 +154,8 @@ struct Mesh : SolidOfParts {
   static Spec<Mesh> spec() {
     return {
         "mesh",
-        "A solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, 3MF (with its beams) or AMF in their "
-        "own unit; or by the outer sides of a mesh of results: VTU, PVD, PVTU, XDMF, FRD or INP.",
+        "A solid bounded by the triangles of a file: STL, OBJ, PLY or OFF in mm, glTF, 3MF (with its beams) or AMF in "
+        "their own unit; or by the outer sides of a mesh of results: VTU, PVD, PVTU, XDMF, FRD or INP.",
         {{"path", &Mesh::path, "The file; relative to the script, then to the working directory", required()},
          {"material", &Mesh::material, "Its material; with the file's materials, that of parts without one", mixable()},
          {"inside", &Mesh::inside_rule,

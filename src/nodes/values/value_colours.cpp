@@ -249,10 +249,11 @@ struct SurfaceColour {
         "surface_colour",
         "The colour of the nearest point of a mesh file's surface.",
         {{"path", &SurfaceColour::path,
-          "A mesh file: .ply, .obj or .off with colours at its vertices, or with texture coordinates; relative to "
-          "the script, then to the working directory",
+          "A mesh file with colours or textures: .ply, .obj, .off, .glb, .gltf, .3mf or .amf; relative to the script, "
+          "then to the working directory",
           required()},
-         {"texture", &SurfaceColour::image, "A PNG file for the texture coordinates; none: colours of the vertices"}},
+         {"texture", &SurfaceColour::image,
+          "A PNG file for the texture coordinates; none: the file's own textures, or its colours"}},
         no_inputs,
         "cube(20, colour_mixture(surface_colour(\"models/painted_ball.ply\").colour, [\"red\", \"green\", "
         "\"blue\", \"white\", \"black\"]));",
