@@ -25,7 +25,7 @@ inline program::Field determinant_of(const std::array<Slope, 3>& rows) {
   return dot_without_zeros(rows[0], cross_without_zeros(rows[1], rows[2]));
 }
 
-// What the search asks at a point.
+// A field that the search evaluates at a point.
 using FieldAt = std::function<program::Field(design::Lowering&, const program::Point&)>;
 
 // Returns a point of the region, among side^3 of a box, at which the determinant of the derivatives of u, v and w is 0
