@@ -197,6 +197,20 @@ def values():
             for name, share in shares.items()]
 
 
+def cells():
+    """A gyroid in a layer 6 mm thick of about 32,000 mm3: flat, around a pipe, and on a mesh of 1,080 triangles."""
+    head = ROOT / "examples" / "models" / "head.off"
+    maps = {
+        "flat box": "box_cells((6, 6, 6), min=(-36.6, -36.6, 20), max=(36.6, 36.6, 26))",
+        "pipe": "cylinder_cells(20, 26, 37, size=(6, 6, 6), origin=(0, 0, 24))",
+        "mesh patch": f'surface_cells("{head}", (6, 6, 6), height=6)',
+    }
+    lo, hi, voxels = (-45, -36, 4), (45, 36, 44), (1410, 1128, 627)
+    return [Job(f"cells: {name}", lambda on=on: f'tpms("gyroid", map={on}, thickness=0.6, material="red");', lo, hi, voxels,
+                published=False)
+            for name, on in maps.items()]
+
+
 def depths(data):
     """Two materials by the distance to the nearest of 96,800 triangles."""
     graded = f'fgrade(["1 + d/4", "-d/4"], ["magenta", "gray"]) mesh("{data}/bumpy_ball.stl");'
@@ -209,4 +223,4 @@ def all_jobs(data, size, full=False):
     if tiny:
         counts = STRUTS[:3]
     return (table_3(data) + table_4(data) + [struts_job(count) for count in counts]
-            + (lattices(3, 200) if tiny else lattices()) + values() + depths(data))
+            + (lattices(3, 200) if tiny else lattices()) + values() + cells() + depths(data))

@@ -45,7 +45,9 @@ Field Inputs::distance_to(const SolidName& solid, const Point& p) const {
 Field Inputs::inside_of(const SolidName& solid, const Point& p) const {
   if (!lowering_) return anything(p, {0, 1});
   if (solid.node->type().is_solid()) return lowering_->inside(*solid.node, p);
-  return at_most(distance_to(solid, p), 0, Border::included);
+  // A region may give its membership besides its g.
+  const Field known = lowering_->answer(*solid.node, solid.output, p).numbers[1];
+  return known ? known : at_most(distance_to(solid, p), 0, Border::included);
 }
 
 Composition Inputs::composition_of(const SolidName& solid, const Point& p) const {

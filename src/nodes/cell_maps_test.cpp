@@ -389,6 +389,38 @@ TEST_F(CellMaps, JointsAreBallsAtTheEndsOfStruts) {
   EXPECT_NE(error_of("lattice", {{"edges", far}, {"map", object(pipe())}}).find("leaves the cell"), std::string::npos);
 }
 
+// Three lines through each corner of cells: seams have the fillet of union, and struts in line have no seam.
+TEST_F(CellMaps, SeamsOfStrutsHaveFillets) {
+  for (const std::string kind : {"cell", "edges"}) {
+    Named with{{"radius", Data(1.0)}, {"blend", Data(1.5)}, {"map", object(box({12, 12, 12}))}};
+    const auto edge = [](double x, double y, double z) { return Data(DataList{list({0, 0, 0}), list({x, y, z})}); };
+    if (kind == "cell")
+      with.push_back({"cell", Data("cubic")});
+    else
+      with.push_back({"edges", Data(DataList{edge(1, 0, 0), edge(0, 1, 0), edge(0, 0, 1)})});
+    const NodePtr lattice = make("lattice", with);
+    for (int n = 0; n < 200; ++n) {
+      const Vec3 p = random_point(18);
+      const Vec3 q{std::remainder(p.x, 12), std::remainder(p.y, 12), std::remainder(p.z, 12)};
+      const std::array distances{std::hypot(q.y, q.z) - 1, std::hypot(q.z, q.x) - 1, std::hypot(q.x, q.y) - 1};
+      double total = 0;
+      for (const double d : distances) total += std::pow(std::max(1.5 - d, 0.0), 2);
+      const double least = std::min({distances[0], distances[1], distances[2]});
+      // Farther struts, which only the least distance could name, are left out.
+      if (least > 3) continue;
+      EXPECT_NEAR(distance(lattice, p), std::max(1.5, least) - std::sqrt(total), 1e-9) << kind;
+    }
+  }
+  EXPECT_NE(error_of("lattice", {{"cell", Data("bcc")}, {"blend", Data(1.0)}}).find("no map of cells"),
+            std::string::npos);
+  EXPECT_NE(
+      error_of(
+          "lattice",
+          {{"cell", Data("bcc")}, {"blend", Data(1.0)}, {"radius", Data("1 + t")}, {"map", object(box({9, 9, 9}))}})
+          .find("leave out t"),
+      std::string::npos);
+}
+
 // The function of Schwarz' P surface as a formula makes the walls that the named surface has.
 TEST_F(CellMaps, FormulasAreSurfaces) {
   const Data formula("cos(2*pi*u) + cos(2*pi*v) + cos(2*pi*w)");

@@ -93,10 +93,11 @@ class RandomDesign {
                      {materials, none, nullptr, {}, "", ""});
   }
 
-  NodePtr map_of_cells() {
+  // A rim runs along the border of a surface.
+  NodePtr map_of_cells(const NodeType& user) {
     const char* maps[] = {"box_cells", "cylinder_cells", "frustum_cells", "ball_cells", "curve_cells"};
     for (;;)
-      if (NodePtr made = node(*registry().find(maps[index(5)]), 0)) return made;
+      if (NodePtr made = node(*registry().find(user.name == "rim" ? "surface_cells" : maps[index(5)]), 0)) return made;
   }
 
   // Returns a number from 0.01 to 1 that depends on a node's output, since sizes must not be 0.
@@ -198,7 +199,7 @@ class RandomDesign {
     if (type.name == "output_of") return Data("along");
     // A standard name would have a fixed type.
     if (kind == "text") return Data(type.name == "attribute" ? "own_density" : "density");
-    if (kind == "map of cells") return object(map_of_cells());
+    if (kind == "map of cells") return object(map_of_cells(type));
     if (kind == "true or false") return Data(index(2) == 0);
     if (kind == "matrix") {
       DataList rows;

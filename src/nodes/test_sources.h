@@ -185,8 +185,9 @@ class SlabSource : public program::FieldSource {
   Hash content() const override { return {13, 14}; }
   Box bounds() const override { return {{0, 0, 0}, {20, 20, 5}}; }
   int channel(std::string_view channel_name) const override {
-    constexpr std::array<std::string_view, 13> names{"u",   "v",   "height",   "u_x",      "u_y",      "u_z",    "v_x",
-                                                     "v_y", "v_z", "height_x", "height_y", "height_z", "outside"};
+    constexpr std::array<std::string_view, 15> names{"u",        "v",        "height",  "u_x",    "u_y",
+                                                     "u_z",      "v_x",      "v_y",     "v_z",    "height_x",
+                                                     "height_y", "height_z", "outside", "inside", "border"};
     const auto found = std::find(names.begin(), names.end(), channel_name);
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
   }
@@ -194,7 +195,8 @@ class SlabSource : public program::FieldSource {
     constexpr int first_slope = 3, outside = 12;
     if (channel < first_slope) return p[channel];
     if (channel < outside) return (channel - first_slope) % 4 == 0 ? 1 : 0;
-    return std::max({-p.x, p.x - 20, -p.y, p.y - 20, -p.z, p.z - 5});
+    const double beside = std::max({-p.x, p.x - 20, -p.y, p.y - 20}), g = std::max({beside, -p.z, p.z - 5});
+    return channel == outside ? g : channel == outside + 1 ? (g <= 0 ? 1 : 0) : std::abs(beside);
   }
 };
 

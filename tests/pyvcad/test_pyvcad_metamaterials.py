@@ -1,5 +1,6 @@
 """Lattices in the cells of maps: densities, places and values that mathematics gives."""
 import math
+import pathlib
 
 import numpy
 import pytest
@@ -500,3 +501,49 @@ def test_many_bodies_are_mixed():
     assert mixed.evaluate(0, 0, 6) == pytest.approx(6 - (2 + 8 + 9) / 4)
     with pytest.raises(ValueError, match="a weight for each body"):
         mm.mix_many(balls, [1, 2])
+
+
+# tests/cad/cylinder.step is a cylinder of radius 5 and height 20 around the z axis.
+def test_cells_lie_on_faces_of_cad_files():
+    model = pv.CADModel.from_step(pathlib.Path(__file__).parents[1] / "cad" / "cylinder.step")
+    assert len(model.faces) == 3 and [face.index for face in model.faces] == [0, 1, 2]
+    (side,) = model.select_faces(surface_type="cylinder")
+    assert side.area == pytest.approx(2 * math.pi * 5 * 20, rel=1e-3)
+    lids = model.select_faces(surface_type="plane")
+    assert [face.area for face in lids] == pytest.approx([math.pi * 25] * 2, rel=2e-3)
+    (upper,) = model.select_faces(normal=(0, 0, 2), min_dot=0.9)
+    assert upper.normal.z == pytest.approx(1) and upper.centroid.z == pytest.approx(upper.bounding_box[1].z)
+    assert model.select_faces(area_range=(100, 1000)) == [side]
+    assert upper in model.select_faces(bounding_box_intersection=(upper.centroid - pv.Vec3(1, 1, 1), upper.centroid))
+    assert [face.index for face in model.select_faces(indices=[1])] == [1]
+    layer = mm.cell_map_from_cad_face(side, cells=(12, 5, 1), height=2)
+    for angle in (0.3, 2.0, 4.5):
+        place = layer.inverse((5.5 * math.cos(angle), 5.5 * math.sin(angle), side.centroid.z + 2))
+        assert place.z == pytest.approx(0.25, abs=0.02)
+    there = layer.forward((3.3, 2.2, 0.5))
+    assert math.hypot(there.x, there.y) == pytest.approx(6, abs=0.02)
+    assert tuple(layer.inverse(there)) == pytest.approx((3.3, 2.2, 0.5), abs=1e-8)
+    both = mm.cell_map_from_cad_face(lids, cells=(3, 3, 1), height=-1)
+    assert len(both.maps) == 2 and mm.simple_cubic_plate(both, wall_thickness=9).evaluate(
+        1, 1, upper.centroid.z - 0.5) < 0
+    assert model.to_node().evaluate(0, 0, side.centroid.z) < 0
+
+    class Shape:  # what is used of a shape of CadQuery
+        def exportStep(self, path):
+            model.write_step(path)
+    assert len(pv.CADModel.from_cadquery(Shape()).faces) == 3
+    with pytest.raises(TypeError, match="CadQuery"):
+        pv.CADModel.from_cadquery(3)
+    with pytest.raises(FileNotFoundError):
+        pv.CADModel.from_step("nothing.step")
+
+
+def test_rims_run_along_borders():
+    cells = mm.cell_map_from_surface(pv.TriangleMeshSurface(*sheet(), u_axis_hint=(1, 0, 0)), cells=(4, 4, 1), height=2)
+    band = mm.rim(cells, width=1.5)
+    for x, inside in ((1.4, True), (1.6, False), (14.4, False), (14.6, True)):
+        assert (band.evaluate(x, 8, 1) < 0) == inside
+        assert (band.evaluate(8, x, 1) < 0) == inside
+    assert band.evaluate(1, 8, 2.1) > 0
+    with pytest.raises(ombre.DesignError, match="no surface with a border"):
+        mm.rim(box(), width=1).evaluate(0, 0, 0)

@@ -8,6 +8,7 @@
 from ._attributes import (Attribute, DefaultAttributes, DerivedFloatAttribute, FloatAttribute, Vec3Attribute,
                           Vec4Attribute, VolumeFractionsAttribute)
 from ._bars import CapMode, Cone, PolygonRevolve, Strut
+from ._cad import CADFace, CADModel
 from ._cell_maps import CellMap, CellMapCollection, TrimMode
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
@@ -59,7 +60,7 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
            "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "HexahedralMesh", "SimulationCellType", "SimulationModel", "TetrahedralMesh",
            "UnstructuredFieldDataset", "XDMFFieldLoader", "CellMap", "CellMapCollection", "GraphUnitCell", "ImplicitUnitCell",
-           "MappedGraphLattice", "MappedImplicitLattice", "MeshSelection", "TriangleMeshSurface", "TrimMode"]
+           "CADFace", "CADModel", "MappedGraphLattice", "MappedImplicitLattice", "MeshSelection", "TriangleMeshSurface", "TrimMode"]
 
 
 def __getattr__(name: str) -> object:

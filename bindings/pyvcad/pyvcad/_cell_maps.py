@@ -75,7 +75,8 @@ class CellMap:
             return low[0] + u * steps[0], low[1] + v * steps[1], low[2] + w * steps[2]
         return CellMap(ombre.box_cells(count=counts, min=low, max=high), counts, forward)
 
-    from_cad_face, between_cad_faces = _lacking("from_cad_face"), _lacking("between_cad_faces")
+    from_cad_face: Any  # set by _cad
+    between_cad_faces = _lacking("between_cad_faces")
     from_surface: Any  # set by _surfaces
     between_surfaces: Any
 

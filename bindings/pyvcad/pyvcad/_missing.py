@@ -22,7 +22,7 @@ MISSING: dict[str, dict[str, str]] = {
         "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
         "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions",
-        "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids, "CADModel": "CAD(path) reads STEP and IGES files", "CADFace": "",
+        "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids,
         "probe_point": "node.snap(point)",
         "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
         "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
@@ -34,8 +34,7 @@ MISSING: dict[str, dict[str, str]] = {
         ("FullSpectrumSlicerProjectCompiler",),
         "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
     "pyvcad_metamaterials": {
-        "cell_map_from_cad_face": _maps, "cell_map_between_cad_faces": _maps,
-        "rim": "an Intersection with a Shell",
+        "cell_map_between_cad_faces": _maps,
         "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
         "idw_weight": "mix_many(bodies, weights), with weights of FloatAttribute(1/ombre.point_distance([seed])**2)"},
     "pyvcad_metamaterials.properties": {"characterize_mesh": "characterize(Mesh(surface), voxel_size)"},

@@ -85,6 +85,12 @@ def cubic_octet_plate(map: Any, cubic_wall_thickness: Any, octet_wall_thickness:
     return Union(0.0, [_plates(map, "cubic", cubic_wall_thickness), _plates(map, "octet", octet_wall_thickness)])
 
 
+def rim(map: Any, width: Any) -> Any:
+    """A band along the border of the surface of a map, inward; mm, a number or a FloatAttribute."""
+    value = control(width)
+    return _joined(map, lambda one: MappedWalls(one, lambda cells, material: ombre.rim(cells, value, material)))
+
+
 def reentrant_honeycomb(map: Any, wall_thickness: Any, angle_degrees: float = -30.0, rib_ratio: float = 2.0) -> Any:
     """Walls along w in hexagons, two for each cell; with a negative angle, hexagons whose sides point inwards."""
     value, angle, ratio = control(wall_thickness), number(angle_degrees), number(rib_ratio)

@@ -242,8 +242,12 @@ void BatchEvaluator::find_guards() {
       use(id, decides ? other : fact.guard);
     });
   }
-  for (size_t i = 0; i < facts_.size(); ++i)
-    if (!is_sampled(program_->code[i]) || facts_[i].mask != all_axes) facts_[i].guard = none;
+  // Values of fewer axes are computed earlier.
+  for (size_t i = 0; i < facts_.size(); ++i) {
+    Fact& fact = facts_[i];
+    const bool is_known = fact.guard != none && (facts_[fact.guard].mask & ~fact.mask) == 0;
+    if (!is_known || !is_sampled(program_->code[i]) || row_axis(fact.mask) != axis_x) fact.guard = none;
+  }
   has_guards_ = std::ranges::any_of(facts_, [](const Fact& fact) { return fact.guard != none; });
   if (has_guards_) find_ranks();
 }

@@ -31,9 +31,9 @@ struct ShellReport {
 };
 ShellReport report_of(const Shell& shell);
 
-// Returns a source with the channels "u", "v" (mm) and "height", their derivatives "u_x" to "height_z", and "outside",
-// g of the shell. Outside, values are those of the nearest triangle. `content` is the hash of what the shell is made
-// of.
+// Returns a source with the channels "u", "v" (mm) and "height", and their derivatives "u_x" to "height_z". "outside"
+// is g of the shell, "inside" 1 in it and 0 elsewhere. "border" is the distance in mm to the patch's border at the same
+// height. Outside, values are those of the nearest triangle. `content` is the hash of what the shell is made of.
 program::SourceField make_shell_source(const std::string& name, Shell shell, Hash content);
 
 }  // namespace ombre::importing

@@ -44,15 +44,15 @@ Intervals cross_of(const Intervals& a, const Intervals& b) {
 
 Prism::Prism(const Shell& shell, const Corners& corners) {
   const auto [a, b, c] = corners;
-  x0_ = shell.patch.points[a];
-  e1_ = shell.patch.points[b] - x0_;
-  e2_ = shell.patch.points[c] - x0_;
-  w0_ = shell.ways[a];
-  m1_ = shell.ways[b] - w0_;
-  m2_ = shell.ways[c] - w0_;
-  c0_ = cross(e1_, e2_);
-  c1_ = cross(e1_, m2_) + cross(m1_, e2_);
-  c2_ = cross(m1_, m2_);
+  n_.x0 = shell.patch.points[a];
+  n_.e1 = shell.patch.points[b] - n_.x0;
+  n_.e2 = shell.patch.points[c] - n_.x0;
+  n_.w0 = shell.ways[a];
+  n_.m1 = shell.ways[b] - n_.w0;
+  n_.m2 = shell.ways[c] - n_.w0;
+  n_.c0 = cross(n_.e1, n_.e2);
+  n_.c1 = cross(n_.e1, n_.m2) + cross(n_.m1, n_.e2);
+  n_.c2 = cross(n_.m1, n_.m2);
 }
 
 Box Prism::box(Interval heights) const {
@@ -68,9 +68,9 @@ Box Prism::box(Interval heights) const {
 // The point lies in the plane of the triangle at its height, which is a cubic equation. Between the heights it has one
 // root if the signs at both differ, as they do for points of the prism.
 bool Prism::find(Vec3 p, Interval heights, PrismPlace& place) const {
-  const Vec3 q = p - x0_;
-  const double a0 = dot(q, c0_), a1 = dot(q, c1_) - dot(w0_, c0_), a2 = dot(q, c2_) - dot(w0_, c1_),
-               a3 = -dot(w0_, c2_);
+  const Vec3 q = p - n_.x0;
+  const double a0 = dot(q, n_.c0), a1 = dot(q, n_.c1) - dot(n_.w0, n_.c0), a2 = dot(q, n_.c2) - dot(n_.w0, n_.c1),
+               a3 = -dot(n_.w0, n_.c2);
   const auto at = [&](double t) { return a0 + t * (a1 + t * (a2 + t * a3)); };
   double lo = heights.lo, hi = heights.hi;
   if (at(lo) < 0 || at(hi) > 0) return false;
@@ -85,42 +85,43 @@ bool Prism::find(Vec3 p, Interval heights, PrismPlace& place) const {
     t = next;
     if (is_last) break;
   }
-  const Vec3 e1 = edge(1, t), e2 = edge(2, t), n = cross(e1, e2), way = q - t * w0_;
+  const Vec3 e1 = edge(1, t), e2 = edge(2, t), n = cross(e1, e2), way = q - t * n_.w0;
   const double squared = dot(n, n);
   place = {dot(cross(way, e2), n) / squared, dot(cross(e1, way), n) / squared, t};
   return true;
 }
 
 PrismPlace Prism::nearest(Vec3 p) const {
-  const Vec3 q = p - x0_;
-  const double squared = dot(c0_, c0_);
-  double b = dot(cross(q, e2_), c0_) / squared, c = dot(cross(e1_, q), c0_) / squared;
+  const Vec3 q = p - n_.x0;
+  const double squared = dot(n_.c0, n_.c0);
+  double b = dot(cross(q, n_.e2), n_.c0) / squared, c = dot(cross(n_.e1, q), n_.c0) / squared;
   if (std::min({b, c, 1 - b - c}) < 0) {
     // The nearest point lies on one of the edges.
     const auto along = [&](Vec3 from, Vec3 way) { return std::clamp(dot(q - from, way) / dot(way, way), 0.0, 1.0); };
-    const double first = along({}, e1_), second = along({}, e2_), third = along(e1_, e2_ - e1_);
+    const double first = along({}, n_.e1), second = along({}, n_.e2), third = along(n_.e1, n_.e2 - n_.e1);
     double best = Box::inf;
     for (const auto& [x, y] : {std::pair(first, 0.0), std::pair(0.0, second), std::pair(1 - third, third)}) {
-      const Vec3 off = q - x * e1_ - y * e2_;
+      const Vec3 off = q - x * n_.e1 - y * n_.e2;
       if (dot(off, off) >= best) continue;
       best = dot(off, off);
       b = x;
       c = y;
     }
   }
-  const Vec3 off = q - b * e1_ - c * e2_;
-  const double rise = dot(way({b, c, 0}), c0_);
-  return {b, c, rise > 0 ? dot(off, c0_) / rise : 0};
+  const Vec3 off = q - b * n_.e1 - c * n_.e2;
+  const double rise = dot(way({b, c, 0}), n_.c0);
+  return {b, c, rise > 0 ? dot(off, n_.c0) / rise : 0};
 }
 
 Interval Prism::heights_of(const Box& box) const {
   const Vec3 middle = box.center(), half = 0.5 * box.size();
-  const double reach = std::abs(c0_.x) * half.x + std::abs(c0_.y) * half.y + std::abs(c0_.z) * half.z;
-  const double value = dot(middle - x0_, c0_), room = 1e-12 * (std::abs(value) + reach + length(c0_) * length(middle));
+  const double reach = std::abs(n_.c0.x) * half.x + std::abs(n_.c0.y) * half.y + std::abs(n_.c0.z) * half.z;
+  const double value = dot(middle - n_.x0, n_.c0),
+               room = 1e-12 * (std::abs(value) + reach + length(n_.c0) * length(middle));
   double least = Box::inf, most = 0;
   for (int n = 0; n < 3; ++n) {
-    least = std::min(least, dot(corner_way(n), c0_));
-    most = std::max(most, dot(corner_way(n), c0_));
+    least = std::min(least, dot(corner_way(n), n_.c0));
+    most = std::max(most, dot(corner_way(n), n_.c0));
   }
   if (!(least > 0)) return Interval::everything();
   const double lo = value - reach - room, hi = value + reach + room;
@@ -134,12 +135,12 @@ Prism::Slopes Prism::slopes(const PrismPlace& at) const {
 }
 
 std::array<std::array<Interval, 3>, 3> Prism::slope_ranges(Interval heights) const {
-  const Intervals e1 = moving(e1_, m1_, heights), e2 = moving(e2_, m2_, heights);
+  const Intervals e1 = moving(n_.e1, n_.m1, heights), e2 = moving(n_.e2, n_.m2, heights);
   Intervals w, n;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
     w[a] = around({corner_way(0)[axis], corner_way(1)[axis], corner_way(2)[axis]});
-    const std::array<double, 3> normal{c0_[axis], c1_[axis], c2_[axis]};
+    const std::array<double, 3> normal{n_.c0[axis], n_.c1[axis], n_.c2[axis]};
     n[a] = {least_of(normal, heights), greatest_of(normal, heights)};
   }
   Interval turn{Box::inf, -Box::inf};

@@ -18,21 +18,26 @@ struct PrismPlace {
 
 // Points are x0 + t w0 + b (e1 + t m1) + c (e2 + t m2) for shares b and c and a height t. Triangles at a height have
 // the normal c0 + t c1 + t^2 c2, whose length is twice their area.
+struct PrismNumbers {
+  Vec3 x0, e1, e2, w0, m1, m2, c0, c1, c2;
+};
+
 class Prism {
  public:
   Prism(const Shell& shell, const Corners& corners);
 
-  Vec3 normal(double t) const { return c0_ + t * (c1_ + t * c2_); }
-  Vec3 way(const PrismPlace& at) const { return w0_ + at.second * m1_ + at.third * m2_; }
+  const PrismNumbers& numbers() const { return n_; }
+  Vec3 normal(double t) const { return n_.c0 + t * (n_.c1 + t * n_.c2); }
+  Vec3 way(const PrismPlace& at) const { return n_.w0 + at.second * n_.m1 + at.third * n_.m2; }
   Vec3 point(const PrismPlace& at) const {
-    return x0_ + at.height * w0_ + at.second * edge(1, at.height) + at.third * edge(2, at.height);
+    return n_.x0 + at.height * n_.w0 + at.second * edge(1, at.height) + at.third * edge(2, at.height);
   }
-  Vec3 edge(int n, double t) const { return n == 1 ? e1_ + t * m1_ : e2_ + t * m2_; }
-  Vec3 corner_way(int n) const { return n == 0 ? w0_ : n == 1 ? w0_ + m1_ : w0_ + m2_; }
+  Vec3 edge(int n, double t) const { return n == 1 ? n_.e1 + t * n_.m1 : n_.e2 + t * n_.m2; }
+  Vec3 corner_way(int n) const { return n == 0 ? n_.w0 : n == 1 ? n_.w0 + n_.m1 : n_.w0 + n_.m2; }
   // Returns the quadratic polynomial of the height whose value at a corner is the determinant of the map.
   std::array<double, 3> turns(int corner) const {
     const Vec3 way = corner_way(corner);
-    return {dot(c0_, way), dot(c1_, way), dot(c2_, way)};
+    return {dot(n_.c0, way), dot(n_.c1, way), dot(n_.c2, way)};
   }
   Box box(Interval heights) const;
 
@@ -53,7 +58,7 @@ class Prism {
   std::array<std::array<Interval, 3>, 3> slope_ranges(Interval heights) const;
 
  private:
-  Vec3 x0_, e1_, e2_, w0_, m1_, m2_, c0_, c1_, c2_;
+  PrismNumbers n_;
 };
 
 // All prisms of a shell, with a tree of boxes around slabs of them. Slabs are about as high as triangles are wide,

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "import/charts/prism_rows.h"
 #include "import/charts/surface_rays.h"
 #include "import/charts/test_patches.h"
 
@@ -57,6 +58,9 @@ TEST_F(ShellTest, AbovePlanesPlacesAreThePoints) {
     const Vec3 p = random_point({-5, -5, 0}, {25, 15, 12});
     const bool is_in = p.x >= 0 && p.x <= 20 && p.y >= 0 && p.y <= 10 && p.z >= 4 && p.z <= 8;
     EXPECT_EQ(at(source, "outside", p) <= 0, is_in);
+    EXPECT_EQ(at(source, "inside", p), is_in ? 1 : 0);
+    if (!is_in) continue;
+    EXPECT_NEAR(at(source, "border", p), std::min({p.x, 20 - p.x, p.y, 10 - p.y}), 1e-12);
   }
   // The distance to the nearest side, where that is one of the four beside the plane.
   EXPECT_NEAR(at(source, "outside", {0.5, 5, 6}), -0.5, 1e-12);
@@ -123,7 +127,7 @@ TEST_F(ShellTest, RangesEncloseValues) {
     const Vec3 low = random_point({-2, -2, -10}, {14, 14, 12});
     const double size = std::exp(random_point({-3, 0, 0}, {1.5, 1, 1}).x);
     const Box box{low, low + Vec3{size, size, size}};
-    for (int channel = 0; channel < 13; ++channel) {
+    for (int channel = 0; channel < 15; ++channel) {
       const Interval range = source->range(channel, box);
       for (int k = 0; k < 10; ++k) {
         const double value = source->sample(channel, random_point(box.lo, box.hi));
@@ -138,11 +142,46 @@ TEST_F(ShellTest, SamplesInRowsAreThoseOfSinglePoints) {
   const auto source = make_shell_source("cylinder", shell_above(cylinder_patch(10, 2, 12, 20, 6), {0, 4}), {});
   std::vector<Vec3> points;
   for (int n = 0; n < 400; ++n) points.push_back({-6 + 0.05 * n, 9, 6.02});
+  for (int n = 0; n < 400; ++n) points.push_back(random_point({-16, -4, -4}, {16, 16, 16}));
+  for (int n = 0; n < 200; ++n) points.push_back({0.01 * n, 10.5, 2.0 * (n % 8) - 2});  // along edges, and beyond
   std::vector<double> values(points.size());
-  for (int channel = 0; channel < 13; ++channel) {
+  for (int channel = 0; channel < 15; ++channel) {
     source->sample_all(channel, points, values);
     for (size_t n = 0; n < points.size(); ++n) EXPECT_EQ(values[n], source->sample(channel, points[n]));
   }
+}
+
+// All instruction sets find the same places, to the last bit.
+TEST_F(ShellTest, PlacesInRowsAreThoseOfThePrism) {
+  const Shell shell = shell_above(sphere_patch(10, -0.5, 0.7, 6, 6), {0.5, 3});
+  const Prisms prisms(shell);
+  for (const PrismKernels& kernels : prism_kernels())
+    for (size_t n = 0; n < prisms.count(); ++n) {
+      PrismRow row{};
+      std::array<PrismPlace, PrismRow::most> places;
+      for (size_t i = 0; i < PrismRow::most; ++i) {
+        const Vec3 shares = random_point({0.1, 0.1, 0.5}, {0.4, 0.4, 3});
+        const Vec3 p = prisms[n].point({shares.x, shares.y, shares.z});
+        row.x[i] = p.x;
+        row.y[i] = p.y;
+        row.z[i] = p.z;
+        ASSERT_TRUE(prisms[n].find(p, prisms.heights(), places[i]));
+      }
+      row.x[11] += 30;
+      ASSERT_EQ(kernels.places(prisms[n].numbers(), prisms.heights(), 1e-7, row, PrismRow::most), 11U);
+      kernels.slopes(prisms[n].numbers(), row, 11);
+      for (size_t i = 0; i < 11; ++i) {
+        EXPECT_EQ(row.second[i], places[i].second);
+        EXPECT_EQ(row.third[i], places[i].third);
+        EXPECT_EQ(row.height[i], places[i].height);
+        const Prism::Slopes slopes = prisms[n].slopes(places[i]);
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_EQ(row.slopes[static_cast<size_t>(axis)][i], slopes.second[axis]);
+          EXPECT_EQ(row.slopes[static_cast<size_t>(3 + axis)][i], slopes.third[axis]);
+          EXPECT_EQ(row.slopes[static_cast<size_t>(6 + axis)][i], slopes.height[axis]);
+        }
+      }
+    }
 }
 
 // Inside of a cylinder, cells may be as high as its radius.

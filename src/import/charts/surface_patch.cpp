@@ -165,6 +165,16 @@ class Chooser {
 
 }  // namespace
 
+std::vector<std::array<uint32_t, 3>> neighbours_of(const std::vector<Corners>& triangles) {
+  std::vector<std::array<uint32_t, 3>> all(triangles.size(), {no_triangle, no_triangle, no_triangle});
+  for (const auto& [edge, at] : edges_of(triangles))
+    for (size_t side = 0; side < at.size() && at.size() == 2; ++side)
+      for (size_t n = 0; n < 3; ++n)
+        if (const Corners& t = triangles[at[side]]; sorted(t[(n + 1) % 3], t[(n + 2) % 3]) == edge)
+          all[at[side]][n] = at[1 - side];
+  return all;
+}
+
 std::vector<Edge> border_of(const std::vector<Corners>& triangles) {
   std::vector<Edge> border;
   for (const auto& [edge, at] : edges_of(triangles)) {

@@ -67,6 +67,10 @@ std::optional<uint32_t> turned_over(const SurfacePatch& patch);
 // Divides each triangle into four.
 SurfacePatch divided(const SurfacePatch& patch);
 
+// Returns by triangle the ones beyond the edges opposite to its corners, or `no_triangle`. No edge has three triangles.
+inline constexpr uint32_t no_triangle = ~uint32_t{0};
+std::vector<std::array<uint32_t, 3>> neighbours_of(const std::vector<Corners>& triangles);
+
 // Returns the border's edges, each as in its triangle.
 std::vector<std::array<uint32_t, 2>> border_of(const std::vector<Corners>& triangles);
 

@@ -1,4 +1,4 @@
-// What the cells of foams are like whose struts or walls a design makes from points.
+// Measures the cells of foams whose struts or walls a design makes from points.
 #pragma once
 
 #include <string>

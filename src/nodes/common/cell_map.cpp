@@ -22,7 +22,10 @@ Field CellMap::cut(Field distance, const Inputs& in, const Point& p) const {
 }
 
 Field CellMap::cut_membership(Field flag, const Inputs& in, const Point& p, Border border) const {
-  return region.node ? logical_and(at_most(in.distance_to(region, p), 0, border), flag) : flag;
+  if (!region.node) return flag;
+  const Field inside =
+      border == Border::included ? in.inside_of(region, p) : at_most(in.distance_to(region, p), 0, border);
+  return logical_and(inside, flag);
 }
 
 Field squared_slope(const CellMap& map, const Slope& by, const Point& p) {
@@ -82,6 +85,8 @@ bool Port<nodes::CellMap>::read(const Data& data, const Domain&, nodes::CellMap&
   value.size = vector_of(node, *node->type().output("size"));
   const Data perpendicular = node->constant(*node->type().output("perpendicular"));
   value.is_perpendicular = perpendicular.boolean() && *perpendicular.boolean();
+  if (const auto border = output_called(*node, "border", OutputForm::numbers))
+    value.from_border = Number(expression_of({node, *border}));
   if (const auto region = output_called(*node, "region", OutputForm::solid)) value.region = {node.get(), *region};
   return true;
 }

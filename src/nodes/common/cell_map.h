@@ -13,10 +13,11 @@ using program::Point;
 // (nodes/values/cell_outputs.h).
 struct CellMap {
   design::Numbers3 place;
-  std::array<design::Numbers3, 3> slopes;  // derivatives of u, v and w by x, y and z
-  design::Numbers3 size;                   // lengths of the edges of a cell, mm
-  bool is_perpendicular = false;           // the edges of cells are perpendicular everywhere
-  design::SolidName region;                // the part of space with cells; none: all space
+  std::array<design::Numbers3, 3> slopes;     // derivatives of u, v and w by x, y and z
+  design::Numbers3 size;                      // lengths of the edges of a cell, mm
+  bool is_perpendicular = false;              // the edges of cells are perpendicular everywhere
+  std::optional<design::Number> from_border;  // distance to the border of the surface that cells lie on, mm
+  design::SolidName region;                   // the part of space with cells; none: all space
   design::GivenOutput from;
 
   bool is_given() const { return from.node != nullptr; }

@@ -132,8 +132,38 @@ struct Honeycomb {
   }
 };
 
+struct Rim {
+  CellMap map;
+  Number width = 1;
+  MaterialName material;
+
+  static Spec<Rim> spec() {
+    return {"rim",
+            "A band along the border of the surface on which the cells of a map lie: it closes cells that the border "
+            "cuts. As high as the cells, and inside of the border.",
+            {{"map", &Rim::map, "A map of surface_cells", required()},
+             {"width", &Rim::width, "Width of the band", unit::positive_mm},
+             {"material", &Rim::material, "Its material"}},
+            no_inputs,
+            "rim(surface_cells(\"models/insole.off\", (8, 8, 4), height=4, normal=(0, 0, 1)), 2, \"red\");"};
+  }
+
+  bool complete(const Reader& reader) const {
+    return map.from_border.has_value() || reader.refuse("the map of rim lies on no surface with a border",
+                                                        "write a map of surface_cells; other regions have a shell: " +
+                                                            spelled::call("shell", {{"thickness", "1"}}));
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  Box reach(const Inputs&, const Box& where, double margin) const { return map.reach(where, margin); }
+  Field distance(const Inputs& in, const Point& p) const { return map.cut((*map.from_border)(p)-width(p), in, p); }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    return map.cut_membership(at_most((*map.from_border)(p), width(p), border), in, p, border);
+  }
+};
+
 }  // namespace
 
-void add_cell_walls(Registry& registry) { registry.add<Plates, Honeycomb>("lattices"); }
+void add_cell_walls(Registry& registry) { registry.add<Plates, Honeycomb, Rim>("lattices"); }
 
 }  // namespace ombre::nodes

@@ -24,7 +24,7 @@ struct Lattice {
   std::optional<std::vector<Edge>> edges;
   MaterialName material;
   CellMap map;
-  std::optional<Number> joint;
+  std::optional<Number> joint, blend;
 
   static Spec<Lattice> spec() {
     return {
@@ -44,7 +44,9 @@ struct Lattice {
           "A map of cells, such as cylinder_cells, whose region the struts fill; their radius in mm holds to first "
           "order where cells are bent"},
          {"joint", &Lattice::joint, "Radius of balls at the ends of struts, in the cells of a map; none: no balls",
-          unit::positive_mm}},
+          unit::positive_mm},
+         {"blend", &Lattice::blend,
+          "Radius of fillets along the seams of struts, in the cells of a map; none: sharp seams", unit::positive_mm}},
         no_inputs,
         "lattice(\"bcc\", (10, 10, 10), 1, material=\"gray\");",
         {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
@@ -67,6 +69,13 @@ struct Lattice {
     if (map.is_given() && size)
       return reader.refuse("lattice has both a map and the size of its cells",
                            "leave out size: the map says how large cells are");
+    if (blend && !map.is_given())
+      return reader.refuse("lattice has fillets but no map of cells",
+                           "write for example " + spelled::parameter("map", "box_cells((5, 5, 5))") +
+                               ", or join struts by a union with a blend");
+    if (blend && radius.expression() && radius.expression()->uses("t"))
+      return reader.refuse("the radius of struts with fillets changes along them",
+                           "leave out t, the place along a strut, which several struts in line share");
     if (joint && !map.is_given())
       return reader.refuse("lattice has joints but no map of cells",
                            "write for example " + spelled::parameter("map", "box_cells((5, 5, 5))") +
@@ -205,7 +214,7 @@ struct Lattice {
     return find_unit_cell(cell.text())->is_mirrored;
   }
   // True if all octants are equal, so that only one is evaluated.
-  bool is_folded() const { return is_mirrored() && (radius.constant() || map.is_given()); }
+  bool is_folded() const { return is_mirrored() && !blend && (radius.constant() || map.is_given()); }
 
   std::vector<Strut> of_cell() const {
     std::vector<Strut> struts;
@@ -234,7 +243,7 @@ struct Lattice {
   // neighbouring cells that reach into this one.
   void prepare_cell() {
     is_mirrored_graph_ = cell == "none" && has_mirror_planes();
-    if (!is_mirrored()) segments_ = with_neighbours();
+    if (!is_folded()) segments_ = with_neighbours();
   }
 
   static Vec3 flipped(Vec3 p, int axis) {
@@ -261,8 +270,40 @@ struct Lattice {
   }
 
   // Returns the struts of this cell and those of its neighbours that come nearer to it than half a cell, each once.
+  // With fillets, struts in line are one, since seams between them would have a fillet.
   std::vector<Strut> with_neighbours() const {
     const Box near = Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}.expanded(reach_in_cells());
+    std::vector<Strut> found = copies_around();
+    if (blend) join_in_line(found);
+    std::erase_if(found, [&](const Strut& strut) {
+      return intersect(hull(Box{strut.start, strut.start}, Box{strut.end, strut.end}), near).is_empty();
+    });
+    return found;
+  }
+
+  // Joins struts that share an end and go on straight from one to the other.
+  static void join_in_line(std::vector<Strut>& struts) {
+    constexpr double tolerance = 1e-9;
+    for (size_t i = 0; i < struts.size(); ++i)
+      for (size_t j = 0; j < struts.size(); ++j) {
+        Strut& one = struts[i];
+        Strut other = struts[j];
+        if (i == j || one.own_radius != other.own_radius) continue;
+        if (length(other.end - one.end) < tolerance || length(other.end - one.start) < tolerance)
+          std::swap(other.start, other.end);
+        if (length(other.start - one.start) < tolerance) std::swap(one.start, one.end);
+        const Vec3 way = one.end - one.start, onward = other.end - other.start;
+        const bool follows = length(other.start - one.end) < tolerance;
+        if (!follows || length((1 / length(way)) * way - (1 / length(onward)) * onward) > tolerance) continue;
+        one.end = other.end;
+        struts.erase(struts.begin() + static_cast<ptrdiff_t>(j));
+        i = i > j ? i - 1 : i;
+        j = static_cast<size_t>(-1);  // looks for others that follow
+      }
+  }
+
+  // Returns the struts of this cell and its neighbours, each once.
+  std::vector<Strut> copies_around() const {
     std::vector<Strut> found;
     const auto is_known = [&](const Strut& strut) {
       return std::ranges::any_of(found, [&](const Strut& other) {
@@ -276,7 +317,6 @@ struct Lattice {
       const Vec3 by{cell % 3 - 1.0, row - 1.0, layer - 1.0};
       for (const Strut& strut : segments_) {
         const Strut moved{{strut.start + by, strut.end + by}, strut.own_radius};
-        if (intersect(hull(Box{moved.start, moved.start}, Box{moved.end, moved.end}), near).is_empty()) continue;
         if (!is_known(moved)) found.push_back(moved);
       }
     }
@@ -292,6 +332,7 @@ struct Lattice {
     const double ball = joint ? joint->range(box).hi : 0;
     double greatest = std::max(thick.hi, ball);
     for (const Strut& strut : segments_) greatest = std::max(greatest, strut.own_radius);
+    if (blend) greatest += blend->range(box).hi;
     const double least = std::min({map.size.x.range(box).lo, map.size.y.range(box).lo, map.size.z.range(box).lo});
     const double reach = greatest / least * (1 + 1e-6);
     return reach > 0 && reach < most ? reach : most;
@@ -342,9 +383,24 @@ struct Lattice {
       least = least ? min(measure, least) : measure;
     }
     found.distance = same ? sqrt(least) - *radius.constant() : least;
+    if (blend) found.distance = with_fillets(metric, place, p);
     if (const auto squared = joint ? squared_to_joint(metric, place) : std::nullopt)
       found.distance = min(found.distance, sqrt(*squared) - (*joint)(p));
     return found;
+  }
+
+  // Returns the distance from the union of struts with fillets of the radius k: max(k, least) - sqrt(sum of max(k - d,
+  // 0)^2) for their distances d, as that of union (nodes/solids/blends.h).
+  Field with_fillets(const CellMetric& metric, const Slope& place, const Point& p) const {
+    const Field k = (*blend)(p);
+    Field least, total = p.constant(0);
+    for (const Strut* strut : struts_here()) {
+      const auto [along, squared] = nearest_of_strut(metric, place, strut->start, strut->end);
+      const Field d = sqrt(squared) - strut->radius_at(p, radius, along);
+      least = least ? min(d, least) : d;
+      total = total + square(max(k - d, 0.0));
+    }
+    return max(k, least) - sqrt(total);
   }
 
   bool has_same_radii() const {

@@ -1,7 +1,6 @@
 // Maps of cells that formulas give, for example for spacing that changes along an axis.
-#include "base/text/text.h"
 #include "nodes/common/cell_map.h"
-#include "nodes/common/made_fields.h"
+#include "nodes/values/cell_folds.h"
 #include "nodes/values/cell_outputs.h"
 
 namespace ombre::nodes {
@@ -89,36 +88,21 @@ struct FormulaCells : CellOutputs<FormulaCells> {
     return {u.at(p, variables), v.at(p, variables), w.at(p, variables)};
   }
 
-  // Evaluates the determinant of the slopes at the points of a lattice that lie in the region. Returns false and adds
-  // an error if its sign changes.
   bool does_not_fold(const Reader& reader) const {
-    constexpr int side = 24;
     const Box box = region_within(design_space());
     if (!box.is_bounded() || box.size().x >= design_limit_mm) return true;
     std::vector<NodePtr> roots{NodePtr(NodePtr(), region.node)};
     for (const Number& number : {u, v, w}) add_nodes_of(number, roots);
     if (of.is_given()) roots.push_back(NodePtr(NodePtr(), of.from.node));
-    const MadeFields fields(reader, roots, box, [&](Lowering& lowering, const Point& p) {
-      const Field turns = dot_without_zeros(slope(p, 0), cross_without_zeros(slope(p, 1), slope(p, 2)));
-      return std::vector{outside_of(lowering, region, p), turns};
-    });
-    std::vector<double> values;
-    std::optional<double> first;
-    for (int n = 0; n < side * side * side; ++n) {
-      const int i = n % side, j = n / side % side, k = n / side / side;
-      const Vec3 f{(i + 0.5) / side, (j + 0.5) / side, (k + 0.5) / side}, s = box.size();
-      const Vec3 at = box.lo + Vec3{f.x * s.x, f.y * s.y, f.z * s.z};
-      const std::vector<double> found = fields.at(at, values);
-      if (found[0] > 0) continue;
-      const double turn = found[1];
-      if (!first) first = turn;
-      if (turn * *first > 0) continue;
-      return reader.refuse("cells of formula_cells are folded or have no volume at (" + format_rounded(at.x) + ", " +
-                               format_rounded(at.y) + ", " + format_rounded(at.z) + ")",
-                           "make u, v and w grow along directions of their own everywhere in the region, or make the "
-                           "region smaller");
-    }
-    return true;
+    constexpr int side = 24;
+    const auto folded = find_folded_cell(
+        reader, roots, box, side, [&](Lowering& lowering, const Point& p) { return outside_of(lowering, region, p); },
+        [&](Lowering&, const Point& p) {
+          return determinant_of({slope(p, 0), slope(p, 1), slope(p, 2)});
+        });
+    return !folded || refuse_folded(reader, *folded,
+                                    "make u, v and w grow along directions of their own everywhere in the region, or "
+                                    "make the region smaller");
   }
 };
 

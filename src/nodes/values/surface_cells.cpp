@@ -30,6 +30,8 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
 
   static Spec<SurfaceCells> spec() {
     std::vector<OutputSpec<SurfaceCells>> all = outputs();
+    all.emplace_back("border", static_cast<Field (SurfaceCells::*)(const Ask&) const>(&SurfaceCells::border),
+                     "Distance to the border of the part at the same height, mm");
     all.emplace_back("report", &SurfaceCells::report, "Extents, stretches and volumes of cells, as text");
     return {
         "surface_cells",
@@ -119,12 +121,14 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
 
   Field outside(const Ask& ask) const {
     const Field cut = read(ask.p, "outside");
-    if (!whole) return cut;
-    const Slope at = cells_at(ask.p);
-    const Field is_kept = ask.p.builder().source(whole, 0, at[0], at[1], ask.p.constant(0));
-    return select(is_kept, cut, program::max(cut, ask.p.constant(1)));
+    return whole ? select(is_kept(ask.p), cut, program::max(cut, ask.p.constant(1))) : cut;
+  }
+  Field inside(const Ask& ask) const {
+    const Field in_shell = read(ask.p, "inside");
+    return whole ? logical_and(in_shell, is_kept(ask.p)) : in_shell;
   }
   Box region_within(const Box&) const { return space->source->bounds(); }
+  Field border(const Ask& ask) const { return read(ask.p, "border"); }
 
   std::string report() const {
     const Vec2 lengths = space->lengths;
@@ -139,6 +143,11 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
   }
 
  private:
+  Field is_kept(const Point& p) const {
+    const Slope place = cells_at(p);
+    return p.builder().source(whole, 0, place[0], place[1], p.constant(0));
+  }
+
   bool find_whole_cells(const Reader& reader) {
     if (counts.x * counts.y > most_whole_cells)
       return reader.refuse("surface_cells has too many cells to look for whole ones", "make cells larger");

@@ -1,0 +1,184 @@
+"""Models of CAD programs, and their faces."""
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable
+from typing import Any
+
+import numpy
+
+import ombre
+from ombre._commands import run
+
+from ._arguments import number, vector
+from ._cell_maps import CellMap, CellMapCollection
+from ._errors import missing
+from ._solids import CAD, _find
+from ._surfaces import made_map, options_of_map
+from ._vectors import Vec3
+
+
+class CADFace:
+    """A face of a CADModel. Areas are mm2; the normal is the mean one, out of the solid."""
+
+    def __init__(self, model: CADModel, index: int, face: dict[str, Any]) -> None:
+        self._model, self._face = model, face
+        self.index = index
+
+    @property
+    def area(self) -> float:
+        return float(self._face["area_mm2"])
+
+    @property
+    def surface_type(self) -> str:
+        """The kind of its surface, such as "plane", "cylinder" or "bspline"."""
+        return str(self._face["kind"])
+
+    @property
+    def centroid(self) -> Vec3:
+        return Vec3(*self._face["center"])
+
+    @property
+    def normal(self) -> Vec3:
+        return Vec3(*self._face["normal"])
+
+    @property
+    def bounding_box(self) -> tuple[Vec3, Vec3]:
+        low, high = self._face["box"]
+        return Vec3(*low), Vec3(*high)
+
+    def __repr__(self) -> str:
+        return f"CADFace({self.index}, {self.surface_type!r}, area={self.area:g})"
+
+    def _chosen(self) -> dict[str, Any]:
+        """What ombre.surface_cells takes of this face alone."""
+        low, high = (numpy.array(corner) for corner in self.bounding_box)
+        room = 0.02 * float(numpy.linalg.norm(high - low)) + 1e-6
+        center = numpy.array(list(self.centroid))
+        return {"kind": self.surface_type, "least_area": 0.98 * self.area, "most_area": 1.02 * self.area,
+                "min": tuple(map(float, center - room)), "max": tuple(map(float, center + room))}
+
+    def _starts(self) -> numpy.ndarray:
+        """Points near the face, from which places are sought."""
+        low, high = (numpy.array(corner) for corner in self.bounding_box)
+        axes = [numpy.linspace(a, b, 7) for a, b in zip(low, high)]
+        return numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+class CADModel:
+    """A file of a CAD program: CADModel.from_step(path) or CADModel.from_iges(path), or a part of CadQuery."""
+
+    def __init__(self, path: str, folder: tempfile.TemporaryDirectory[str] | None = None) -> None:
+        self._path, self._folder = path, folder
+        try:
+            report, _ = run("info", {"file": path}, {})
+        except ombre.DesignError as error:
+            raise RuntimeError(f"CADModel: {error}") from None
+        found = [face for solid in report["solids"] for face in solid["surfaces"]]
+        self._faces = [CADFace(self, index, face) for index, face in enumerate(found)]
+
+    @staticmethod
+    def from_step(path: Any) -> CADModel:
+        return CADModel(_find("CADModel.from_step", os.fspath(path)))
+
+    @staticmethod
+    def from_iges(path: Any) -> CADModel:
+        return CADModel(_find("CADModel.from_iges", os.fspath(path)))
+
+    @staticmethod
+    def from_brep(path: Any) -> CADModel:
+        raise missing("CADModel.from_brep", "CADModel.from_step reads STEP files")
+
+    @staticmethod
+    def from_brep_bytes(data: bytes) -> CADModel:
+        raise missing("CADModel.from_brep_bytes", "CADModel.from_step reads STEP files")
+
+    @staticmethod
+    def from_cadquery(part: Any) -> CADModel:
+        """A workplane, a shape or several shapes of CadQuery, through a STEP file."""
+        shapes = part.vals() if hasattr(part, "vals") else list(part) if isinstance(part, Iterable) else [part]
+        if not shapes or not all(hasattr(shape, "exportStep") for shape in shapes):
+            raise TypeError(f"CADModel.from_cadquery: expected a workplane or shapes of CadQuery, found {type(part).__name__}")
+        folder = tempfile.TemporaryDirectory(prefix="ombre_")
+        path = os.path.join(folder.name, "part.step")
+        shape = shapes[0] if len(shapes) == 1 else _compound(shapes)
+        shape.exportStep(path)
+        return CADModel(path, folder)
+
+    @property
+    def faces(self) -> list[CADFace]:
+        return list(self._faces)
+
+    def face(self, index: int) -> CADFace:
+        return self._faces[index]
+
+    def select_faces(self, indices: Any = (), surface_type: str | None = None, normal: Any = None, min_dot: float = -1.0,
+                     area_range: Any = None, bounding_box_intersection: Any = None) -> list[CADFace]:
+        """The faces that fit all conditions.
+
+        Args:
+            indices: numbers of faces.
+            surface_type: "plane", "cylinder", "cone", "sphere", "torus", "bspline", ...
+            normal: a direction; min_dot is the least cosine of the angle between it and the mean normal.
+            area_range: (least, greatest), mm2.
+            bounding_box_intersection: (min, max); the box of a face meets it.
+        """
+        chosen = set(int(n) for n in indices)
+        found = [face for face in self._faces if not chosen or face.index in chosen]
+        if surface_type is not None:
+            found = [face for face in found if face.surface_type == surface_type]
+        if normal is not None:
+            way = numpy.array(vector(normal))
+            if not way.any():
+                raise ValueError("select_faces, normal: expected a direction, found (0, 0, 0)")
+            found = [face for face in found
+                     if float(numpy.dot(list(face.normal), way) / numpy.linalg.norm(way)) >= number(min_dot)]
+        if area_range is not None:
+            least, most = (number(a) for a in area_range)
+            found = [face for face in found if least <= face.area <= most]
+        if bounding_box_intersection is not None:
+            low, high = (vector(corner) for corner in bounding_box_intersection)
+            found = [face for face in found
+                     if all(a <= d and c <= b for a, b, c, d in zip(low, high, *face.bounding_box))]
+        return found
+
+    def to_node(self, use_fast_mode: bool = False) -> CAD:
+        """The solids of the file as a node."""
+        return CAD(self._path, use_fast_mode)
+
+    def write_step(self, path: Any) -> None:
+        """Copies the file."""
+        shutil.copyfile(self._path, path)
+
+
+def _compound(shapes: list[Any]) -> Any:
+    from cadquery import Compound  # type: ignore[import-not-found]
+    return Compound.makeCompound(shapes)
+
+
+def from_cad_face(face: Any, cells: Any, height: float, linear: bool = True, trim: Any = "boundary",
+                  standoff: float = 0.0) -> CellMap | CellMapCollection:
+    """Cells on a face, or on each of several: u and v are those of the face, w runs along its normal.
+
+    Args:
+        face: a CADFace, or a list of them.
+        cells: their numbers along u, v and w.
+        height: of all cells together, mm; below 0 on the inner side.
+        linear: accepted; walls and struts follow the face.
+        trim: "boundary" cuts cells at the border, "cells" keeps whole ones.
+        standoff: distance of the first cells from the face, mm.
+    """
+    if not isinstance(face, CADFace):
+        return CellMapCollection([from_cad_face(one, cells, height, linear, trim, standoff) for one in face])
+    counts, mode, options = options_of_map("cell_map_from_cad_face", cells, height, trim, standoff)
+    try:
+        value = ombre.surface_cells(face._model._path, count=counts, **face._chosen(), **options)
+        value.region.bounds  # noqa: B018  # loads the face
+    except ombre.DesignError as error:
+        raise RuntimeError(f"cell_map_from_cad_face: {error}") from None
+    return made_map(value, counts, mode, face._starts(), face._model)
+
+
+CellMap.from_cad_face = staticmethod(from_cad_face)
