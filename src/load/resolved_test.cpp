@@ -205,9 +205,10 @@ TEST(Resolved, TwoPropertiesOfOneMixtureAgreeOrContradict) {
                       "fractions by h; they contradict each other: at"),
             std::string::npos)
       << text;
-  // At the highest points, z = 4.875, the hardness is 59.1, which needs 0.485 of Vero.
-  EXPECT_NE(text.find("density needs a fraction of Agilus30Clr 0.75, and shore_hardness needs 0.515"),
-            std::string::npos)
+  // At the highest points, z = 4.875, the hardness is 59.1, which needs 0.485 of Vero. Both fractions differ as much.
+  const auto says = [&](const std::string& words) { return text.find(words) != std::string::npos; };
+  EXPECT_TRUE(says("density needs a fraction of VeroClear 0.25, and shore_hardness needs 0.485") ||
+              says("density needs a fraction of Agilus30Clr 0.75, and shore_hardness needs 0.515"))
       << text;
   EXPECT_NE(text.find("--deciding ATTRIBUTE"), std::string::npos) << text;
   Needs needs{{"fractions"}};
