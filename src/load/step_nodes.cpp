@@ -26,7 +26,7 @@ Expression rounded_to_step(const Expression& value, double step) {
   return product_of(Expression::call("round", {quotient_of(value, constant(step))}), constant(step));
 }
 
-// What a step gives as a formula of the attributes of a solid.
+// Writes the result of a step as a formula of the attributes of a solid.
 class StepFormula {
  public:
   StepFormula(const NodePtr& solid, const ResolvedStep& step, const NodeMaker& maker)
@@ -55,7 +55,7 @@ class StepFormula {
   bool is_of_logarithm() const { return calibration_.interpolant == Interpolant::log_linear; }
   Expression attribute(const std::string& name) const { return maker_.attribute_of(solid_, name); }
 
-  // With a single attribute: its curve.
+  // Returns the curve of the calibration, for a step from a single attribute.
   Expression curve() const {
     const size_t varied = step_.step.input ? *step_.step.input : calibration_.input_called(step_.attribute);
     return maker_.curve_of(solid_, step_.attribute,
@@ -98,7 +98,7 @@ class StepFormula {
   Expression property() const {
     const Expression value = attribute(calibration_.property);
     if (!is_of_logarithm()) return value;
-    // What is not positive has no logarithm; it gets that of the least value.
+    // Values that are not positive have no logarithm, and get that of the least value.
     const auto& logarithms = calibration_.grid.values();
     const double least = math::exp(*std::ranges::min_element(logarithms));
     return Expression::call("log", {Expression::call("max", {value, constant(least)})});

@@ -10,7 +10,7 @@
 
 namespace ombre::compile {
 
-// What two designs give at a point, mm.
+// The values that two designs give at a point, mm.
 struct Difference {
   Vec3 at;
   std::string of;  // a material, for its fraction, or an attribute

@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t most_places = 64;  // of each hollow, whose volumes are compared
 
-// What a voxel is: solid, the void outside, or one of the hollows from 0 on.
+// A voxel's mark: solid, outside, or the number of its hollow, from 0 on.
 constexpr int32_t solid = -2, outside = -1;
 
 // A straight line of solid voxels between a hollow and the void outside; coordinates are those of its first voxel, with

@@ -14,7 +14,7 @@
 
 namespace ombre::compile {
 
-// What doses of light cure, by a working curve (P. F. Jacobs, Rapid Prototyping & Manufacturing, 1992). Light comes
+// The volume that doses of light cure, by a working curve (P. F. Jacobs, Rapid Prototyping & Manufacturing, 1992). Light comes
 // from above, falls to 1/e within the penetration depth, and cures a place once all layers together have brought the
 // critical dose there. Volumes are in mm3, lengths in mm.
 struct CureReport {
