@@ -1,6 +1,8 @@
 // Round numbers for axes and scales: 1, 2 and 5 times powers of ten.
 #pragma once
 
+#include <initializer_list>
+
 namespace ombre::math {
 
 // Returns the greatest round number that is not above `most`, which is positive; 1e-9 of it do not count.

@@ -14,9 +14,9 @@
 
 namespace ombre::compile {
 
-// The volume that doses of light cure, by a working curve (P. F. Jacobs, Rapid Prototyping & Manufacturing, 1992). Light comes
-// from above, falls to 1/e within the penetration depth, and cures a place once all layers together have brought the
-// critical dose there. Volumes are in mm3, lengths in mm.
+// The volume that doses of light cure, by a working curve (P. F. Jacobs, Rapid Prototyping & Manufacturing, 1992).
+// Light comes from above, falls to 1/e within the penetration depth, and cures a place once all layers together have
+// brought the critical dose there. Volumes are in mm3, lengths in mm.
 struct CureReport {
   std::string by;          // the calibration
   double under_mm3 = 0;    // of the part that stays below the critical dose
