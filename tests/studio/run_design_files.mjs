@@ -1,11 +1,8 @@
 // Design files (JSON) are edited in the graph: each edit is one of the text, and is undone to the byte.
 import assert from "node:assert/strict";
-import { isReady, page, pathOf, picture, status, test, text, until, violations } from "./studio_page.mjs";
+import { card, drag, end, isReady, page, pathOf, picture, put, status, test, text, textIs, until, violations } from "./studio_page.mjs";
 
-const textIs = (wanted) => until(async () => (await text()) === wanted, wanted);
-const card = (name) => page.locator(`.card[aria-label^="${name},"]`);
 const choose = (name) => card(name).locator(".title small").click({ position: { x: 2, y: 6 } });
-const end = (label) => page.locator(`.dot[aria-label="${label}"]`);
 const isUpToDate = () => status("[data-old=false][data-busy=false]");
 
 const design = `{
@@ -20,23 +17,6 @@ const design = `{
   "parts": [{"name": "part", "node": "n3"}]
 }
 `;
-
-async function middle(of) {
-  const box = await of.boundingBox();
-  return [box.x + box.width / 2, box.y + box.height / 2];
-}
-
-async function drag(from, to) {
-  await page.mouse.move(...(await middle(from)));
-  await page.mouse.down();
-  await page.mouse.move(...(await middle(to)), { steps: 4 });
-  await page.mouse.up();
-}
-
-async function put(label, value) {
-  await page.fill(`[aria-label="${label}"]`, value);
-  await page.keyboard.press("Enter");
-}
 
 async function add(name, where) {
   await page.click("text=Add…");

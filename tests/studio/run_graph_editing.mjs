@@ -1,31 +1,10 @@
 // A design made by the graph alone, from an empty page.
 import assert from "node:assert/strict";
-import { editor, folder, isReady, page, picture, status, test, text, until, untilOnPage, violations } from "./studio_page.mjs";
-
-const textIs = (wanted) => until(async () => (await text()) === wanted, wanted);
-const card = (name) => page.locator(`.card[aria-label^="${name},"]`);
-const end = (label) => page.locator(`.dot[aria-label="${label}"]`);
+import { card, drag, editor, end, folder, isReady, page, picture, put, status, test, text, textIs, until, untilOnPage, violations } from "./studio_page.mjs";
 
 async function choose(name) {
   await page.fill(".palette input[type=search]", name);
   await page.locator(`.palette [data-node="${name}"]`).click();
-}
-
-async function middle(of) {
-  const box = await of.boundingBox();
-  return [box.x + box.width / 2, box.y + box.height / 2];
-}
-
-async function drag(from, to) {
-  await page.mouse.move(...(await middle(from)));
-  await page.mouse.down();
-  await page.mouse.move(...(await middle(to)), { steps: 4 });
-  await page.mouse.up();
-}
-
-async function put(label, value) {
-  await page.fill(`[aria-label="${label}"]`, value);
-  await page.keyboard.press("Enter");
 }
 
 const use = "use <ombre/cellular.vcad>\n";

@@ -1,8 +1,7 @@
 // Handles in the view from outside: a drag changes the number in the text by what the projection says.
 import assert from "node:assert/strict";
-import { editor, isReady, open, page, pathOf, picture, status, test, text, until, violations } from "./studio_page.mjs";
+import { editor, isReady, open, page, pathOf, picture, status, test, text, textIs, until, violations } from "./studio_page.mjs";
 
-const textIs = (wanted) => until(async () => (await text()) === wanted, wanted);
 const handle = (key) => page.locator(`[data-handle="${key}"]`);
 const label = (key) => handle(key).getAttribute("aria-label");
 

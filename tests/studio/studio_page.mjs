@@ -219,3 +219,25 @@ export async function violations() {
   const found = await page.evaluate(() => axe.run());
   return found.violations.map((v) => `${v.id} at ${v.nodes.map((n) => n.html.slice(0, 120)).join(" and ")}`);
 }
+
+// The graph: cards, the ends of their wires, and fields.
+export const textIs = (wanted) => until(async () => (await text()) === wanted, wanted);
+export const card = (name) => page.locator(`.card[aria-label^="${name},"]`);
+export const end = (label) => page.locator(`.dot[aria-label="${label}"]`);
+
+async function middle(of) {
+  const box = await of.boundingBox();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
+
+export async function drag(from, to) {
+  await page.mouse.move(...(await middle(from)));
+  await page.mouse.down();
+  await page.mouse.move(...(await middle(to)), { steps: 4 });
+  await page.mouse.up();
+}
+
+export async function put(label, value) {
+  await page.fill(`[aria-label="${label}"]`, value);
+  await page.keyboard.press("Enter");
+}

@@ -12,11 +12,12 @@ import ombre
 from ._arguments import number, vector
 from ._cell_maps import CellMap, TrimMode, inverted_from, whole_counts
 from ._errors import missing
+from ._triangles import Triangles
 
 _methods = ("lscm", "arap", "authalic")
 
 
-class TriangleMeshSurface:
+class TriangleMeshSurface(Triangles):
     """A patch of triangles that is laid out in a plane: TriangleMeshSurface(vertices, triangles, u_axis_hint=None,
     method="lscm").
 
@@ -49,14 +50,6 @@ class TriangleMeshSurface:
         chosen = numpy.asarray(mesh.triangles)[sorted(int(n) for n in ids)]
         used, numbers = numpy.unique(chosen, return_inverse=True)
         return TriangleMeshSurface(numpy.asarray(mesh.vertices)[used], numbers.reshape(-1, 3), u_axis_hint, method)
-
-    @property
-    def vertices(self) -> numpy.ndarray:
-        return self._vertices
-
-    @property
-    def triangles(self) -> numpy.ndarray:
-        return self._triangles
 
     def _longest_direction(self) -> tuple[float, float, float]:
         centred = self._vertices - self._vertices.mean(axis=0)

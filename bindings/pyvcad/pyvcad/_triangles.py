@@ -14,7 +14,24 @@ from ._solids import Mesh, _find
 from ._tree import Node
 
 
-class SurfaceMesh(Selecting):
+class Triangles:
+    """Triangles with shared vertices."""
+
+    _vertices: numpy.ndarray
+    _triangles: numpy.ndarray
+
+    @property
+    def vertices(self) -> numpy.ndarray:
+        """Vertices of the shape (n, 3), mm."""
+        return self._vertices
+
+    @property
+    def triangles(self) -> numpy.ndarray:
+        """Triangles of the shape (n, 3): numbers of vertices, from 0."""
+        return self._triangles
+
+
+class SurfaceMesh(Triangles, Selecting):
     """A closed surface of triangles, mm: SurfaceMesh(path), (vertices, triangles) or (node, voxel_size).
 
     `vertices` are points, `triangles` three numbers of vertices each, counterclockwise from outside. A node's surface lies
@@ -32,16 +49,6 @@ class SurfaceMesh(Selecting):
             self._take(first, second)
         if not boolean(disable_validation):
             self._check()
-
-    @property
-    def vertices(self) -> numpy.ndarray:
-        """Vertices of the shape (n, 3), mm."""
-        return self._vertices
-
-    @property
-    def triangles(self) -> numpy.ndarray:
-        """Triangles of the shape (n, 3): numbers of vertices, from 0."""
-        return self._triangles
 
     def write_stl(self, path: Any) -> None:
         """Binary STL, mm."""

@@ -59,6 +59,23 @@ class PointRows : public SourceRows {
   void fill(const program::Read&, const RowsToFill&) const override {}
 };
 
+// Points along x, of which y marks each third.
+struct MarkedRow {
+  std::vector<float> xs, ys, zs;
+  std::vector<double> marked;  // their x
+
+  MarkedRow() {
+    for (size_t n = 0; n < padded(200); ++n) {
+      xs.push_back(static_cast<float>(n));
+      ys.push_back(n % 3 == 0 ? 1 : 0);
+      zs.push_back(0);
+      if (n % 3 == 0) marked.push_back(static_cast<double>(n));
+    }
+  }
+  PointList points() const { return {xs, ys, zs}; }
+  size_t size() const { return xs.size(); }
+};
+
 // Evaluates output 0 at a list of points.
 class ListEvaluation {
  public:
@@ -122,34 +139,20 @@ TEST(Channels, AreQueriedOnlyInside) {
   Builder builder;
   const auto x = builder.input(0), y = builder.input(1), z = builder.input(2);
   const program::Program program = builder.finish({{"inside", y}, {"value", builder.source(source, 0, x, y, z)}});
-  std::vector<float> xs, ys, zs;
-  std::vector<double> inside;
-  for (size_t n = 0; n < padded(200); ++n) {
-    xs.push_back(static_cast<float>(n));
-    ys.push_back(n % 3 == 0 ? 1 : 0);
-    zs.push_back(0);
-    if (n % 3 == 0) inside.push_back(static_cast<double>(n));
-  }
-  ListEvaluation evaluation(program, PointList{xs, ys, zs}, xs.size());
+  const MarkedRow row;
+  ListEvaluation evaluation(program, row.points(), row.size());
   BatchEvaluator& batch = evaluation.batch;
   batch.finish_row_inside();
-  EXPECT_EQ(source->queried, inside);
-  for (size_t n = 0; n < xs.size(); n += 3) ASSERT_EQ(batch.output(1)[n], xs[n]);
+  EXPECT_EQ(source->queried, row.marked);
+  for (size_t n = 0; n < row.size(); n += 3) ASSERT_EQ(batch.output(1)[n], row.xs[n]);
   batch.finish_row();
-  EXPECT_EQ(source->queried.size(), inside.size() + xs.size());
+  EXPECT_EQ(source->queried.size(), row.marked.size() + row.size());
 }
 
 // A cheap condition decides where an expensive source is sampled, though it comes later in the program.
 TEST(Channels, AreNotQueriedWhereACheaperConditionFails) {
   if (kernel_sets().empty()) GTEST_SKIP() << "no instruction set for batches";
-  std::vector<float> xs, ys, zs;
-  std::vector<double> chosen;
-  for (size_t n = 0; n < padded(200); ++n) {
-    xs.push_back(static_cast<float>(n));
-    ys.push_back(n % 3 == 0 ? 1 : 0);
-    zs.push_back(0);
-    if (n % 3 == 0) chosen.push_back(static_cast<double>(n));
-  }
+  const MarkedRow row;
   const auto queries_of = [&](bool is_alone) {
     const auto source = std::make_shared<QueriedPoints>();
     Builder builder;
@@ -158,15 +161,15 @@ TEST(Channels, AreNotQueriedWhereACheaperConditionFails) {
     const auto both = program::logical_and(large, y);
     const program::Program program =
         builder.finish({{"inside", is_alone ? both : program::logical_or(both, builder.constant(0.5) * large)}});
-    ListEvaluation evaluation(program, PointList{xs, ys, zs}, xs.size(), BatchEvaluator::Finish::inside);
-    for (size_t n = 0; n < xs.size(); ++n) {
+    ListEvaluation evaluation(program, row.points(), row.size(), BatchEvaluator::Finish::inside);
+    for (size_t n = 0; n < row.size(); ++n) {
       const bool is_inside = n > 100 && (!is_alone || n % 3 == 0);
       EXPECT_EQ(evaluation.batch.output(0)[n] != 0, is_inside);
     }
     return source->queried;
   };
-  EXPECT_EQ(queries_of(true), chosen);
-  EXPECT_EQ(queries_of(false).size(), xs.size()) << "other ways lead to the output";
+  EXPECT_EQ(queries_of(true), row.marked);
+  EXPECT_EQ(queries_of(false).size(), row.size()) << "other ways lead to the output";
 }
 
 }  // namespace ombre::eval

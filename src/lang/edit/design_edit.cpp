@@ -4,7 +4,7 @@
 
 #include "base/text/json.h"
 #include "base/text/text.h"
-#include "lang/edit/edit_refusal.h"
+#include "lang/edit/edit_steps.h"
 #include "lang/edit/json_layout.h"
 
 namespace ombre::lang {
@@ -12,9 +12,9 @@ namespace {
 
 // Makes an edit, in one or more steps. After each step the graph is read again, so that what lasts longer than a step
 // is named by ids.
-class DesignRun {
+class DesignRun : public EditSteps<DesignGraph> {
  public:
-  explicit DesignRun(DesignGraph graph) : graph_(std::move(graph)) { result_.text = graph_.source(); }
+  using EditSteps::EditSteps;
 
   void run(const SetArgument& edit);
   void run(const InsertCall& edit);
@@ -27,11 +27,10 @@ class DesignRun {
   void run(const UseLibrary&) { refuse({}, "a design file uses no libraries", "write the design as a script"); }
   void run(const MoveToLibrary&) { refuse({}, "a design file has no modules", "write the design as a script"); }
 
-  EditedScript take() { return std::move(result_); }
-
  private:
-  void commit(Replacements step);
-  [[noreturn]] void refuse(const SourceRange& where, const std::string& message, Phrase hint = {}) const;
+  [[noreturn]] void refuse(const SourceRange& where, const std::string& message, Phrase hint = {}) const {
+    refuse_at(where, message, std::move(hint));
+  }
   const DesignItem& item(size_t number) const;
   const DesignItem& node(size_t number) const;  // refuses parts
   const DesignItem& called(const std::string& id) const { return graph_.items()[*graph_.node_called(id)]; }
@@ -59,30 +58,7 @@ class DesignRun {
   void remove_node(const std::string& id);
   void remove_unused(const std::vector<std::string>& ids);
   void need_version_of_values();
-
-  DesignGraph graph_;
-  EditedScript result_;
 };
-
-void DesignRun::commit(Replacements step) {
-  if (step.empty()) return;
-  sort_by_place(step);
-  const SourcePtr source = make_source(graph_.source()->name(), applied(graph_.text(), step));
-  Diagnostics mistakes;
-  auto next = DesignGraph::read(source, mistakes);
-  if (!next) refuse({}, "this edit would leave a file with mistakes", "edit the text");
-  graph_ = std::move(*next);
-  result_.text = source;
-  result_.steps.push_back(std::move(step));
-}
-
-void DesignRun::refuse(const SourceRange& where, const std::string& message, Phrase hint) const {
-  Diagnostic reason;
-  reason.where = where.source ? where : SourceRange{graph_.source(), 0, 0};
-  reason.message = message;
-  reason.hint = std::move(hint);
-  throw EditRefusal{std::move(reason)};
-}
 
 const DesignItem& DesignRun::item(size_t number) const {
   if (number >= graph_.items().size()) refuse({}, "the file has no node with the number " + std::to_string(number));
@@ -416,16 +392,7 @@ void DesignRun::run(const MoveCall& edit) {
 }  // namespace
 
 std::optional<EditedScript> edit_design(const SourcePtr& file, const GraphEdit& edit, Diagnostics& diagnostics) {
-  auto graph = DesignGraph::read(file, diagnostics);
-  if (!graph) return std::nullopt;
-  try {
-    DesignRun run(std::move(*graph));
-    std::visit([&](const auto& one) { run.run(one); }, edit);
-    return run.take();
-  } catch (const EditRefusal& refusal) {
-    diagnostics.add(refusal.reason);
-    return std::nullopt;
-  }
+  return make_edit<DesignRun>(DesignGraph::read(file, diagnostics), edit, diagnostics);
 }
 
 }  // namespace ombre::lang

@@ -37,6 +37,9 @@ class DesignGraph {
   // Returns nothing if the text is not JSON or lacks lists of nodes and parts; the reasons are added to the
   // diagnostics. Types and parameters are not checked.
   static std::optional<DesignGraph> read(const SourcePtr& source, Diagnostics& diagnostics);
+  std::optional<DesignGraph> read_again(const SourcePtr& source, Diagnostics& diagnostics) const {
+    return read(source, diagnostics);
+  }
 
   const SourcePtr& source() const { return source_; }
   std::string_view text() const { return source_->text(); }

@@ -11,8 +11,6 @@ using namespace ast;
 
 namespace {
 
-SourceRange whole_of(const SourcePtr& source) { return {source, 0, 0}; }
-
 // Returns the only statement of a file, or null.
 const Statement* only_statement(const File& file, const Diagnostics& mistakes) {
   return mistakes.has_errors() || file.statements.size() != 1 ? nullptr : file.statements.front().get();
@@ -22,37 +20,11 @@ const Statement* only_statement(const File& file, const Diagnostics& mistakes) {
 
 std::optional<EditedScript> edit(const SourcePtr& script, Dialect dialect, const GraphEdit& edit,
                                  Diagnostics& diagnostics) {
-  auto graph = ScriptGraph::read(script, dialect, diagnostics);
-  if (!graph) return std::nullopt;
-  try {
-    EditRun run(std::move(*graph), script);
-    std::visit([&](const auto& one) { run.run(one); }, edit);
-    return run.take();
-  } catch (const EditRefusal& refusal) {
-    diagnostics.add(refusal.reason);
-    return std::nullopt;
-  }
-}
-
-void EditRun::commit(Replacements step, std::optional<size_t> made) {
-  if (step.empty()) return;
-  sort_by_place(step);
-  const SourcePtr source = make_source(graph_.source()->name(), applied(graph_.text(), step));
-  Diagnostics mistakes;
-  auto next = ScriptGraph::read(source, graph_.dialect(), mistakes);
-  if (!next) refuse({}, "this edit would leave a script with mistakes", "edit the text");
-  graph_ = std::move(*next);
-  result_.text = source;
-  result_.steps.push_back(std::move(step));
-  result_.made = made;
+  return make_edit<EditRun>(ScriptGraph::read(script, dialect, diagnostics), edit, diagnostics);
 }
 
 void EditRun::refuse(const Span& where, const std::string& message, Phrase hint) const {
-  Diagnostic reason;
-  reason.where = where.source ? where.range() : whole_of(graph_.source());
-  reason.message = message;
-  reason.hint = std::move(hint);
-  throw EditRefusal{std::move(reason)};
+  refuse_at(where.source ? where.range() : SourceRange(), message, std::move(hint));
 }
 
 const GraphItem& EditRun::item(size_t number) const {

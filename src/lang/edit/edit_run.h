@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "lang/edit/edit_refusal.h"
+#include "lang/edit/edit_steps.h"
 #include "lang/edit/graph_edit.h"
 #include "lang/edit/text_layout.h"
 
@@ -14,9 +14,9 @@ namespace ombre::lang {
 inline const std::string step_in = "  ";
 
 // Makes an edit, in one or more steps. After each step the graph is read again.
-class EditRun {
+class EditRun : public EditSteps<ScriptGraph> {
  public:
-  EditRun(ScriptGraph graph, SourcePtr source) : graph_(std::move(graph)) { result_.text = std::move(source); }
+  using EditSteps::EditSteps;
 
   void run(const SetArgument& edit);
   void run(const InsertCall& edit);
@@ -29,13 +29,8 @@ class EditRun {
   void run(const UseLibrary& edit);
   void run(const MoveToLibrary& edit);
 
-  EditedScript take() { return std::move(result_); }
-
  private:
   using Kind = GraphItem::Kind;
-
-  // Applies a step. `made` is the place of what it has added, in the text after the step.
-  void commit(Replacements step, std::optional<size_t> made = std::nullopt);
 
   [[noreturn]] void refuse(const ast::Span& where, const std::string& message, Phrase hint = {}) const;
   const GraphItem& item(size_t number) const;
@@ -89,9 +84,6 @@ class EditRun {
   void check_alone(const ast::Statement& module, const std::string& name) const;
   std::string used_libraries() const;
   std::string module_text(const GroupCalls& edit, const std::vector<size_t>& row) const;
-
-  ScriptGraph graph_;
-  EditedScript result_;
 };
 
 }  // namespace ombre::lang

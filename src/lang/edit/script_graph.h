@@ -70,6 +70,9 @@ class ScriptGraph {
 
   // Returns nothing if the script has mistakes, which are added to the diagnostics.
   static std::optional<ScriptGraph> read(const SourcePtr& source, Dialect dialect, Diagnostics& diagnostics);
+  std::optional<ScriptGraph> read_again(const SourcePtr& source, Diagnostics& diagnostics) const {
+    return read(source, dialect_, diagnostics);
+  }
 
   const SourcePtr& source() const { return *file_.source; }
   std::string_view text() const { return source()->text(); }
