@@ -107,7 +107,7 @@ def draws_are_softer_than_means(folder):
 def charts_are_written(folder):
     run(folder, 'rectprism([2, 2, 2], material="red");', "--study", STUDY, "--cell", "1", "-o", "chart.svg")
     text = folder.read("chart.svg")
-    expect(text.startswith("<svg") and text.count('class="modulus"') == 3, "three diagrams")
+    expect(text.startswith("<svg") and text.count("Z\"") == 3, "three diagrams")
     before = text
     reported = run(folder, "cube(2);", "--study", STUDY, "--cell", "1", "-o", "chart.svg", status=2).stderr
     expect("--force" in reported and folder.read("chart.svg") == before, "overwriting")
