@@ -130,6 +130,14 @@ class RandomDesign {
     return Data(format_rounded(value + 1) + waves[index(4)]);
   }
 
+  // Returns a formula for u, v or w that grows along x, y or z, so that cells have a volume.
+  Data growing(std::string_view name) {
+    const size_t axis = name == "u" ? 0 : name == "v" ? 1 : 2;
+    constexpr std::string_view axes = "xyz";
+    return Data(std::string(1, axes[axis]) + "/" + format_rounded(number(4, 7)) + " + 0.1*sin(" + axes[(axis + 1) % 3] +
+                ")");
+  }
+
   Data whole_number(const Domain& domain) { return Data(std::max(0.0, domain.least) + static_cast<double>(index(4))); }
 
   Data attribute_value(const Domain& domain) {
@@ -168,6 +176,7 @@ class RandomDesign {
     if (kind == "whole number") return whole_number(domain);
     if (kind == "3 whole numbers")
       return Data(DataList{whole_number(domain), whole_number(domain), whole_number(domain)});
+    if (type.name == "formula_cells" && kind == "number or field") return growing(parameter.name);
     if (kind == "number or field" && type.name == "function")
       return Data("x^2 + 2*y^2 + z^2 - " + format_rounded(number(4, 30)));
     if (kind == "number or field") return one_number(domain, true);

@@ -90,7 +90,9 @@ await test({ files: {}, place: folder, viewport: { width: 1600, height: 900 } },
   },
 
   async "calls become a module with parameters"() {
+    await status("[data-old=false][data-busy=false]"); // the graph is that of the text
     await card("cylinder").locator(".title").click();
+    await page.waitForSelector('.card.selected[aria-label^="cylinder,"]');
     await page.click("text=Group…");
     await page.fill("dialog input", "disc");
     await page.click("dialog button.main");

@@ -154,7 +154,7 @@ class CADModel:
 
 
 def _compound(shapes: list[Any]) -> Any:
-    from cadquery import Compound  # type: ignore[import-not-found]
+    from cadquery import Compound  # type: ignore
     return Compound.makeCompound(shapes)
 
 

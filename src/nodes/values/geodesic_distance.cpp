@@ -17,7 +17,7 @@ constexpr size_t most_begins = 10000;
 
 struct GeodesicDistance {
   FilePath path;
-  Points from;
+  Points points;
   double step = 0;
   program::SourceField source;  // read when the node is made
 
@@ -28,7 +28,7 @@ struct GeodesicDistance {
         "point of the surface that is nearest here.",
         {{"path", &GeodesicDistance::path,
           "A mesh file, whose surface may be open; relative to the script, then to the working directory", required()},
-         {"from", &GeodesicDistance::from, "Points where ways begin, at the nearest point of the surface",
+         {"points", &GeodesicDistance::points, "Points where ways begin, at the nearest point of the surface",
           required(unit::points)},
          {"step", &GeodesicDistance::step,
           "Ways also begin on the straight lines from point to point, at most this far apart; 0: at the points alone",
@@ -39,9 +39,9 @@ struct GeodesicDistance {
   }
 
   bool complete(const Reader& reader) {
-    if (from.at.empty())
+    if (points.at.empty())
       return reader.refuse("geodesic_distance needs a point where ways begin",
-                           "write for example " + spelled::parameter("from", "[(0, 0, 20)]"));
+                           "write for example " + spelled::parameter("points", "[(0, 0, 20)]"));
     if (!reader.loader) return reader.refuse("meshes cannot be read here");
     GeodesicRequest request{path, begins()};
     if (request.from.size() > most_begins)
@@ -62,9 +62,9 @@ struct GeodesicDistance {
  private:
   // Returns the points, with more between them; one more than are allowed ends the list.
   std::vector<Vec3> begins() const {
-    std::vector<Vec3> all{from.at.front()};
-    for (size_t n = 1; n < from.at.size(); ++n) {
-      const Vec3 a = from.at[n - 1], way = from.at[n] - a;
+    std::vector<Vec3> all{points.at.front()};
+    for (size_t n = 1; n < points.at.size(); ++n) {
+      const Vec3 a = points.at[n - 1], way = points.at[n] - a;
       const double parts = step > 0 ? std::max(1.0, std::ceil(length(way) / step)) : 1;
       for (double part = 1; part <= parts; ++part) {
         if (all.size() > most_begins) return all;
