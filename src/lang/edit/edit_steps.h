@@ -39,7 +39,7 @@ class EditSteps {
     result_.made = made;
   }
 
-  // Without a source the place is the whole file.
+  // The place is the whole file if it has no source.
   [[noreturn]] void refuse_at(const SourceRange& where, const std::string& message, Phrase hint = {}) const {
     Diagnostic reason;
     reason.where = where.source ? where : SourceRange{graph_.source(), 0, 0};
