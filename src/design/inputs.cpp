@@ -2,6 +2,7 @@
 #include "base/text/text.h"
 #include "design/lowering.h"
 #include "design/node.h"
+#include "design/registry.h"
 
 namespace ombre::design {
 

@@ -1,6 +1,7 @@
 #include "lang/edit/design_edit.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "base/text/json.h"
 #include "base/text/text.h"
@@ -310,8 +311,8 @@ void DesignRun::run(const RemoveItem& edit) {
     const auto parts = std::ranges::count_if(users, [&](size_t user) { return graph_.items()[user].is_part; });
     if (static_cast<size_t>(parts) == graph_.part_count())
       refuse(removed.object->where, "the design would have no part", "add another one first");
-    for (auto user = users.rbegin(); user != users.rend(); ++user)
-      if (graph_.items()[*user].is_part) remove_entry(graph_.parts(), graph_.items()[*user].object);
+    for (const size_t user : std::views::reverse(users))
+      if (graph_.items()[user].is_part) remove_entry(graph_.parts(), graph_.items()[user].object);
   }
   replace_uses(id, keeps ? below : std::vector<std::string>());
   remove_node(id);

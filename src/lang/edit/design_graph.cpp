@@ -109,11 +109,13 @@ bool DesignGraph::needs(size_t item, size_t other) const {
   const auto add = [&](size_t number) {
     if (std::ranges::find(found, number) == found.end()) found.push_back(number);
   };
-  for (size_t n = 0; n < found.size(); ++n) {
-    if (found[n] == other) return true;
-    for (const size_t input : items_[found[n]].inputs) add(input);
+  size_t looked_at = 0;
+  while (looked_at < found.size()) {
+    const size_t at = found[looked_at++];
+    if (at == other) return true;
+    for (const size_t input : items_[at].inputs) add(input);
     for (const DesignWire& wire : wires_)
-      if (wire.item == found[n]) add(wire.from);
+      if (wire.item == at) add(wire.from);
   }
   return false;
 }
