@@ -1,7 +1,6 @@
 #include "lang/edit/design_edit.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "base/text/json.h"
 #include "base/text/text.h"
@@ -308,11 +307,13 @@ void DesignRun::run(const RemoveItem& edit) {
            "remove it with them");
   const bool keeps = edit.keeps_children && !below.empty();
   if (is_a_part && !keeps) {
-    const auto parts = std::ranges::count_if(users, [&](size_t user) { return graph_.items()[user].is_part; });
-    if (static_cast<size_t>(parts) == graph_.part_count())
+    std::vector<size_t> parts;
+    for (const size_t user : users)
+      if (graph_.items()[user].is_part) parts.push_back(user);
+    if (parts.size() == graph_.part_count())
       refuse(removed.object->where, "the design would have no part", "add another one first");
-    for (const size_t user : std::views::reverse(users))
-      if (graph_.items()[user].is_part) remove_entry(graph_.parts(), graph_.items()[user].object);
+    std::ranges::reverse(parts);  // the numbers of those before one that is removed stay
+    for (const size_t part : parts) remove_entry(graph_.parts(), graph_.items()[part].object);
   }
   replace_uses(id, keeps ? below : std::vector<std::string>());
   remove_node(id);
