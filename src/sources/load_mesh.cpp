@@ -75,14 +75,22 @@ void warn_of_colours(const std::string& path, const formats::Mesh& mesh, const M
   const bool is_named = use.material.material != &reader.materials.first();
   if (use.materials != "one" || !use.object.empty() || is_named) return;
   std::set<Rgba> colours;
-  for (const formats::MeshGroup& group : formats::all_groups(mesh))
+  std::set<std::string> names;  // of materials, as OBJ files have them
+  for (const formats::MeshGroup& group : formats::all_groups(mesh)) {
     if (group.colour) colours.insert(*group.colour);
+    if (!group.material.empty()) names.insert(group.material);
+  }
   if (colours.size() > 1)
-    reader.diagnostics.warning(
+    return reader.diagnostics.warning(
         reader.where,
         "the mesh \"" + path + "\" has bodies of " + std::to_string(colours.size()) +
             " colours, which become one material",
         "write " + spelled::parameter("materials", "\"colours\"") + " to take the materials of the nearest colours");
+  if (names.size() > 1)
+    reader.diagnostics.warning(
+        reader.where, "the mesh \"" + path + "\" has " + std::to_string(names.size()) + " materials, which become one",
+        "write " + spelled::parameter("materials", "\"names\"") + " to take the materials of these names, or " +
+            "surface_colour(\"" + path + "\").colour for the colours of its .mtl file");
 }
 
 std::optional<std::vector<sources::MaterialMesh>> cut_by_use(const std::string& path, formats::Mesh mesh,
