@@ -109,9 +109,9 @@ bool DesignGraph::needs(size_t item, size_t other) const {
   const auto add = [&](size_t number) {
     if (std::ranges::find(found, number) == found.end()) found.push_back(number);
   };
-  size_t looked_at = 0;
-  while (looked_at < found.size()) {
-    const size_t at = found[looked_at++];
+  size_t next = 0;
+  while (next < found.size()) {
+    const size_t at = found[next++];
     if (at == other) return true;
     for (const size_t input : items_[at].inputs) add(input);
     for (const DesignWire& wire : wires_)
