@@ -5,7 +5,7 @@ import { state } from "../store";
 import { Nest, NumberAt, isNumberAt, readNumbers } from "./numbers";
 import { Ray, Vec, acrossTo, alongLine, cross, dot, lengthOf, onBall, onPlane, plus, times, turnedAbout, unit } from "./space";
 
-// Where a number stands in the script: an argument of an item, and a place in its text.
+// The place of a number in the script: an argument of an item, and a place in its text.
 interface Where {
   item: number;
   index?: number; // none if the call does not give the argument yet
@@ -42,7 +42,7 @@ export interface Key {
   sign: number;
 }
 
-// What a call says about the frame of its handles.
+// The frame of a call's handles, as its arguments say.
 interface Surroundings {
   centre: Vec;
   axis?: Vec;

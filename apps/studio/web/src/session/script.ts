@@ -25,7 +25,7 @@ export function setEditor(made: Editor) {
   editor = made;
 }
 
-// Those who follow the caret, such as the handles of the call where it stands.
+// Functions that are called when the caret moves, for example by the handles of the call where it stands.
 const followers = new Set<() => void>();
 
 export function followCaret(follower: () => void): () => void {
