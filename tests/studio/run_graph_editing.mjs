@@ -89,8 +89,25 @@ await test({ files: {}, place: folder, viewport: { width: 1600, height: 900 } },
     await textIs(before);
   },
 
+  async "an edit is of the card that was seen, though the text changes before it"() {
+    const before = await text();
+    await choose("number");
+    await until(async () => (await text()) !== before, "a variable");
+    const longer = await text();
+    await card("cylinder").focus();
+    await page.keyboard.press("Control+z");
+    await textIs(before);
+    await untilOnPage(() => !document.querySelector('.card[aria-label^="number,"]'));
+    await card("cylinder").focus();
+    await page.keyboard.press("Control+y"); // the cylinder has another number in the graph from here on
+    await page.keyboard.press("Delete");
+    await textIs(longer.replace(/cylinder.*\n/, ""));
+    await page.locator(".stage.canvas").focus();
+    for (let n = 0; n < 2; ++n) await page.keyboard.press("Control+z");
+    await textIs(before);
+  },
+
   async "calls become a module with parameters"() {
-    await status("[data-old=false][data-busy=false]"); // the graph is that of the text
     await card("cylinder").locator(".title").click();
     await page.waitForSelector('.card.selected[aria-label^="cylinder,"]');
     await page.click("text=Group…");

@@ -107,7 +107,7 @@ async function addNode(node: NodeType, where: Where, item?: number): Promise<str
 
 // Makes a module of calls; their plain numbers become its parameters.
 async function group(cards: Card[]) {
-  const text = editor!.text();
+  const text = editor!.text(), seen = state.graph;
   const chosen = await ask({ title: "Make a group", text: "The calls become a module of this name. Their numbers become its parameters.", name: freeName("group", text), buttons: ["Group"] });
   if (!chosen) return;
   const names: string[] = [];
@@ -116,7 +116,7 @@ async function group(cards: Card[]) {
     names.push(freeName(input.name, [...names, chosen.name, ...state.graph!.items.map((item) => item.variable)].join(" ")));
     return { item: card.item, argument: input.index! };
   }));
-  await editGraph({ edit: "group", items: cards.map((card) => card.item), name: chosen.name, parameter_items: parameters.map((p) => p.item), parameter_arguments: parameters.map((p) => p.argument), parameter_names: names });
+  await editGraph({ edit: "group", items: cards.map((card) => card.item), name: chosen.name, parameter_items: parameters.map((p) => p.item), parameter_arguments: parameters.map((p) => p.argument), parameter_names: names }, "input", seen);
 }
 
 // A module at the top level, which may become a library.

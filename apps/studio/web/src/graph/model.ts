@@ -1,6 +1,6 @@
 // The cards of a graph: what each shows of a call, its inputs and its outputs.
 import { nodeCalled } from "../language";
-import { GraphItem, ScriptGraph } from "../session/graph";
+import { GraphItem, ScriptGraph, keysOf } from "../session/graph";
 import { NodeType, Variable, state } from "../store";
 
 export type PortType = "solid" | "number" | "vector" | "mixture" | "text" | "truth" | "other";
@@ -116,8 +116,6 @@ function outputsOf(item: GraphItem, type: NodeType | undefined): Output[] {
 }
 
 const word = (item: GraphItem) => (item.kind === "part" ? "part" : item.callee || item.variable || "value");
-// Names of nodes and parts may be the same.
-const keyOf = (item: GraphItem) => (item.kind === "part" ? `part ${item.variable}` : item.variable || item.callee);
 const takesSolids = (item: GraphItem, type: NodeType | undefined) =>
   item.kind === "group" || item.kind === "part" || ((item.kind === "call" || item.kind === "node") && (!type || type.inputs.most !== 0));
 // Items that have a name which a person may change.
@@ -125,15 +123,9 @@ export const isNamed = (item: GraphItem) => item.kind === "variable" || item.kin
 
 // Returns the cards of a graph. Items in groups are there only if their group is open.
 export function cardsOf(graph: ScriptGraph, isOpen: (key: string) => boolean): Card[] {
-  const keys: string[] = [];
-  const counts = new Map<string, number>();
+  const keys = keysOf(graph);
   const cards = new Map<number, Card>();
   graph.items.forEach((item, n) => {
-    const above = item.parent === undefined ? "" : keys[item.parent];
-    const name = `${above}/${keyOf(item)}`;
-    const count = counts.get(name) ?? 0;
-    counts.set(name, count + 1);
-    keys.push(count === 0 ? name : `${name}#${count}`);
     if (!isCard(graph, item)) return;
     for (let at = item.parent; at !== undefined; at = graph.items[at].parent)
       if (graph.items[at].kind === "group" && !isOpen(keys[at])) {

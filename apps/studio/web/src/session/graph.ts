@@ -45,6 +45,21 @@ export interface ScriptGraph {
 // An edit of the kind `edit`, with the members that docs/reference/studio-api.md lists for it.
 export type Edit = { edit: string } & Record<string, unknown>;
 
+// Returns keys of the items, made of their names and those around them, which stay the same when others come and go.
+export function keysOf(graph: ScriptGraph): string[] {
+  const keys: string[] = [];
+  const counts = new Map<string, number>();
+  for (const item of graph.items) {
+    const above = item.parent === undefined ? "" : keys[item.parent];
+    // Names of nodes and parts may be the same.
+    const name = `${above}/${item.kind === "part" ? `part ${item.variable}` : item.variable || item.callee}`;
+    const count = counts.get(name) ?? 0;
+    counts.set(name, count + 1);
+    keys.push(count === 0 ? name : `${name}#${count}`);
+  }
+  return keys;
+}
+
 const file = () => state.file || "untitled.vcad";
 const graphOf = (text: string, reply: Reply): ScriptGraph => ({ text, items: reply.items, definitions: reply.definitions, is_cut: reply.is_cut });
 const reasonIn = (reply: Reply) => reply.diagnostics.map((d: any) => (d.hint ? `${d.message}; ${d.hint}` : d.message)).join("\n");
@@ -64,18 +79,38 @@ export async function readGraph() {
 
 let edits: Promise<boolean> = Promise.resolve(true);
 
-// Makes an edit after those before it. Returns true if it was made; else the page says why not.
-export function editGraph(edit: Edit, event: EditEvent = "input"): Promise<boolean> {
-  edits = edits.then(() => editNow(edit, event));
+// Makes an edit of the items of the graph `seen` after the edits before it. Returns true if it was made; else the page says
+// why not.
+export function editGraph(edit: Edit, event: EditEvent = "input", seen = state.graph): Promise<boolean> {
+  edits = edits.then(() => editNow(edit, seen, event));
   return edits;
 }
 
-async function editNow(edit: Edit, event: EditEvent): Promise<boolean> {
-  const text = editor!.text();
+const isMeanwhile = "the text was changed meanwhile; do it again";
+
+// Returns the edit, which was made of the graph `seen`, with the numbers that its items have in the graph of the text now.
+async function ofTextNow(edit: Edit, seen: ScriptGraph | undefined): Promise<Edit> {
+  if (!seen || seen.text === editor!.text()) return edit;
+  await readGraph();
+  if (state.graph?.text !== editor!.text()) throw new Error(isMeanwhile);
+  const before = keysOf(seen), now = keysOf(state.graph!);
+  const renumbered = (items: unknown): unknown => {
+    if (Array.isArray(items)) return items.map(renumbered);
+    const at = now.indexOf(before[items as number]);
+    if (at < 0) throw new Error(isMeanwhile);
+    return at;
+  };
+  const moved = ["item", "source", "into", "items", "parameter_items"].filter((name) => edit[name] !== undefined);
+  return { ...edit, ...Object.fromEntries(moved.map((name) => [name, renumbered(edit[name])])) };
+}
+
+async function editNow(made: Edit, seen: ScriptGraph | undefined, event: EditEvent): Promise<boolean> {
   try {
+    const edit = await ofTextNow(made, seen);
+    const text = editor!.text();
     const reply = await connection.ask("edit_graph", { file: file(), text, ...edit }).answer;
     if (!reply.ok) throw new Error(reasonIn(reply));
-    if (editor!.text() !== text) throw new Error("the text was changed meanwhile; do it again");
+    if (editor!.text() !== text) throw new Error(isMeanwhile);
     if (reply.library) await writeLibrary(edit.path as string, reply.library);
     editor!.apply(reply.steps, event);
     set({ graph: graphOf(editor!.text(), reply), graphProblem: "", graphMade: reply.made });
