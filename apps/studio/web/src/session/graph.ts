@@ -67,14 +67,22 @@ const reasonIn = (reply: Reply) => reply.diagnostics.map((d: any) => (d.hint ? `
 export const hasGraph = () => state.kind === "" && !/\.(py|scad)$/i.test(state.file);
 export const isDesignFile = () => /\.json$/i.test(state.file);
 
+let reading: { text: string; isRead: Promise<void> } | undefined;
+
 // Reads the graph of the text, if it is not known yet.
 export async function readGraph() {
   if (!editor || !connection.isOpen || !hasGraph()) return;
   const text = editor.text();
   if (state.graph?.text === text) return;
+  if (reading?.text !== text) reading = { text, isRead: readGraphOf(text) };
+  const now = reading;
+  await now.isRead;
+  if (reading === now) reading = undefined;
+}
+
+async function readGraphOf(text: string) {
   const reply = await connection.ask("script_graph", { file: file(), text }, "graph").answer.catch(() => undefined);
-  if (!reply || editor.text() !== text) return;
-  if (reply.ok) set({ graph: graphOf(text, reply), graphProblem: "" });
+  if (reply?.ok && editor!.text() === text) set({ graph: graphOf(text, reply), graphProblem: "" });
 }
 
 let edits: Promise<boolean> = Promise.resolve(true);
@@ -90,7 +98,8 @@ const isMeanwhile = "the text was changed meanwhile; do it again";
 
 // Returns the edit, which was made of the graph `seen`, with the numbers that its items have in the graph of the text now.
 async function ofTextNow(edit: Edit, seen: ScriptGraph | undefined): Promise<Edit> {
-  if (!seen || seen.text === editor!.text()) return edit;
+  const members = ["item", "source", "into", "items", "parameter_items"].filter((name) => edit[name] !== undefined);
+  if (!seen || members.length === 0 || seen.text === editor!.text()) return edit;
   await readGraph();
   if (state.graph?.text !== editor!.text()) throw new Error(isMeanwhile);
   const before = keysOf(seen), now = keysOf(state.graph!);
@@ -100,8 +109,7 @@ async function ofTextNow(edit: Edit, seen: ScriptGraph | undefined): Promise<Edi
     if (at < 0) throw new Error(isMeanwhile);
     return at;
   };
-  const moved = ["item", "source", "into", "items", "parameter_items"].filter((name) => edit[name] !== undefined);
-  return { ...edit, ...Object.fromEntries(moved.map((name) => [name, renumbered(edit[name])])) };
+  return { ...edit, ...Object.fromEntries(members.map((name) => [name, renumbered(edit[name])])) };
 }
 
 async function editNow(made: Edit, seen: ScriptGraph | undefined, event: EditEvent): Promise<boolean> {
