@@ -85,11 +85,9 @@ JOBS = [
         "--setting fill_density=10%..60% -o {out}/part.3mf"),
     job("mesh-bambu", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials --flavour bambu "
         "-o {out}/part.3mf"),
-    job("mesh-obj", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.obj"),
-    job("mesh-ply", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.ply"),
     job("mesh-off", "examples", "ombre mesh {small} --tolerance {tolerance} --keep-all -o {out}/part.off"),
-    job("mesh-amf", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.amf"),
-    job("mesh-glb", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part.glb"),
+    *(job(f"mesh-{ending}", "examples", "ombre mesh {small} --tolerance {tolerance} --by materials -o {out}/part." + ending)
+      for ending in ("obj", "ply", "amf", "glb")),
     job("contours-svg", MANY, "ombre contours {small} --tolerance {tolerance} --layer-height {height} --by materials "
         "-o {out}/layers"),
     job("contours-cli", "examples", "ombre contours {small} --tolerance {tolerance} --layer-height {height} "

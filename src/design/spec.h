@@ -21,6 +21,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 
 #include "base/system/assert.h"
 #include "design/registry.h"
@@ -35,8 +36,10 @@ concept HasComposition = requires(const T& t, const Inputs& in, const Point& p) 
 
 template <class T>
 struct Parameter {
-  template <class M>
-  Parameter(std::string_view name_, M T::*member, std::string_view doc_, Domain domain_ = {})
+  // The member may be one of a base class of T.
+  template <class M, class Owner>
+  requires std::derived_from<T, Owner> Parameter(std::string_view name_, M Owner::*member, std::string_view doc_,
+                                                 Domain domain_ = {})
       : name(name_), doc(doc_), domain(std::move(domain_)) {
     static_assert(std::is_object_v<M>, "a parameter is a member, not a method");
     static_assert(IsPort<M>, "a type of parameters has a Port (design/ports/port.h)");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -186,9 +187,13 @@ Row<Job> group(Part Job::*part, const Spec<Part>& spec) {
   }
   return row;
 }
-template <class Job, class Part>
-Row<Job> group(Part Job::*part) {
-  return group(part, Part::options());
+// Returns the options of several such structs, one after another.
+template <class Job, class... Parts>
+Row<Job> group(Parts Job::*... parts) {
+  Row<Job> row;
+  const auto append = [&](std::vector<Option> options) { std::ranges::move(options, std::back_inserter(row.options)); };
+  (append(group(parts, Parts::options()).options), ...);
+  return row;
 }
 
 }  // namespace ombre::options

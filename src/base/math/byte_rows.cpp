@@ -277,20 +277,15 @@ namespace ombre {
 
 namespace {
 
-std::vector<ByteRowSet> find_sets() {
-  std::vector<ByteRowSet> found;
-#if HWY_ARCH_X86
-  const InstructionSets has = instruction_sets();
-  if (has.avx512) found.push_back(N_AVX3::byte_rows_here());
-  if (has.avx2) found.push_back(N_AVX2::byte_rows_here());
-  if (has.sse4) found.push_back(N_SSE4::byte_rows_here());
-#endif
-  found.push_back(HWY_STATIC_DISPATCH(byte_rows_here)());
-  return found;
-}
-
 const std::vector<ByteRowSet>& sets() {
-  static const std::vector<ByteRowSet> found = find_sets();
+  static const auto found = sets_for_processor<ByteRowSet>(
+      {
+#if HWY_ARCH_X86
+        {&InstructionSets::avx512, N_AVX3::byte_rows_here}, {&InstructionSets::avx2, N_AVX2::byte_rows_here},
+            {&InstructionSets::sse4, N_SSE4::byte_rows_here},
+#endif
+      },
+      HWY_STATIC_DISPATCH(byte_rows_here));
   return found;
 }
 

@@ -5,11 +5,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "base/math/math_rows.cpp"
-#if OMBRE_WIDE_SLEEF
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
-#else
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL)
-#endif
+#define HWY_DISABLED_TARGETS OMBRE_SETS_WITHOUT_SLEEF
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
@@ -77,15 +73,13 @@ HWY_AFTER_NAMESPACE();
 namespace ombre::math {
 
 const std::vector<RowFunctions>& row_functions() {
-  static const std::vector<RowFunctions> sets = [] {
-    std::vector<RowFunctions> found;
+  static const auto sets = sets_for_processor<RowFunctions>(
+      {
 #if OMBRE_WIDE_SLEEF
-    if (instruction_sets().avx512) found.push_back(N_AVX3::row_functions_here());
-    if (instruction_sets().avx2) found.push_back(N_AVX2::row_functions_here());
+        {&InstructionSets::avx512, N_AVX3::row_functions_here}, {&InstructionSets::avx2, N_AVX2::row_functions_here},
 #endif
-    found.push_back(HWY_STATIC_DISPATCH(row_functions_here)());
-    return found;
-  }();
+      },
+      HWY_STATIC_DISPATCH(row_functions_here));
   return sets;
 }
 

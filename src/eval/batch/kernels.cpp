@@ -6,12 +6,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "eval/batch/kernels.cpp"
-// Compiles only instruction sets with fused multiply-add, and the portable version.
-#if OMBRE_WIDE_SLEEF
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
-#else
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX2 | HWY_AVX3 | HWY_AVX3_DL)
-#endif
+#define HWY_DISABLED_TARGETS OMBRE_SETS_WITHOUT_SLEEF
 #include <hwy/foreach_target.h>
 //
 #include "eval/batch/intervals-inl.h"
@@ -152,16 +147,18 @@ HWY_AFTER_NAMESPACE();
 namespace ombre::eval {
 
 const std::vector<KernelSet>& kernel_sets() {
-  static const std::vector<KernelSet> sets = [] {
-    std::vector<KernelSet> found;
 #if OMBRE_WIDE_SLEEF
-    if (instruction_sets().avx512) found.push_back(N_AVX3::kernels_here());
-    if (instruction_sets().avx2) found.push_back(N_AVX2::kernels_here());
-    if (found.empty()) return found;
-#endif
-    found.push_back(HWY_STATIC_DISPATCH(kernels_here)());
+  // There are no batches on a processor without fused multiply-add.
+  static const auto sets = [] {
+    auto found = sets_for_processor<KernelSet>(
+        {{&InstructionSets::avx512, N_AVX3::kernels_here}, {&InstructionSets::avx2, N_AVX2::kernels_here}},
+        HWY_STATIC_DISPATCH(kernels_here));
+    if (found.size() == 1) found.clear();
     return found;
   }();
+#else
+  static const std::vector<KernelSet> sets{HWY_STATIC_DISPATCH(kernels_here)()};
+#endif
   return sets;
 }
 

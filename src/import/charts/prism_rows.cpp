@@ -146,13 +146,13 @@ const PrismKernels& best_kernels() {
 }  // namespace
 
 std::vector<PrismKernels> prism_kernels() {
-  std::vector<PrismKernels> found;
+  return sets_for_processor<PrismKernels>(
+      {
 #if HWY_ARCH_X86
-  if (instruction_sets().avx512) found.push_back(N_AVX3::prism_kernels_here());
-  if (instruction_sets().avx2) found.push_back(N_AVX2::prism_kernels_here());
+        {&InstructionSets::avx512, N_AVX3::prism_kernels_here}, {&InstructionSets::avx2, N_AVX2::prism_kernels_here},
 #endif
-  found.push_back(HWY_STATIC_DISPATCH(prism_kernels_here)());
-  return found;
+      },
+      HWY_STATIC_DISPATCH(prism_kernels_here));
 }
 
 size_t find_places(const PrismNumbers& prism, Interval heights, double least_share, PrismRow& row, size_t count) {

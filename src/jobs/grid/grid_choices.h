@@ -22,8 +22,7 @@ struct GridChoices {
   static const options::Spec<GridChoices>& options() {
     using namespace options;
     static const options::Spec<GridChoices> rows{
-        group(&GridChoices::design),
-        group(&GridChoices::sampling),
+        group(&GridChoices::design, &GridChoices::sampling),
         option("-o,--output", &GridChoices::output, kind::file, "The file to write; its ending says the format", "FILE")
             .required(),
         option("--what", &GridChoices::what, kind::text,

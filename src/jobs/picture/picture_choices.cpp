@@ -87,31 +87,30 @@ std::pair<std::string, double> parse_opacity(const std::string& text, const std:
 }
 
 PictureRequest PictureChoices::request() const {
-  PictureRequest request;
-  request.width = size[0];
-  request.height = size[1];
-  request.view = render::named_view(view).value();
+  render::ViewOptions shown = render::named_view(view).value();
   if (angles_deg) {
-    request.view.azimuth_deg = (*angles_deg)[0];
-    request.view.elevation_deg = (*angles_deg)[1];
+    shown.azimuth_deg = (*angles_deg)[0];
+    shown.elevation_deg = (*angles_deg)[1];
   }
-  request.view.field_of_view_deg = perspective_deg;
-  request.view.zoom = zoom;
-  request.box = box;
-  request.background = background;
-  request.cuts = cuts;
-  request.slice = slice;
-  request.opacity = opacity;
-  request.by = by;
-  request.palette = palette;
-  request.range = range;
-  request.annotations = {axes || annotate, scale_bar || annotate, legend || annotate, font};
-  request.overlays = {outlines, names};
-  request.samples = samples;
-  request.frames = frames;
-  request.threads = work.threads;
-  request.memory_bytes = work.memory_bytes;
-  return request;
+  shown.field_of_view_deg = perspective_deg;
+  shown.zoom = zoom;
+  return {.width = size[0],
+          .height = size[1],
+          .samples = samples,
+          .view = shown,
+          .slice = slice,
+          .cuts = cuts,
+          .box = box,
+          .opacity = opacity,
+          .by = by,
+          .palette = palette,
+          .range = range,
+          .background = background,
+          .annotations = {axes || annotate, scale_bar || annotate, legend || annotate, font},
+          .overlays = {outlines, names},
+          .frames = frames,
+          .threads = work.threads,
+          .memory_bytes = work.memory_bytes};
 }
 
 }  // namespace ombre::compile

@@ -56,16 +56,16 @@ struct PictureRequest {
   // Colours by this material's fraction, this attribute, or "parts"; empty: the materials' own.
   std::string by;
   std::string palette;  // one of palettes(); empty: the default one
-  std::optional<Interval>
-      range;  // range of the colours; nothing: from the least to the greatest value inside, for a fraction 0 to 1
+  // Range of the colours; nothing: from the least to the greatest value inside, for a fraction 0 to 1.
+  std::optional<Interval> range;
   render::Background background;
   AnnotationRequest annotations;
   OverlayRequest overlays;
   int frames = 1;  // around the part
   int threads = 0;
-  size_t memory_bytes = size_t{4} << 30;  // for rays, pixels and stages
-  // Memory that keeps results of sub-designs for other pictures; null: they are not kept. It must outlive the request.
+  size_t memory_bytes = size_t{4} << 30;           // for rays, pixels and stages
   std::function<bool(int frame)> wants = nullptr;  // takes no picture of frames for which it returns false
+  // Memory that keeps results of sub-designs for other pictures; null: they are not kept. It must outlive the request.
   design::SubDesignMemory* memory = nullptr;
 };
 

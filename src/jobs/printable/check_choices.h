@@ -24,9 +24,7 @@ struct CheckChoices {
   static const options::Spec<CheckChoices>& options() {
     using namespace options;
     static const options::Spec<CheckChoices> spec{
-        group(&CheckChoices::design),
-        group(&CheckChoices::sampling),
-        group(&CheckChoices::calibrations),
+        group(&CheckChoices::design, &CheckChoices::sampling, &CheckChoices::calibrations),
         option("--details", &CheckChoices::details_mm, kind::length,
                "Walls and gaps below this thickness fail (default: what the printer's profile says); mm", "MM"),
         option("--overhang", &CheckChoices::overhang_degrees, kind::number,

@@ -27,10 +27,7 @@ struct SliceChoices {
   static const options::Spec<SliceChoices>& options() {
     using namespace options;
     static const options::Spec<SliceChoices> spec{
-        group(&SliceChoices::design),
-        group(&SliceChoices::sampling),
-        group(&SliceChoices::images),
-        group(&SliceChoices::calibrations),
+        group(&SliceChoices::design, &SliceChoices::sampling, &SliceChoices::images, &SliceChoices::calibrations),
         option(
             "-o,--output", &SliceChoices::folder, kind::file,
             "Folder for the layers, or a .zip archive of them (default: a folder with the design's name and _slices)",
@@ -89,10 +86,7 @@ struct LayerChoices {
   static const options::Spec<LayerChoices>& options() {
     using namespace options;
     static const options::Spec<LayerChoices> spec{
-        group(&LayerChoices::design),
-        group(&LayerChoices::sampling),
-        group(&LayerChoices::images),
-        group(&LayerChoices::calibrations),
+        group(&LayerChoices::design, &LayerChoices::sampling, &LayerChoices::images, &LayerChoices::calibrations),
         option("-o,--output", &LayerChoices::output, kind::file,
                "The image to write, - for stdout (default: the names of the design and of the layer's file)", "FILE"),
         option("--z", &LayerChoices::z_mm, kind::height, "The layer at this height of the design; mm", "MM"),

@@ -345,20 +345,22 @@ struct Assign : Statement {
   ExprPtr value;
 };
 
-struct FunctionDef : Statement {
-  explicit FunctionDef(Span s) : Statement(Kind::function, s) {}
+// A function or a module.
+struct Definition : Statement {
+  using Statement::Statement;
   Name name;
   std::vector<Parameter> parameters;
-  ExprPtr body;
   std::shared_ptr<const Declaration> declaration;  // null if comments declare nothing
 };
 
-struct ModuleDef : Statement {
-  explicit ModuleDef(Span s) : Statement(Kind::module, s) {}
-  Name name;
-  std::vector<Parameter> parameters;
+struct FunctionDef : Definition {
+  explicit FunctionDef(Span s) : Definition(Kind::function, s) {}
+  ExprPtr body;
+};
+
+struct ModuleDef : Definition {
+  explicit ModuleDef(Span s) : Definition(Kind::module, s) {}
   Block body;
-  std::shared_ptr<const Declaration> declaration;  // null if comments declare nothing
 };
 
 struct Include : Statement {

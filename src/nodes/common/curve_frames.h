@@ -114,6 +114,14 @@ class CurveFrames final : public program::FieldSource {
   Hash content_;
 };
 
+// Parameters of nodes along a curve.
+struct CurveParameters {
+  design::Points points;
+  Vec3 toward{0, 0, 1};
+  bool is_closed = false;
+  std::shared_ptr<CurveFrames> curve;  // made with the node
+};
+
 // Returns a node's curve through 2 to 1000 points, or from 3 if it is closed, of which equal neighbours count once.
 // Reports other numbers of points and returns null.
 std::shared_ptr<CurveFrames> smooth_curve(const design::Points& points, const CurveRule& rule,

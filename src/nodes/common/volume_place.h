@@ -27,37 +27,33 @@ struct VolumePlace {
   // Returns the parameters of T, which must derive from this class.
   template <class T>
   static std::vector<design::Parameter<T>> with_place(std::vector<design::Parameter<T>> others) {
-    const auto own = [](auto VolumePlace::*member) {
-      return static_cast<std::remove_reference_t<decltype(std::declval<VolumePlace>().*member)> T::*>(member);
-    };
     std::vector<design::Parameter<T>> all{
-        {"path", own(&VolumePlace::path),
+        {"path", &VolumePlace::path,
          "The file, or a folder of DICOM files or of images; relative to the script, then to the working directory",
          design::required()}};
     for (auto& parameter : others) all.push_back(std::move(parameter));
-    all.emplace_back("spacing", own(&VolumePlace::spacing), "Size of a voxel; none: that of the file",
+    all.emplace_back("spacing", &VolumePlace::spacing, "Size of a voxel; none: that of the file",
                      design::unit::positive_mm);
-    all.emplace_back("origin", own(&VolumePlace::origin), "Centre of the first voxel; none: that of the file",
+    all.emplace_back("origin", &VolumePlace::origin, "Centre of the first voxel; none: that of the file",
                      design::unit::mm);
-    all.emplace_back("space", own(&VolumePlace::space),
+    all.emplace_back("space", &VolumePlace::space,
                      "Coordinate system: the file's own; RAS or LPS, if the file states its own; or index, the voxels' "
                      "numbers from 0 along each axis, in mm",
                      design::one_of({"file", "RAS", "LPS", "index"}));
-    all.emplace_back("series", own(&VolumePlace::series),
+    all.emplace_back("series", &VolumePlace::series,
                      "Number or UID of one of several DICOM series in a folder, or name of one of several grids in a "
                      ".vdb or .vti file");
     all.emplace_back(
-        "channel", own(&VolumePlace::voxel_channel),
+        "channel", &VolumePlace::voxel_channel,
         "Index of one of several values per voxel, from 0; -1: the only one, or the length of vectors in a .vdb file",
         design::from_to(-1, 100000));
-    all.emplace_back("phase", own(&VolumePlace::phase),
+    all.emplace_back("phase", &VolumePlace::phase,
                      "Number, from 1, of one of several volumes at the same place, such as the times of a scan; 0: the "
                      "only one",
                      design::from_to(0, 100000));
-    all.emplace_back("nan", own(&VolumePlace::nan),
-                     "Value in place of NaN (no number) in the file; none: NaN is an error");
+    all.emplace_back("nan", &VolumePlace::nan, "Value in place of NaN (no number) in the file; none: NaN is an error");
     all.emplace_back(
-        "regular", own(&VolumePlace::is_regular),
+        "regular", &VolumePlace::is_regular,
         "Resamples slices of a scan at uneven distances, or with missing ones, linearly to even distances");
     return all;
   }

@@ -10,7 +10,6 @@ using namespace design;
 
 Field (*const greatest)(Field, Field) = program::max;
 
-Domain overlap_choices() { return one_of({"mix", "first", "last"}); }
 constexpr std::string_view overlap_doc =
     "Composition where children overlap: mix, the mean of all, or that of the first or last child";
 constexpr std::string_view union_overlap_doc =
@@ -60,20 +59,34 @@ Metric blended_metric(const Inputs& in, const Blend& blend) {
   return blend.radius.constant() ? Metric::bounded(metric.lipschitz * blend.lipschitz(in.count())) : Metric::implicit();
 }
 
-struct Union {
-  Choice materials = "mix";
+// The shape of the seams of several solids.
+struct Seams {
   Number blend_radius = 0;
   Choice join = "round";
+
+  Blend blend() const { return {blend_radius, join == "chamfer"}; }
+  bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
+  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
+};
+
+struct JoinedSolids : Seams {
+  Choice materials = "mix";
   std::vector<NamedWord> attribute_words;
 
+  // Returns the parameters of T, which derives from this class.
+  template <class T>
+  static std::vector<Parameter<T>> parameters(std::string_view about_materials, Domain rules_of_materials) {
+    return {{"materials", &T::materials, about_materials, std::move(rules_of_materials)},
+            {"blend", &T::blend_radius, blend_doc, unit::not_negative_mm},
+            {"join", &T::join, join_doc, join_choices()},
+            {"attributes", &T::attribute_words, attributes_doc, attribute_rules()}};
+  }
+};
+
+struct Union : JoinedSolids {
   static Spec<Union> spec() {
-    return {"union",
-            "The union of its children: all points that are in at least one of them.",
-            {{"materials", &Union::materials, union_overlap_doc, one_of({"mix", "first", "last", "blend"})},
-             {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
-             {"join", &Union::join, join_doc, join_choices()},
-             {"attributes", &Union::attribute_words, attributes_doc, attribute_rules()}},
-            many_solids,
+    return {"union", "The union of its children: all points that are in at least one of them.",
+            parameters<Union>(union_overlap_doc, one_of({"mix", "first", "last", "blend"})), many_solids,
             "union(blend=1) { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
   }
 
@@ -83,12 +96,9 @@ struct Union {
                          "write for example " + spelled::call("union", {{"blend", "1"}, {"materials", "\"blend\""}}));
   }
 
-  Blend blend() const { return {blend_radius, join == "chamfer"}; }
-  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
-
   Box reach(const Inputs& in, const Box& where, double margin) const {
     Box box;
-    if (blend().is_plain() || in.count() == 1) {
+    if (is_sharp(in)) {
       for (size_t i = 0; i < in.count(); ++i) box = hull(box, in.reach(i, where, margin));
       return box;
     }
@@ -102,14 +112,14 @@ struct Union {
 
   Field distance(const Inputs& in, const Point& p) const {
     const Field least = program::fold(in.distances(p), program::min);
-    if (blend().is_plain() || in.count() == 1) return least;
+    if (is_sharp(in)) return least;
     const Field total = program::sum(weights(in, p, blend().falloff()));
     return blend().distance(total, least, p);
   }
 
   Field membership(const Inputs& in, const Point& p, Border border) const {
     const PartQuery part_query = border == Border::included ? query() : PartQuery::interior;
-    if (!blend().is_plain() && in.count() > 1) {
+    if (!is_sharp(in)) {
       const Influence all = influence_of(in, p, part_query, blend().falloff());
       return blend().membership(all.total, all.any, p, border);
     }
@@ -206,26 +216,12 @@ struct Carved {
   }
 };
 
-struct Intersection {
-  Choice materials = "mix";
-  Number blend_radius = 0;
-  Choice join = "round";
-  std::vector<NamedWord> attribute_words;
-
+struct Intersection : JoinedSolids {
   static Spec<Intersection> spec() {
-    return {"intersection",
-            "The intersection of its children: all points that are in every one of them.",
-            {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
-             {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
-             {"join", &Intersection::join, join_doc, join_choices()},
-             {"attributes", &Intersection::attribute_words, attributes_doc, attribute_rules()}},
-            grouped_solids(OfNothing::gives_nothing),
-            "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
+    return {"intersection", "The intersection of its children: all points that are in every one of them.",
+            parameters<Intersection>(overlap_doc, one_of({"mix", "first", "last"})),
+            grouped_solids(OfNothing::gives_nothing), "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
-
-  Blend blend() const { return {blend_radius, join == "chamfer"}; }
-  bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
-  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
   // Children without bounds are evaluated within the bounds of the others.
   Box reach(const Inputs& in, const Box& where, double margin) const {
@@ -265,10 +261,7 @@ struct Intersection {
   }
 };
 
-struct Difference {
-  Number blend_radius = 0;
-  Choice join = "round";
-
+struct Difference : Seams {
   static Spec<Difference> spec() {
     return {"difference",
             "Its first child without all others: the points that are in the first and in none of the others.",
@@ -277,10 +270,6 @@ struct Difference {
             grouped_solids(OfNothing::cuts_nothing),
             "difference() { cube(8, \"red\"); cylinder(2, 10); }"};
   }
-
-  Blend blend() const { return {blend_radius, join == "chamfer"}; }
-  bool is_sharp(const Inputs& in) const { return blend().is_plain() || in.count() == 1; }
-  Metric metric(const Inputs& in) const { return blended_metric(in, blend()); }
 
   Field distance(const Inputs& in, const Point& p) const {
     if (!is_sharp(in)) return carved(in, p).distance(p);

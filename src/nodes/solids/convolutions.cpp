@@ -63,11 +63,27 @@ bool check_attributes(const Reader& reader, const NodePtr& child, const std::vec
 constexpr const char* about_attributes = "Names of attributes that are filtered, too";
 constexpr const char* about_void = "Counts voxels outside the child as void; else only voxels inside count";
 
-struct VoxelBlend {
-  Counts3 size{3, 3, 3};
+// A filter of compositions whose sums are made by a stage.
+struct Filter {
   bool count_void = false;
   std::optional<Vec3> pitch;
-  StagePtr sums;  // set when the node is made
+  StagePtr stage;  // set when the node is made
+
+  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
+    return filtered_composition(in, p, demand, stage, count_void);
+  }
+};
+
+struct AttributeFilter : Filter {
+  std::vector<std::string> attributes;
+
+  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
+    return filtered_attribute(in, name, p, demand, stage, attributes);
+  }
+};
+
+struct VoxelBlend : Filter {
+  Counts3 size{3, 3, 3};
 
   static Spec<VoxelBlend> spec() {
     return {
@@ -82,35 +98,13 @@ struct VoxelBlend {
   }
 
   bool complete(const Reader&, const std::vector<NodePtr>& inputs) {
-    sums = make_box_sums(inputs[0], {size, count_void, pitch});
+    stage = make_box_sums(inputs[0], {size, count_void, pitch});
     return true;
   }
-
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return filtered_composition(in, p, demand, sums, count_void);
-  }
 };
 
-// A filter of compositions and attributes whose sums are made by the stage of the node.
-template <class Node>
-struct Filter {
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return filtered_composition(in, p, demand, node().stage, node().count_void);
-  }
-  Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
-    return filtered_attribute(in, name, p, demand, node().stage, node().attributes);
-  }
-
- private:
-  const Node& node() const { return static_cast<const Node&>(*this); }
-};
-
-struct Convolve : Filter<Convolve> {
+struct Convolve : AttributeFilter {
   Kernel kernel;
-  bool count_void = false;
-  std::vector<std::string> attributes;
-  std::optional<Vec3> pitch;
-  StagePtr stage;
 
   static Spec<Convolve> spec() {
     return {
@@ -165,13 +159,9 @@ bool check_width(const Reader& reader, double sigma, const std::optional<Vec3>& 
 
 LinearFilter gaussian_in(const Width& width, Vec3 cell_mm) { return LinearFilter::gaussian(width.in_cells(cell_mm)); }
 
-struct Gaussian : Filter<Gaussian> {
+struct Gaussian : AttributeFilter {
   double sigma = 0;
   std::optional<Vec3> sigma_voxels;
-  bool count_void = false;
-  std::vector<std::string> attributes;
-  std::optional<Vec3> pitch;
-  StagePtr stage;
 
   static Spec<Gaussian> spec() {
     return {"gaussian",
@@ -225,11 +215,8 @@ struct Sharpen {
   }
 };
 
-struct Majority {
+struct Majority : Filter {
   Counts3 size{3, 3, 3};
-  bool count_void = false;
-  std::optional<Vec3> pitch;
-  StagePtr stage;
 
   static Spec<Majority> spec() {
     return {
@@ -245,10 +232,6 @@ struct Majority {
   bool complete(const Reader&, const std::vector<NodePtr>& inputs) {
     stage = make_majority_stage(inputs[0], {true, count_void, {}, pitch}, size);
     return true;
-  }
-
-  Composition composition(const Inputs& in, const Point& p, Demand demand) const {
-    return filtered_composition(in, p, demand, stage, count_void);
   }
 };
 

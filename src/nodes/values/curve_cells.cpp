@@ -12,14 +12,10 @@ namespace {
 
 using namespace design;
 
-struct CurveCells : CellOutputs<CurveCells> {
-  Points points;
+struct CurveCells : CurveParameters, CellOutputs<CurveCells> {
   double width = 6, depth = 6;
   std::optional<Vec3> size;
   std::optional<Counts3> count;
-  Vec3 toward{0, 0, 1};
-  bool is_closed = false;
-  std::shared_ptr<CurveFrames> curve;  // made with the node
 
   static Spec<CurveCells> spec() {
     return {

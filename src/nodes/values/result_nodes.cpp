@@ -21,70 +21,56 @@ std::vector<std::string> component_names(size_t count) {
   return names;
 }
 
-struct Results {
-  FilePath path;
-  std::string field, component, values;
-  Choice outside = "none", between = "weights";
-  std::optional<double> within;
-  double otherwise = 0, deform = 0;
-  int step = 0;
+struct Results : ResultsRequest {
+  std::string component, values_file;
   std::shared_ptr<const ResultNumbers> loaded;  // set when the node is made
   size_t chosen = 0;                            // number of the chosen component
 
   static Spec<Results> spec() {
-    return {"results",
-            "Results of a simulation at the point where they are used: a field of a mesh's nodes or elements.",
-            {{"path", &Results::path,
-              "The file: .vtu, as ombre fea writes it, .pvd, .pvtu, .vtkhdf, .xdmf, .frd, .inp, or .csv; relative to "
-              "the script, then to the working directory",
-              required()},
-             {"field", &Results::field,
-              "Name of the field, or its beginning: displacement, von_mises; empty: the only one"},
-             {"component", &Results::component,
-              "Component that `value` gives: x, y or z of a vector (empty: its length); xx, yy, zz, xy, yz or zx of a "
-              "tensor"},
-             {"outside", &Results::outside,
-              "Value where there is no element: none (not a number, with a warning of the job), nearest (that of the "
-              "nearest point), or value (that of `otherwise`)",
-              one_of({"none", "nearest", "value"})},
-             {"within", &Results::within, "Greatest distance to the nearest point; none: no limit", unit::positive_mm},
-             {"otherwise", &Results::otherwise, "Value where there is no element, with outside=\"value\""},
-             {"values", &Results::values,
-              "A .csv file for an .inp file, with the numbers of nodes or elements and their values"},
-             {"between", &Results::between,
-              "Interpolation between points of a .csv file: weights (the mean of the nearest eight, weighted by their "
-              "inverse squared distances), or nearest (the nearest point's value)",
-              one_of({"weights", "nearest"})},
-             {"deform", &Results::deform,
-              "Factor of the displacement by which the mesh is deformed, as in mesh(path, deform=5)"},
-             {"step", &Results::step, "Number of a step, counted from 1; 0: the last", from_to(0, 1e9)}},
-            no_inputs,
-            "sphere(8, mix(\"red\", \"blue\", results(\"models/bent_beam.vtu\", \"von_mises\", "
-            "outside=\"nearest\").value / 20));",
-            {{"value", &Results::value,
-              "The number, interpolated between nodes by the elements' shape functions, or that of the element"},
-             {"vector", &Results::vector, "Components x, y and z of a vector"},
-             {"magnitude", &Results::magnitude, "Square root of the sum of the components' squares"},
-             {"inside", &Results::is_inside, "1 where there is an element, else 0", {0, 1}}}};
+    return {
+        "results",
+        "Results of a simulation at the point where they are used: a field of a mesh's nodes or elements.",
+        {{"path", &Results::file,
+          "The file: .vtu, as ombre fea writes it, .pvd, .pvtu, .vtkhdf, .xdmf, .frd, .inp, or .csv; relative to "
+          "the script, then to the working directory",
+          required()},
+         {"field", &Results::field,
+          "Name of the field, or its beginning: displacement, von_mises; empty: the only one"},
+         {"component", &Results::component,
+          "Component that `value` gives: x, y or z of a vector (empty: its length); xx, yy, zz, xy, yz or zx of a "
+          "tensor"},
+         {"outside", &Results::outside,
+          "Value where there is no element: none (not a number, with a warning of the job), nearest (that of the "
+          "nearest point), or value (that of `otherwise`)",
+          one_of({"none", "nearest", "value"})},
+         {"within", &Results::within_mm, "Greatest distance to the nearest point; none: no limit", unit::positive_mm},
+         {"otherwise", &Results::otherwise, "Value where there is no element, with outside=\"value\""},
+         {"values", &Results::values_file,
+          "A .csv file for an .inp file, with the numbers of nodes or elements and their values"},
+         {"between", &Results::between,
+          "Interpolation between points of a .csv file: weights (the mean of the nearest eight, weighted by their "
+          "inverse squared distances), or nearest (the nearest point's value)",
+          one_of({"weights", "nearest"})},
+         {"deform", &Results::deform,
+          "Factor of the displacement by which the mesh is deformed, as in mesh(path, deform=5)"},
+         {"step", &Results::step, "Number of a step, counted from 1; 0: the last", from_to(0, 1e9)}},
+        no_inputs,
+        "sphere(8, mix(\"red\", \"blue\", results(\"models/bent_beam.vtu\", \"von_mises\", "
+        "outside=\"nearest\").value / 20));",
+        {{"value", &Results::value,
+          "The number, interpolated between nodes by the elements' shape functions, or that of the element"},
+         {"vector", &Results::vector, "Components x, y and z of a vector"},
+         {"magnitude", &Results::magnitude, "Square root of the sum of the components' squares"},
+         {"inside", &Results::is_inside, "1 where there is an element, else 0", {0, 1}}}};
   }
 
   bool complete(const Reader& reader) {
     if (!reader.loader) return reader.refuse("results cannot be read here");
-    ResultsRequest request;
-    request.file = path;
-    request.values.path = values;
-    request.field = field;
-    request.outside = outside;
-    request.within_mm = within;
-    request.otherwise = otherwise;
-    request.between = between;
-    request.deform = deform;
-    request.step = step;
-    loaded = reader.loader->source(request, reader);
+    values.path = values_file;
+    loaded = reader.loader->source(static_cast<ResultsRequest&>(*this), reader);
     if (!loaded) return false;
-    path.path = request.file.path;
-    path.content = loaded->source->content();  // includes the content of both files
-    values = request.values.path;
+    file.content = loaded->source->content();  // includes the content of both files
+    values_file = values.path;
     return choose(reader);
   }
 

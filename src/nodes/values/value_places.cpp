@@ -228,12 +228,8 @@ struct PathDistance {
   Field share_along(const Ask& ask) const { return channel_of(source, "along", ask.p); }
 };
 
-struct CurveDistance {
-  Points points;
-  Vec3 toward{0, 0, 1};
-  bool is_closed = false;
+struct CurveDistance : CurveParameters {
   Choice frame = "parallel";
-  std::shared_ptr<CurveFrames> curve;  // made with the node
 
   static Spec<CurveDistance> spec() {
     return {
