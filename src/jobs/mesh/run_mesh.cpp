@@ -187,10 +187,11 @@ void check_project(const MeshChoices& a, const MeshOutput& output) {
       throw WrongArgument(option + " is for projects of slicers in .3mf files; write " +
                           spelled::option("--flavour", words));
   };
+  const std::string projects = "prusa, bambu, orca or snapmaker";
   const bool is_bambu = a.flavour == formats::SlicerFlavour::bambu;
-  needs(a.mix_layers > 0, spelled::option("--mix-layers"), true, "prusa, bambu or orca");
-  needs(a.height_ranges, spelled::option("--height-ranges"), true, "prusa, bambu or orca");
-  needs(a.virtual_tools, spelled::option("--virtual-tools"), !is_bambu, "prusa or orca");
+  needs(a.mix_layers > 0, spelled::option("--mix-layers"), true, projects);
+  needs(a.height_ranges, spelled::option("--height-ranges"), true, projects);
+  needs(a.virtual_tools, spelled::option("--virtual-tools"), !is_bambu, "prusa, orca or snapmaker");
   if (a.height_ranges && (a.regions.by.empty() || a.mix_layers > 0 || a.virtual_tools))
     throw WrongArgument(spelled::option("--height-ranges") + " is for attributes; write " +
                         spelled::option("--by", "infill_density") + " without filaments of their own");
