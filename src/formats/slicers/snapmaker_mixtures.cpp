@@ -5,10 +5,10 @@
 namespace ombre::formats {
 namespace {
 
-// A row: both filaments, whether it is in use, whether a user made it, the percentage of the second filament, then
-// members with letters. They say that there is no gradient (0, g, w), that layers change between two filaments (m2)
-// without thinner ones (z0) or offsets (xa, xb), whether the row is deleted (d), whether the program made it (o), and
-// its identity (u).
+// A row has both filaments, whether it is in use, whether a user made it, and the percentage of the second filament.
+// Members with letters follow. There is no gradient (0, g, w), and layers change between two filaments (m2) without
+// thinner ones (z0) or offsets (xa, xb). The last members say whether the row is deleted (d), whether the program made
+// it (o), and its identity (u).
 std::string row(uint32_t first, uint32_t second, bool is_used, long percent, size_t identity) {
   const std::string used = is_used ? "1" : "0", unused = is_used ? "0" : "1";
   return std::to_string(first) + ',' + std::to_string(second) + ',' + used + ',' + used + ',' +

@@ -1,4 +1,4 @@
-// What contouring finds in the cells of a grid before it subdivides any: which cells are mixed, where their edges cross
+// Finds the borders in a grid of cells before any is subdivided: which cells are mixed, where their edges cross
 // borders, and which edges inside of unmixed cells do.
 #pragma once
 
