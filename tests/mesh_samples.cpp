@@ -63,7 +63,8 @@ void write_all(const std::string& folder, const std::string& name, const MeshDoc
     const std::string path = (std::filesystem::path(folder) / (name + ending)).string();
     exporting::write_mesh_file(path, document, *formats::find_mesh_format(path));
   }
-  for (const SlicerFlavour flavour : {SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca})
+  for (const SlicerFlavour flavour :
+       {SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca, SlicerFlavour::snapmaker})
     exporting::write_mesh_file(folder + '/' + name + '_' + flavour_word(flavour) + ".3mf", document, three_mf, flavour);
 }
 

@@ -71,6 +71,9 @@ class Folder:
     def read(self, name):
         return (self.path / name).read_text(encoding="utf-8")
 
+    def bytes(self, name):
+        return (self.path / name).read_bytes()
+
     def names(self):
         return sorted(path.name for path in self.path.iterdir())
 

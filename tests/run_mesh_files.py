@@ -82,7 +82,7 @@ def prusa_gets_ranges_of_triangles(folder):
 
 
 def bambu_gets_a_project(folder):
-    for flavour in ("bambu", "orca"):
+    for flavour in ("bambu", "orca", "snapmaker"):
         path = folder / f"four_fills_{flavour}.3mf"
         model = entry(path, "3D/3dmodel.model")
         reported = {m.get("name"): m.text for m in model.iter(CORE + "metadata")}

@@ -72,6 +72,40 @@ def reports_of_intent(folder):
     folder.run("resolve", "beyond.vcad", *POLYJET, "--out-of-reach", "nearest")
 
 
+def two_properties_choose_three_materials(folder):
+    """Logarithms of moduli and densities mix by the fractions, so both properties give them."""
+    three = {"inputs": [{"fraction": "VeroClear"}, {"fraction": "VeroPureWht"}], "rest": "Agilus30Clr"}
+    calibration_of(folder, "moduli", {**three, "interpolant": "log-mixture", "constants": {"values": [1, 100, 10000]}})
+    calibration_of(folder, "weights", {**three, "property": "density", "unit": "g/cm3", "interpolant": "mixture",
+                                       "constants": {"values": [1, 1.5, 1.2]}})
+    ways = ["--calibration", "moduli.json", "--calibration", "weights.json"]
+    # 0.2 of VeroClear, 0.3 of VeroPureWht: 100^0.2 * 10000^0.3 = 10^1.6 MPa, and 0.5 + 0.3 + 0.36 g/cm3.
+    folder.write("part.vcad", 'attribute("modulus", 10^1.6) attribute("density", 1.16) cube(10);')
+    part, = resolved(folder, "part.vcad", *POLYJET, *ways)["printers"]
+    step, = part["steps"]
+    expect(step["from"] == ["modulus", "density"] and step["beside"]["calibration"] == "weights", f"{step}")
+    rows = {row["attribute"]: row for row in part["intent"]}
+    for name, value in (("modulus", 10 ** 1.6), ("density", 1.16)):
+        near(rows[name]["given"], value, 1e-6, name)
+        expect(rows[name]["share_out_of_reach"] == 0, f"{rows}")
+    folder.run("slice", "part.vcad", "--materials", MATERIALS, *ways, "--voxel", "0.2", "-o", "out")
+    counts = {m["name"]: m["voxels"] for m in json.loads(folder.read("out/job.json"))["totals"]["materials"] if m["name"] != "void"}
+    for name, share in (("VeroClear", 0.2), ("VeroPureWht", 0.3), ("Agilus30Clr", 0.5)):
+        near(counts[name] / sum(counts.values()), share, 0.005, f"the share of {name}")
+    # Beside 1.2 g/cm3 moduli go from 100^0.4, 0.4 of VeroClear in Agilus, to 10,000.
+    folder.write("beyond.vcad", 'attribute("modulus", 5) attribute("density", 1.2) cube(10);')
+    beyond = ["slice", "beyond.vcad", "--materials", MATERIALS, *ways, "--voxel", "0.5", "-o", "beyond"]
+    wrong = folder.run(*beyond, status=1).stderr
+    for words in ("modulus and density are out of reach together at 8,000 voxels: they are 5 MPa and 1.2 g/cm3 at",
+                  "beside this density modulus is 6.30957 to 10000 MPa by moduli and weights", "--out-of-reach nearest"):
+        expect(words in wrong, f"{words!r} is not in {wrong}")
+    folder.run(*beyond, "--out-of-reach", "nearest")
+    part, = resolved(folder, "beyond.vcad", *POLYJET, *ways, status=3)["printers"]
+    expect(all(row["share_out_of_reach"] == 1 for row in part["intent"]), f"{part}")
+    said = folder.run("resolve", "part.vcad", *POLYJET, *ways).stdout
+    expect("modulus and density to fractions of VeroClear, VeroPureWht, Agilus30Clr by moduli and weights" in said, said)
+
+
 def mixtures_of_ones_own_are_judged(folder):
     """A design that names its materials is not resolved; the report says what its mixture is expected to give."""
     folder.write("mixed.vcad", 'attribute("modulus", 100) fgrade([0.5, 0.5], [VeroClear, Agilus30Clr]) cube(10);')
@@ -264,7 +298,7 @@ def wrong_words(folder):
 
 
 CHECKS = program.named((slices_have_the_fractions, out_of_reach_is_refused, reports_of_intent,
-                        mixtures_of_ones_own_are_judged, processes_compare, five_processes, shipped_processes,
+                        two_properties_choose_three_materials, mixtures_of_ones_own_are_judged, processes_compare, five_processes, shipped_processes,
                         slices_take_what_decides, what_remains_is_left_to_the_next_process, resolved_designs_are_designs,
                         values_are_resolved_too, a_job_without_a_calibration_says_so, wrong_words))
 

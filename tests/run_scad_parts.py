@@ -96,7 +96,7 @@ FEW = 36  # triangles of a box with a pocket
 
 
 def each_slicer_gets_one_object_of_two_volumes(scripts):
-    for flavour in ("generic", "prusa", "bambu", "orca"):
+    for flavour in ("generic", "prusa", "bambu", "orca", "snapmaker"):
         reported = scripts.run("scad", "inlay.scad", "-o", f"{flavour}.3mf", "--flavour", flavour)
         expect("warning" not in reported, reported)
     for flavour in ("generic", "bambu", "orca"):

@@ -134,6 +134,88 @@ def grids(folder):
     expect("of grids those in .npy, .nrrd and .raw files are shared out" in wrong, wrong)
 
 
+BODIES = """
+height = 1.3;
+fgrade(["(z + 4) / 8", "(4 - z) / 8"], [red, blue]) difference() {
+  union() { sphere(4); translate(0, 0, 3) rectprism([12, 2, height], red); }
+  translate(0.3, 0, 0) sphere(1.1);
+}
+"""
+
+
+def plan_mesh(folder, shards, *options):
+    folder.write("part.vcad", BODIES)
+    mesh = ("mesh", "part.vcad", "--bands", 3, *options)
+    folder.run(*mesh, "-o", "alone.3mf", "--force")
+    (folder.path / "job.json").unlink(missing_ok=True)
+    folder.run(*mesh, "-o", "part.3mf", "--save-job", "job.json")
+    folder.run("plan", "job.json", "--shards", shards, "--force")
+
+
+def gather_mesh(folder):
+    folder.run("gather", "plan.json")
+    expect(folder.bytes("part.3mf") == folder.bytes("alone.3mf"), "the shares have other bytes")
+    expect(not (folder.path / "part.3mf.slabs").exists(), "the slabs are left")
+    (folder.path / "part.3mf").unlink()
+
+
+def meshes(folder):
+    """Processes share the cells of a mesh of several bodies, whose surface is made of all of them."""
+    for shards in (1, 2, 7):
+        plan_mesh(folder, shards)
+        for n in range(shards, 0, -1):
+            folder.run("run", "plan.json", "--shard", n)
+        said = folder.run("status", "plan.json").stderr
+        expect(f"{shards} of {shards} shares are done" in said, said)
+        gather_mesh(folder)
+    for options in (["--keep-all", "--cell", "0.3"], ["--threads", "1", "--tolerance", "0.1", "--colour-by", "materials"]):
+        plan_mesh(folder, 2, *options)
+        folder.run("run", "plan.json", "--shard", "all")
+        gather_mesh(folder)
+
+
+def unfinished_meshes(folder):
+    """A share of a mesh that is killed goes on where it was; a missing one is named; other designs are refused."""
+    plan_mesh(folder, 2, "--tolerance", "0.01")
+    journal = folder.path / "part.3mf.slabs/journal-1-of-2.jsonl"
+    process = subprocess.Popen(folder.command("run", "plan.json", "--shard", 1, "--quiet"), cwd=folder.path,
+                               env=program.environment())
+    while process.poll() is None and not (journal.exists() and b"\n" in journal.read_bytes()):
+        time.sleep(0.001)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    missing = [event["missing"] for event in folder.events("status", "plan.json") if event["event"] == "share"]
+    expect(missing[0] < 26 and missing[1] == 25, f"{missing} slabs are missing")
+    folder.run("run", "plan.json", "--shard", 1)
+    wrong = folder.run("gather", "plan.json", status=2).stderr
+    expect("are missing, of shares 2; run these again: ombre run plan.json --shard 2" in wrong, wrong)
+    folder.write("part.vcad", BODIES.replace("1.3", "1.4"))
+    wrong = folder.run("run", "plan.json", "--shard", 2, status=2).stderr
+    expect("plan.json is the plan of another job: part.vcad differs" in wrong, wrong)
+    folder.write("part.vcad", BODIES)
+    planned = folder.read("plan.json")
+    folder.write("plan.json", planned.replace('"0.01"', '"0.02"').replace(": 0.01", ": 0.02"))
+    wrong = folder.run("run", "plan.json", "--shard", 2, status=2).stderr
+    expect("plan.json is the plan of another job: --tolerance" in wrong, wrong)
+    folder.write("plan.json", planned)
+    folder.run("run", "plan.json", "--shard", 2)
+    gather_mesh(folder)
+    folder.write("part.3mf", "not ours")
+    wrong = folder.run("run", "plan.json", "--shard", 1, status=2).stderr
+    expect("part.3mf exists already" in wrong, wrong)
+
+
+def meshes_without_shares(folder):
+    """Polyhedra of scripts, and beams, have no cells to share."""
+    folder.write("part.scad", "cube(3);")
+    folder.write("part.vcad", BODIES)
+    for arguments, words in ((("part.scad",), "a script's polyhedra keep their triangles"),
+                             (("part.vcad", "--beams"), "meshes are shared out without --beams")):
+        folder.run("mesh", *arguments, "-o", "part.3mf", "--save-job", f"{len(arguments)}.json")
+        wrong = folder.run("plan", f"{len(arguments)}.json", "--shards", 2, "-o", "more.json", status=1).stderr
+        expect(words in wrong, wrong)
+
+
 def values_of_all_shares(folder):
     """Supports are made once, and the shares read them."""
     begin(folder, 3, SUPPORTED)
@@ -270,9 +352,9 @@ def wrong_words(folder):
             (["slice", "part.vcad", "--shard", "0/3"], "--shard 0/3 is no share of a job; write for example --shard 3/40")]:
         wrong = program.run(folder.command(*arguments), cwd=folder.path)
         expect(wrong.returncode != 0 and words in wrong.stderr, f"{arguments}: {wrong.stderr}")
-    folder.run("mesh", "part.vcad", "-o", "part.stl", "--save-job", "mesh.json")
-    wrong = folder.run("plan", "mesh.json", "--shards", 3, "-o", "more.json", status=1).stderr
-    expect("jobs of the kind mesh have no pieces that could be shared out" in wrong, wrong)
+    folder.run("contours", "part.vcad", "--z", "0", "-o", "part.svg", "--save-job", "outline.json")
+    wrong = folder.run("plan", "outline.json", "--shards", 3, "-o", "more.json", status=1).stderr
+    expect("jobs of the kind contours have no pieces that could be shared out" in wrong, wrong)
 
 
 CHECKS = program.named((
@@ -281,6 +363,9 @@ CHECKS = program.named((
     more_shares_than_layers,
     frames,
     grids,
+    meshes,
+    unfinished_meshes,
+    meshes_without_shares,
     values_of_all_shares,
     archive,
     killed_processes,

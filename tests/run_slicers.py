@@ -146,6 +146,14 @@ def mixtures_are_layer_cycles(designs):
         expect(set(project["filament_mixed_components"][2:]) == {"1,2"}, str(project))
         for ratios in project["filament_mixed_sublayer_ratios"][2:]:
             near(sum(float(r) for r in ratios.split(",")), 1, 1e-9, "the sum of the ratios")
+    reported = designs.mesh("graded.vcad", "--flavour", "snapmaker", "--mix-layers", "6")
+    expect("off by up to 4.17 %" in reported, reported)  # 1/6 for 1/8
+    rows = [row.split(",") for row in designs.project()["mixed_filament_definitions"].split(";")]
+    expect([row[4] for row in rows] == ["83", "60", "40", "17", "50"], str(rows))
+    expect([len(row) for row in rows] == [16, 16, 16, 16, 15], str(rows))
+    expect(len(designs.project()["filament_colour"]) == 2, str(designs.project()))
+    extruders = re.findall(r'key="extruder" value="(\d+)"', designs.entry("Metadata/model_settings.config"))
+    expect({"3", "4", "5", "6"} <= set(extruders), str(extruders))
     return ""
 
 
@@ -238,9 +246,9 @@ def slips_get_remedies(designs):
             (["--flavour", "bambu", "--setting", "gyroid_optimized=1"], "Bambu Studio has no such setting"),
             (["--by", "red", "--bands", "2", "--setting", "brim_width=1,2"], "one for all bodies of a part"),
             (["--setting", "extruder=20"], "numbered from 1 to 16"),
-            (["--mix-layers", "4"], "--flavour prusa, bambu or orca"),
+            (["--mix-layers", "4"], "--flavour prusa, bambu, orca or snapmaker"),
             (["--flavour", "prusa", "--mix-layers", "9"], "6"),
-            (["--flavour", "bambu", "--virtual-tools"], "--flavour prusa or orca"),
+            (["--flavour", "bambu", "--virtual-tools"], "--flavour prusa, orca or snapmaker"),
             (["--flavour", "prusa", "--virtual-tools"], "for bands of temperature or flow_rate"),
             (["--flavour", "prusa", "--height-ranges"], "--by infill_density")]:
         reported = designs.mesh("graded.vcad", *options, status=1)

@@ -68,6 +68,11 @@ Interval Calibration::reach(size_t input, std::span<const double> at) const {
   return {std::min(first, last), std::max(first, last)};
 }
 
+Interval Calibration::reach_of_mixtures() const {
+  const auto [least, most] = std::ranges::minmax(constants.values);
+  return {least, most};
+}
+
 Interval Calibration::whole_reach(size_t input) const {
   // The values between the points of a grid lie between those of the points.
   std::vector<size_t> others;

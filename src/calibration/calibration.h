@@ -90,6 +90,8 @@ struct Calibration {
   bool is_invertible(size_t input) const;
   // Returns the values that the choices of an input reach.
   Interval reach(size_t input, std::span<const double> at) const;
+  // Returns the values that all mixtures of a law of mixtures reach.
+  Interval reach_of_mixtures() const;
   // Returns the values that an input reaches for some values of the inputs that have no usual one.
   Interval whole_reach(size_t input) const;
   // Returns the choice of an input that gives the value, or the nearest one that there is; is_invertible(input). The

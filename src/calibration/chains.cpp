@@ -108,6 +108,7 @@ class Search {
 }  // namespace
 
 std::vector<std::string> Step::from() const {
+  if (beside) return {calibration->property, beside->property};
   std::vector<std::string> names;
   if (input) names.push_back(calibration->property);
   for (size_t n = 0; n < calibration->inputs.size() && !calibration->inks; ++n) {
@@ -120,7 +121,13 @@ std::vector<std::string> Step::from() const {
 
 std::string Step::to() const { return input ? quantity(calibration->inputs[*input]) : calibration->property; }
 
-std::string Step::text() const { return join(from(), " and ") + " to " + to() + " by " + calibration->name; }
+std::vector<CalibrationPtr> Step::calibrations() const {
+  return beside ? std::vector{calibration, beside} : std::vector{calibration};
+}
+
+std::string Step::names() const { return beside ? calibration->name + " and " + beside->name : calibration->name; }
+
+std::string Step::text() const { return join(from(), " and ") + " to " + to() + " by " + names(); }
 
 std::string chain_text(const Chain& chain) {
   std::vector<std::string> texts;

@@ -13,10 +13,13 @@ namespace ombre::calibration {
 // One use of a calibration. Quantities are attributes, or the fractions of the materials.
 struct Step {
   CalibrationPtr calibration;
-  std::optional<size_t> input;  // the input that is found from the property; nothing: the property, from its inputs
+  std::optional<size_t> input;      // the input that is found from the property; nothing: the property, from its inputs
+  CalibrationPtr beside = nullptr;  // another one of the same materials: both properties give all fractions (joint.h)
 
   std::vector<std::string> from() const;  // quantities
   std::string to() const;
+  std::vector<CalibrationPtr> calibrations() const;  // one or two
+  std::string names() const;                         // of the calibrations
   // Returns for example "modulus to fractions by agilus-vero-modulus".
   std::string text() const;
 };

@@ -26,10 +26,9 @@ using stores::PieceRange;
 constexpr const char* plan_footer =
     "JOB is a file that --save-job wrote. The plan says which pieces belong to which share, so that each takes about "
     "as\n"
-    "long as the others. Pieces are layers of slice, slabs of voxels, frames of render, cases of sweep, and the "
-    "designs\n"
-    "that optimise measures next. Any machine with the plan, the design and its files, and the folder of the job may "
-    "run a share.\n\n"
+    "long as the others. Pieces are layers of slice, slabs of voxels and of mesh, frames of render, cases of sweep,\n"
+    "and the designs that optimise measures next. Any machine with the plan, the design and its files, and the\n"
+    "folder of the job may run a share.\n\n"
     "Examples:\n"
     "  ombre slice part.vcad --printer j750 -o part/ --save-job job.json\n"
     "  ombre plan job.json --shards 40            plan.json\n"

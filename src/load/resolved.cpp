@@ -1,6 +1,7 @@
 #include "load/resolved.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/math/point_text.h"
@@ -99,6 +100,13 @@ class Resolver {
   }
 
   bool add_chains(const std::string& need) {
+    const std::vector<Step> joints = need == calibration::fractions ? joint_steps() : std::vector<Step>();
+    if (joints.size() > 1) {
+      diagnostics_.error(Code::parameters, where_, calibration::several_text({{joints[0]}, {joints[1]}}, need),
+                         choosing_hint());
+      return false;
+    }
+    if (joints.size() == 1) return add({joints.front()}) && add_rivals_of(joints.front());
     const auto found = calibration::find_chains(usable_, given_, need);
     if (const auto* problem = std::get_if<ChainProblem>(&found)) {
       if (needs_.unresolved == Unresolved::is_left) return true;
@@ -111,6 +119,76 @@ class Resolver {
     if (const int inks = ink_chain(chains); inks >= 0)
       return add(chains[static_cast<size_t>(inks)]) && add_over_inks(chains[static_cast<size_t>(1 - inks)]);
     return decides_by_one(chains, need) && add(chains.front());
+  }
+
+  // Returns the steps from two of the given properties to the fractions of three materials.
+  std::vector<Step> joint_steps() const {
+    std::vector<Step> steps;
+    if (is_among(given_, std::string(calibration::fractions))) return steps;
+    for (size_t n = 0; n < usable_.size(); ++n)
+      for (size_t m = n + 1; m < usable_.size(); ++m)
+        if (gives_mixture(*usable_[n]) && gives_mixture(*usable_[m]) && usable_[n]->property != usable_[m]->property &&
+            order_in(*usable_[n], *usable_[m]))
+          steps.push_back({usable_[n], 0, usable_[m]});
+    return steps;
+  }
+
+  bool gives_mixture(const Calibration& calibration) const {
+    return is_among(given_, calibration.property) && calibration::mixture_law(calibration);
+  }
+
+  // Returns the materials of a rule of mixtures, the rest first.
+  std::vector<std::string> mixed_materials(const Calibration& calibration) const {
+    std::vector<std::string> names{*material_among(loaded_->design.materials, calibration.rest)};
+    for (const calibration::Input& input : calibration.inputs)
+      names.push_back(*material_among(loaded_->design.materials, input.materials));
+    return names;
+  }
+
+  // Returns where each material of a mixture stands among those of another one; nothing if they are not the same.
+  std::optional<std::array<size_t, 3>> order_in(const Calibration& calibration, const Calibration& other) const {
+    const std::vector<std::string> names = mixed_materials(calibration), others = mixed_materials(other);
+    std::array<size_t, 3> order{};
+    for (size_t n = 0; n < order.size(); ++n) {
+      order[n] = static_cast<size_t>(std::ranges::find(others, names[n]) - others.begin());
+      if (order[n] == others.size()) return std::nullopt;
+    }
+    return order;
+  }
+
+  // Chains from other attributes to the fractions must agree with a joint step.
+  bool add_rivals_of(const Step& joint) {
+    std::vector<std::string> others = given_;
+    std::erase_if(others, [&](const std::string& name) { return is_among(joint.from(), name); });
+    const auto found = calibration::find_chains(usable_, others, std::string(calibration::fractions));
+    if (const auto* chains = std::get_if<std::vector<Chain>>(&found))
+      for (const Chain& chain : *chains) rivals_.push_back({std::string(calibration::fractions), {joint}, chain});
+    return true;
+  }
+
+  // Fills in a step with two calibrations.
+  std::optional<ResolvedStep> completed_joint(ResolvedStep resolved) {
+    const Calibration &one = *resolved.step.calibration, &two = *resolved.step.beside;
+    const calibration::MixtureLaw law = *calibration::mixture_law(one), other = *calibration::mixture_law(two);
+    calibration::MixtureLaw ordered = other;
+    const std::array<size_t, 3> order = *order_in(one, two);
+    for (size_t n = 0; n < order.size(); ++n) ordered.values[n] = other.values[order[n]];
+    if (!calibration::determine_fractions(law, ordered)) {
+      diagnostics_.error(Code::parameters, where_,
+                         "by " + resolved.step.names() + " " + one.property + " and " + two.property +
+                             " follow from each other, so that they do not determine the fractions of three materials",
+                         choosing_hint());
+      return std::nullopt;
+    }
+    resolved.joint.emplace(law, ordered);
+    resolved.unit = one.unit;
+    resolved.reach = one.reach_of_mixtures();
+    resolved.others = {{two.property, two.unit, two.reach_of_mixtures()}};
+    resolved.place_in_reach = one.property + "_and_" + two.property + "_place_in_reach";
+    resolved.materials = mixed_materials(one);
+    std::rotate(resolved.materials.begin(), resolved.materials.begin() + 1,
+                resolved.materials.end());  // the rest comes last
+    return has_unit(resolved) ? std::optional(std::move(resolved)) : std::nullopt;
   }
 
   // Adds the steps that earlier ones do not give.
@@ -263,6 +341,7 @@ class Resolver {
     }
     resolved.rounds_to = machine_step(step.to());
     resolved.attribute = from.front();
+    if (step.beside) return completed_joint(std::move(resolved));
     if (calibration.inks) {
       if (!complete_inks(resolved)) return std::nullopt;
       if (resolved.rounds_to) diagnostics_.note(where_, "shares of inks are not rounded to what the machine takes");
@@ -323,7 +402,7 @@ class Resolver {
     if (read.unit.empty() || read.unit == found->unit) return true;
     diagnostics_.error(Code::parameters, where_,
                        "the attribute \"" + read.attribute + "\" has the unit " + found->unit + ", and " +
-                           resolved.step.calibration->name + " has " + read.unit,
+                           resolved.step.names() + " has " + read.unit,
                        "convert its values, and give it that unit");
     return false;
   }
@@ -355,12 +434,20 @@ std::optional<std::vector<CalibrationPtr>> load_calibrations(const CalibrationNa
   return diagnostics.error_count() == errors ? std::optional(std::move(loaded)) : std::nullopt;
 }
 
+Data describe_calibration(const Calibration& calibration) {
+  return DataMembers{{"calibration", calibration.name},
+                     {"title", calibration.title},
+                     {"citation", calibration.citation},
+                     {"illustrative", calibration.is_illustrative}};
+}
+
 Data describe(const ResolvedStep& resolved) {
   const Step& step = resolved.step;
   const Calibration& calibration = *step.calibration;
   DataMembers members{{"from", text_data(step.from())},         {"to", Data(step.to())},
                       {"calibration", Data(calibration.name)},  {"title", Data(calibration.title)},
                       {"citation", Data(calibration.citation)}, {"illustrative", Data(calibration.is_illustrative)}};
+  if (step.beside) members.emplace_back("beside", describe_calibration(*step.beside));
   if (calibration.inks)
     members.emplace_back("inks", describe(*calibration.inks));
   else

@@ -53,7 +53,8 @@ Resolution resolved(const LoadedPtr& design, const std::vector<CalibrationPtr>& 
 double value_at(const Resolution& resolution, const std::string& name, const Vec3& point) {
   SampleQuery query;
   query.fractions = true;
-  for (const char* attribute : {"temperature", "flow_rate", "infill_density", "density_place_in_reach"})
+  for (const char* attribute :
+       {"temperature", "flow_rate", "infill_density", "density_place_in_reach", "modulus_and_density_place_in_reach"})
     if (name == attribute) query.attributes.push_back(name);
   Diagnostics diagnostics;
   const auto sampler = Sampler::build(resolution.loaded->design, query, diagnostics);
@@ -149,6 +150,20 @@ CalibrationPtr density_of_mixture() {
       "inputs": [{"fraction": "VeroClear"}], "rest": "Agilus30Clr", "constants": {"values": [1, 2]})");
 }
 
+CalibrationPtr modulus_of_three() {
+  return calibration::test::made(R"("name": "m", "property": "modulus", "unit": "MPa", "interpolant": "log-mixture",
+      "inputs": [{"fraction": "VeroClear"}, {"fraction": "VeroPureWht"}], "rest": "Agilus30Clr",
+      "constants": {"values": [1, 100, 10000]})");
+}
+
+// Values are those of VeroClear, VeroPureWht and Agilus30Clr.
+CalibrationPtr density_of_three(const std::string& values) {
+  return calibration::test::made(R"("name": "d", "property": "density", "unit": "g/cm3", "interpolant": "mixture",
+      "inputs": [{"fraction": "VeroPureWht"}, {"fraction": "Agilus30Clr"}], "rest": "VeroClear",
+      "constants": {"values": )" +
+                                 values + "}");
+}
+
 CalibrationPtr hardness_of_mixture() {
   return calibration::test::made(R"("name": "h", "property": "shore_hardness", "unit": "Shore A",
       "inputs": [{"fraction": "VeroClear"}], "rest": "Agilus30Clr", "interpolant": "mixture",
@@ -188,6 +203,54 @@ TEST(Resolved, ReachVariesWithOtherAttributes) {
   EXPECT_NEAR(value_at(hot, "density_place_in_reach", {0, 0, 4}), 1 + 0.8 / 0.4, 1e-9);
   EXPECT_EQ(value_at(hot, "infill_density", {0, 0, 4}), 100);
   EXPECT_NEAR(value_at(hot, "infill_density", {0, 0, -2}), 60, 1e-6);
+}
+
+// The moduli of Agilus, Vero and white mix by their logarithms, 1, 100 and 10,000 MPa; the densities, in another order
+// of the materials, are 1, 1.5 and 1.2 g/cm3.
+TEST(Resolved, TwoPropertiesGiveTheFractionsOfThreeMaterials) {
+  const std::vector<CalibrationPtr> both{modulus_of_three(), density_of_three("[1.5, 1.2, 1]")};
+  // Vero from 0.1 to 0.3, white from 0.5 to 0.3, the rest 0.4.
+  const Resolution resolution =
+      resolved(loaded(R"x(attribute("modulus", "exp((0.2 + 0.02*z)*log(100) + (0.4 - 0.02*z)*log(10000))")
+                 attribute("density", "0.4 + 1.5*(0.2 + 0.02*z) + 1.2*(0.4 - 0.02*z)") cube(10);)x"),
+               both);
+  ASSERT_EQ(resolution.steps.size(), 1U);
+  EXPECT_EQ(resolution.steps[0].step.text(), "modulus and density to fractions by m and d");
+  for (const double z : {-4.9, 0.0, 3.2}) {
+    EXPECT_NEAR(value_at(resolution, "VeroClear", {1, 2, z}), 0.2 + 0.02 * z, 1e-9);
+    EXPECT_NEAR(value_at(resolution, "VeroPureWht", {1, 2, z}), 0.4 - 0.02 * z, 1e-9);
+    EXPECT_NEAR(value_at(resolution, "Agilus30Clr", {1, 2, z}), 0.4, 1e-9);
+    // 1 plus the least of the three.
+    EXPECT_NEAR(value_at(resolution, "modulus_and_density_place_in_reach", {1, 2, z}),
+                1 + std::min(0.2 + 0.02 * z, 0.4), 1e-9);
+  }
+}
+
+// Shares of -0.2, 0.4 and 0.8 become 0, 1/3 and 2/3.
+TEST(Resolved, TwoPropertiesOutOfReachGiveAMixtureNearby) {
+  const Resolution resolution = resolved(loaded(R"x(attribute("modulus", "exp(0.4*log(100) + 0.8*log(10000))")
+                 attribute("density", -0.2 + 1.5*0.4 + 1.2*0.8) cube(10);)x"),
+                                         {density_of_three("[1.5, 1.2, 1]"), modulus_of_three()});
+  EXPECT_NEAR(value_at(resolution, "Agilus30Clr", {0, 0, 0}), 0, 1e-9);
+  EXPECT_NEAR(value_at(resolution, "VeroClear", {0, 0, 0}), 1.0 / 3, 1e-9);
+  EXPECT_NEAR(value_at(resolution, "VeroPureWht", {0, 0, 0}), 2.0 / 3, 1e-9);
+}
+
+TEST(Resolved, ThreeMaterialsAreNotDeterminedByOneProperty) {
+  const auto both = loaded(R"(attribute("modulus", 50) attribute("density", 1.2) cube(10);)");
+  const auto modulus = modulus_of_three();
+  // Its values are the logarithms of the moduli, so that both say the same.
+  const std::string same = problem(both, {modulus, density_of_three("[2, 4, 0]")});
+  EXPECT_NE(same.find("by m and d modulus and density follow from each other"), std::string::npos) << same;
+  EXPECT_NE(problem(both, {modulus}).find("no calibration leads from there to fractions"), std::string::npos);
+  const auto again = calibration::test::made(R"("name": "again", "property": "density", "unit": "g/cm3",
+      "inputs": [{"fraction": "VeroPureWht"}, {"fraction": "VeroClear"}], "rest": "Agilus30Clr",
+      "interpolant": "mixture", "constants": {"values": [1, 1.3, 1.6]})");
+  const std::string several = problem(both, {modulus, density_of_three("[1.5, 1.2, 1]"), again});
+  EXPECT_NE(several.find("modulus and density to fractions by m and d; and modulus and density to fractions by m and "
+                         "again"),
+            std::string::npos)
+      << several;
 }
 
 TEST(Resolved, TwoPropertiesOfOneMixtureAgreeOrContradict) {

@@ -1,6 +1,7 @@
 #include "load/step_nodes.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/math/math.h"
 #include "load/ink_step.h"
@@ -144,6 +145,54 @@ NodePtr with_attribute(const NodePtr& solid, const std::string& name, const Expr
   return maker.make("attribute", {{"name", Data(name)}, {"value", NodeMaker::formula_data(value)}}, {solid});
 }
 
+// Returns the shares of three materials that have both properties. Where no mixture has them, shares below 0 become 0,
+// and the others keep their ratio. The place in reach is 1 plus the least share.
+struct JointShares {
+  std::vector<Expression> shares;  // of the inputs of the step's calibration
+  Expression place_in_reach;
+};
+
+JointShares shares_of(const NodePtr& solid, const ResolvedStep& step, const NodeMaker& maker) {
+  const auto property = [&](const std::string& name, const calibration::MixtureLaw& law) {
+    const Expression value = maker.attribute_of(solid, name);
+    if (!law.of_logarithms) return value;
+    // Values that are not positive have no logarithm, and get one far below that of each material.
+    return Expression::call("log", {Expression::call("max", {value, constant(std::numeric_limits<double>::min())})});
+  };
+  const Expression u = property(step.attribute, step.joint->first);
+  const Expression v = property(step.others[0].attribute, step.joint->second);
+  std::vector<Expression> exact, positive;
+  for (const auto& [at_zero, of_u, of_v] :
+       calibration::fractions_of_properties(step.joint->first, step.joint->second)) {
+    exact.push_back(sum_of(constant(at_zero), sum_of(product_of(constant(of_u), u), product_of(constant(of_v), v))));
+    positive.push_back(Expression::call("max", {constant(0), exact.back()}));
+  }
+  const Expression sum = sum_of(positive[0], sum_of(positive[1], positive[2]));
+  JointShares joint{{quotient_of(positive[1], sum), quotient_of(positive[2], sum)},
+                    sum_of(constant(1), Expression::call("min", exact))};
+  if (!step.rounds_to) return joint;
+  Expression left = constant(1);
+  for (Expression& share : joint.shares) {
+    share = Expression::call("min", {rounded_to_step(share, *step.rounds_to), left});
+    left = difference_of(left, share);
+  }
+  return joint;
+}
+
+NodePtr with_joint(const NodePtr& solid, const ResolvedStep& step, const NodeMaker& maker) {
+  const JointShares joint = shares_of(solid, step, maker);
+  DataList shares, materials(step.materials.begin(), step.materials.end());
+  Expression left = constant(1);
+  for (const Expression& share : joint.shares) {
+    shares.push_back(NodeMaker::formula_data(share));
+    left = difference_of(left, share);
+  }
+  shares.push_back(NodeMaker::formula_data(left));
+  const NodePtr made = maker.make(
+      "fgrade", {{"functions", Data(std::move(shares))}, {"materials", Data(std::move(materials))}}, {solid});
+  return made ? with_attribute(made, step.place_in_reach, joint.place_in_reach, maker) : nullptr;
+}
+
 // Returns the solid with the fraction of one material, as the step gives it; the rest takes what it leaves.
 NodePtr with_fractions(const NodePtr& solid, const ResolvedStep& step, Expression fraction, const NodeMaker& maker) {
   const Calibration& calibration = *step.step.calibration;
@@ -175,6 +224,7 @@ NodePtr with_fractions(const NodePtr& solid, const ResolvedStep& step, Expressio
 
 NodePtr with_step(const NodePtr& solid, const ResolvedStep& step, const NodeMaker& maker) {
   if (step.step.calibration->inks) return with_inks(solid, step, maker);
+  if (step.joint) return with_joint(solid, step, maker);
   const StepFormula formula(solid, step, maker);
   const Expression result = formula.result();
   const NodePtr made = step.step.to() == calibration::fractions ? with_fractions(solid, step, result, maker)

@@ -43,10 +43,10 @@ uint64_t whole_object(const MeshDocument& document, SlicerFlavour flavour) {
   return flavour == SlicerFlavour::prusa ? 1 : count_bodies(document) + 1;
 }
 
-LazyBytes bambu_model(const MeshDocument& document) {
+LazyBytes bambu_model(const MeshDocument& document, SlicerFlavour flavour) {
   const uint64_t whole = count_bodies(document) + 1;
   std::string text =
-      bambu_model_begin("<metadata name=\"Application\">BambuStudio-" + bambu_version(document) +
+      bambu_model_begin("<metadata name=\"Application\">BambuStudio-" + bambu_version(document, flavour) +
                         "</metadata>\n<metadata name=\"Generator\">ombre</metadata>\n<metadata name=\"Title\">" +
                         xml_escaped(document.title) + "</metadata>\n");
   text += "<object" + xml_attribute("id", std::to_string(whole)) + unique_id(1, part_mark) + " type=\"model\"" +

@@ -165,7 +165,7 @@ class ModelText {
 }  // namespace
 
 LazyBytes three_mf_model(const MeshDocument& document, SlicerFlavour flavour) {
-  if (is_of_bambu(flavour)) return bambu_model(document);
+  if (is_of_bambu(flavour)) return bambu_model(document, flavour);
   return ModelText(document, flavour).make();
 }
 

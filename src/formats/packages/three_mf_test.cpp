@@ -21,7 +21,8 @@ std::optional<Rgba> opaque(std::optional<Rgba> colour) {
 }
 
 TEST(ThreeMf, NamesMaterialsAndColoursComeBack) {
-  for (const auto flavour : {SlicerFlavour::generic, SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca}) {
+  for (const auto flavour : {SlicerFlavour::generic, SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca,
+                             SlicerFlavour::snapmaker}) {
     const Mesh mesh = read(package(pair(), flavour));
     EXPECT_NEAR(volume(mesh), 2 * tetrahedron_mm3, 1e-12);
     ASSERT_EQ(mesh.groups.size(), 2u);
@@ -273,7 +274,8 @@ TEST(ThreeMf, MixturesAreCounted) {
 TEST(ThreeMf, PaintedTrianglesComeBack) {
   MeshDocument document = pair();
   document.bodies[0].paint = {2, 2, 0, 1};
-  for (const auto flavour : {SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca}) {
+  for (const auto flavour :
+       {SlicerFlavour::prusa, SlicerFlavour::bambu, SlicerFlavour::orca, SlicerFlavour::snapmaker}) {
     const Mesh mesh = read(package(document, flavour));
     ASSERT_EQ(mesh.groups.size(), 4u);
     EXPECT_EQ(mesh.groups[0].triangle_count, 2u);

@@ -18,7 +18,7 @@ LazyBytes three_mf_model(const MeshDocument& document, SlicerFlavour flavour);
 // The model of a project for Bambu Studio and OrcaSlicer, as they write it: its bodies are in a file of their own,
 // which the main file places. Numbers of objects are as in the model above.
 inline constexpr const char* bambu_objects_path = "3D/Objects/object_1.model";
-LazyBytes bambu_model(const MeshDocument& document);
+LazyBytes bambu_model(const MeshDocument& document, SlicerFlavour flavour);
 LazyBytes bambu_objects(const MeshDocument& document);
 // Returns the number of the object that contains all bodies.
 uint64_t whole_object(const MeshDocument& document, SlicerFlavour flavour);

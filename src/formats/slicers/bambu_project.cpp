@@ -1,11 +1,13 @@
 #include "formats/slicers/bambu_project.h"
 
 #include <functional>
+#include <span>
 
 #include "base/text/json.h"
 #include "base/text/text.h"
 #include "formats/containers/xml_text.h"
 #include "formats/slicers/project_filaments.h"
+#include "formats/slicers/snapmaker_mixtures.h"
 
 namespace ombre::formats {
 namespace {
@@ -13,8 +15,8 @@ namespace {
 // All values are texts or lists of texts. Lists have an item for each filament, mixtures last.
 class ProjectSettings {
  public:
-  explicit ProjectSettings(const MeshDocument& document)
-      : filaments_(project_filaments(document)), mixtures_(document.project.mixtures) {}
+  ProjectSettings(const MeshDocument& document, std::span<const FilamentMixture> mixtures)
+      : filaments_(project_filaments(document)), mixtures_(mixtures) {}
 
   void set(const std::string& key, Data value) { settings_.emplace_back(key, std::move(value)); }
   void add(const std::string& key, const std::function<std::string(const Filament&)>& of_filament,
@@ -34,7 +36,7 @@ class ProjectSettings {
 
  private:
   std::vector<Filament> filaments_;
-  const std::vector<FilamentMixture>& mixtures_;
+  std::span<const FilamentMixture> mixtures_;
   DataMembers settings_;
 };
 
@@ -81,14 +83,17 @@ void ProjectSettings::add_one_nozzle() {
 
 }  // namespace
 
-std::string bambu_version(const MeshDocument& document) {
-  return document.project.mixtures.empty() ? "02.00.00.00" : "02.06.00.00";
+std::string bambu_version(const MeshDocument& document, SlicerFlavour flavour) {
+  const bool mixes = !document.project.mixtures.empty() && flavour != SlicerFlavour::snapmaker;
+  return mixes ? "02.06.00.00" : "02.00.00.00";
 }
 
 std::string bambu_project(const MeshDocument& document, SlicerFlavour flavour) {
   constexpr uint8_t opaque = 255;
-  ProjectSettings settings(document);
-  settings.set("version", bambu_version(document));
+  const std::vector<FilamentMixture>& mixtures = document.project.mixtures;
+  const bool are_filaments = flavour != SlicerFlavour::snapmaker;
+  ProjectSettings settings(document, std::span(mixtures).first(are_filaments ? mixtures.size() : 0));
+  settings.set("version", bambu_version(document, flavour));
   settings.set("from", "project");
   settings.set("name", "project_settings");
   settings.set("printer_settings_id", "ombre");
@@ -103,8 +108,9 @@ std::string bambu_project(const MeshDocument& document, SlicerFlavour flavour) {
   settings.add("filament_colour", colour, colour);
   settings.add("filament_settings_id", name, name);
   settings.add("filament_type", filament_type);
-  if (!document.project.mixtures.empty()) settings.add_mixtures();
-  if (document.project.has_one_nozzle && flavour == SlicerFlavour::orca) settings.add_one_nozzle();
+  if (!mixtures.empty() && are_filaments) settings.add_mixtures();
+  if (!mixtures.empty() && !are_filaments) settings.set("mixed_filament_definitions", snapmaker_mixtures(mixtures));
+  if (document.project.has_one_nozzle && is_of_orca(flavour)) settings.add_one_nozzle();
   return settings.text();
 }
 

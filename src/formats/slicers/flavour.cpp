@@ -11,8 +11,11 @@ struct FlavourRow {
 };
 
 // The rows have the order of the enumeration.
-constexpr std::array<FlavourRow, 4> flavour_rows{
-    {{"generic", "any program"}, {"prusa", "PrusaSlicer"}, {"bambu", "Bambu Studio"}, {"orca", "OrcaSlicer"}}};
+constexpr std::array<FlavourRow, 5> flavour_rows{{{"generic", "any program"},
+                                                  {"prusa", "PrusaSlicer"},
+                                                  {"bambu", "Bambu Studio"},
+                                                  {"orca", "OrcaSlicer"},
+                                                  {"snapmaker", "Snapmaker Orca"}}};
 
 const FlavourRow& row_of(SlicerFlavour flavour) { return flavour_rows.at(static_cast<size_t>(flavour)); }
 

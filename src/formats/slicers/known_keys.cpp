@@ -116,7 +116,7 @@ std::vector<std::string_view> lists_of(SlicerFlavour flavour, KeyScope scope) {
   const bool is_for_body = scope == KeyScope::body;
   if (!is_of_bambu(flavour)) return {is_for_body ? prusa_body_keys : prusa_object_keys};
   if (!is_for_body) return {bambu_object_keys};
-  return {bambu_body_keys, flavour == SlicerFlavour::orca ? orca_only_body_keys : bambu_only_body_keys};
+  return {bambu_body_keys, is_of_orca(flavour) ? orca_only_body_keys : bambu_only_body_keys};
 }
 
 // True if the list, whose words have a space between them, holds the word.

@@ -1,6 +1,8 @@
 // Tests of the files that slicers read besides the mesh.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/text/json.h"
 #include "formats/mesh/test_documents.h"
 #include "formats/slicers/bambu_project.h"
@@ -10,6 +12,7 @@
 #include "formats/slicers/project_filaments.h"
 #include "formats/slicers/prusa_project.h"
 #include "formats/slicers/slicer_settings.h"
+#include "formats/slicers/snapmaker_mixtures.h"
 
 namespace ombre::formats {
 namespace {
@@ -62,7 +65,7 @@ TEST(Settings, HaveTheNamesOfTheirSlicer) {
 TEST(Settings, KnowTheKeysOfTheirTable) {
   for (const SlicerKey& row : slicer_keys()) {
     EXPECT_TRUE(row.prusa.empty() || scope_of(SlicerFlavour::prusa, row.prusa)) << row.prusa;
-    for (const SlicerFlavour flavour : {SlicerFlavour::bambu, SlicerFlavour::orca})
+    for (const SlicerFlavour flavour : {SlicerFlavour::bambu, SlicerFlavour::orca, SlicerFlavour::snapmaker})
       EXPECT_TRUE(row.bambu.empty() || scope_of(flavour, row.bambu)) << row.bambu;
   }
 }
@@ -125,6 +128,37 @@ TEST(BambuProject, MixturesAreFilaments) {
   EXPECT_EQ(values("filament_mixed_components"), "||1,2|");
   EXPECT_EQ(values("filament_mixed_sublayer_ratios"), "||0.3333,0.6667|");
   EXPECT_FALSE(parsed(bambu_project(pair(), SlicerFlavour::bambu)).find("filament_is_mixed"));
+}
+
+// Members of a row as files of Snapmaker Orca 2.3 have them: "1,3,1,1,40,0,g,w,m2,z0,xa0,xb0,d0,o0,u2" is a recipe with
+// 40 % of filament 3, and "1,2,0,0,50,0,g,w,m2,z0,xa0,xb0,d1,o1,u1" a pair of its own that was deleted. A pattern comes
+// last; 1 and 2 stand for the first and the second filament of the row.
+TEST(SnapmakerProject, MixturesAreRowsOfAText) {
+  MeshDocument document = mixed();
+  document.project.mixtures.push_back({"3 to 2", {153, 0, 102, 255}, {{1, 3}, {2, 2}}});
+  const Data json = parsed(bambu_project(document, SlicerFlavour::snapmaker));
+  EXPECT_EQ(*json.find("mixed_filament_definitions")->string(),
+            "1,2,1,1,67,0,g,w,m2,z0,xa0,xb0,d0,o0,u1,221;"
+            "1,2,1,1,40,0,g,w,m2,z0,xa0,xb0,d0,o0,u2,21211;"
+            "1,2,0,0,50,0,g,w,m2,z0,xa0,xb0,d1,o1,u3");
+  // The text numbers mixtures after the filaments, so that they are no filaments themselves.
+  EXPECT_EQ(json.find("filament_colour")->list()->size(), 2U);
+  EXPECT_FALSE(json.find("filament_is_mixed"));
+  EXPECT_EQ(bambu_version(document, SlicerFlavour::snapmaker), "02.00.00.00");
+  EXPECT_FALSE(parsed(bambu_project(pair(), SlicerFlavour::snapmaker)).find("mixed_filament_definitions"));
+}
+
+// The program counts how often a filament occurs in the pattern.
+TEST(SnapmakerProject, PatternsHaveTheSharesOfTheirMixtures) {
+  for (int layers = 2; layers <= 6; ++layers)
+    for (int first = 1; first < layers; ++first) {
+      const std::vector<FilamentMixture> one{{"", {}, {{1, first}, {2, layers - first}}}};
+      const std::string text = snapmaker_mixtures(one), row = text.substr(0, text.find(';'));
+      const std::string pattern = row.substr(row.rfind(',') + 1);
+      EXPECT_EQ(pattern.size(), static_cast<size_t>(layers));
+      EXPECT_EQ(std::ranges::count(pattern, '1'), first) << pattern;
+      EXPECT_EQ(std::ranges::count(pattern, '2'), layers - first) << pattern;
+    }
 }
 
 TEST(HeightRanges, HaveTheWordsOfTheirSlicer) {

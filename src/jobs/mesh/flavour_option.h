@@ -9,8 +9,8 @@ namespace ombre::compile {
 template <class Job>
 options::Row<Job> flavour_option(formats::SlicerFlavour Job::*member) {
   return options::choice("--flavour,--flavor", member, formats::flavour_words(),
-                         "Program that a .3mf is for: generic (default), or a project of prusa, bambu or orca: one "
-                         "object, with\na volume and a filament for each body",
+                         "Program that a .3mf is for: generic (default), or a project of prusa, bambu, orca or "
+                         "snapmaker:\none object, with a volume and a filament for each body",
                          "SLICER");
 }
 

@@ -30,10 +30,11 @@ struct MeshChoices {
   bool beams = false;
   WorkOptions work{0, 2 * usual_memory};
   bool force = false;
+  std::vector<std::string> given;  // all options that were set: "--bands=4"
 
   static const options::Spec<MeshChoices>& options() {
     using namespace options;
-    static const options::Spec<MeshChoices> spec{
+    static const options::Spec<MeshChoices> rows{
         group(&MeshChoices::design),
         option("-o,--output", &MeshChoices::output, kind::file,
                "The file to write; its ending says the format (default: the design's name and .3mf)", "FILE"),
@@ -61,12 +62,14 @@ struct MeshChoices {
                "N")
             .between(2, 6),
         flag("--virtual-tools", &MeshChoices::virtual_tools,
-             "Give each temperature and flow_rate of bands a tool, which sets them for the one nozzle; prusa and orca"),
+             "Give each temperature and flow_rate of bands a tool, which sets them for the one nozzle; prusa, "
+             "orca,\nsnapmaker"),
         flag("--height-ranges", &MeshChoices::height_ranges,
              "Write attributes that vary by height alone as ranges of heights of one body, not as bodies"),
         flag("--beams", &MeshChoices::beams, "Write struts and lattices as beams if possible; .3mf only"),
         group(&MeshChoices::work, WorkOptions::options("Most memory for the cells at the surface (default 4G)")),
         flag("--force", &MeshChoices::force, "Replace an existing file")};
+    static const options::Spec<MeshChoices> spec = recorded(rows, &MeshChoices::given);
     return spec;
   }
   MeshRequest request() const;

@@ -29,7 +29,7 @@ void add_bodies(const design::Design& design, const RegionProgram& program, cons
 }
 
 // The number of cells at a surface grows with the square of their fineness.
-MeshPlan plan_mesh(const RegionProgram& program, const Box& box, const Fineness& fineness, int threads) {
+MeshPlan estimate_mesh(const RegionProgram& program, const Box& box, const Fineness& fineness, int threads) {
   constexpr double coarse_cells = 48;
   const Vec3 size = box.size();
   const double fine = fineness.cell.mm(), longest = std::max({size.x, size.y, size.z});
@@ -89,6 +89,18 @@ void separate(const MaterialsInside& materials, MeshRequest& request) {
 constexpr double usual_cells = 200'000;
 constexpr double most_coarser = 5;
 
+MeshedDesign make_surface(const PlannedSurface& planned, const surface::GridBorders* known, Diagnostics& diagnostics,
+                          Progress* progress) {
+  MeshedDesign made;
+  made.tolerance_mm = planned.plan.tolerance_mm;
+  made.cell_mm = planned.plan.cell_mm;
+  made.is_coarser = planned.is_coarser;
+  const surface::RegionSurface surface = surface::contour(planned.program.partition, planned.contour, progress, known);
+  made.report = surface.report;
+  add_bodies(planned.design, planned.program, planned.box, surface, made, diagnostics);
+  return made;
+}
+
 // A run of the mesher, on a design or on its rest without struts.
 class Mesher {
  public:
@@ -97,32 +109,30 @@ class Mesher {
       : loaded_(loaded), request_(request), diagnostics_(diagnostics), progress_(progress), stop_(stop) {}
 
   // `shape` is a part of the design; null: all of it.
-  std::optional<MeshedDesign> mesh(const design::Design& whole, const design::NodePtr& shape) {
+  std::optional<PlannedSurface> plan(const design::Design& whole, const design::NodePtr& shape) {
     const std::optional<Box> box = design_box(shape ? alone(whole, shape) : whole, diagnostics_);
     if (!box) return std::nullopt;
     const auto fineness = usual_fineness(whole, *box, shape);
     if (!fineness) return std::nullopt;
-    const design::Design design = for_tolerance(whole, fineness->tolerance_mm);
-    const auto program = build_regions(design, *box, request_, diagnostics_, shape);
+    design::Design design = for_tolerance(whole, fineness->tolerance_mm);
+    auto program = build_regions(design, *box, request_, diagnostics_, shape);
     if (!program) return std::nullopt;
     stages_of(design)->prepare(loan(request_, progress_, stop_));
-    const MeshPlan plan = plan_mesh(*program, *box, *fineness, request_.threads);
-    if (request_.announce) request_.announce(plan);
-    if (!fits(plan, request_, loaded_, diagnostics_)) return std::nullopt;
-    MeshedDesign made;
-    made.tolerance_mm = fineness->tolerance_mm;
-    made.cell_mm = fineness->cell.mm();
-    made.is_coarser = is_coarser_;
-    surface::ContourOptions options;
-    options.corners = corners_over(*box, fineness->cell);
-    options.tolerance_mm = made.tolerance_mm;
-    options.join_flat = request_.join_flat;
-    options.workers = {request_.threads, stop_};
-    options.memory_bytes = request_.memory_bytes;
-    const surface::RegionSurface surface = surface::contour(program->partition, options, progress_);
-    made.report = surface.report;
-    add_bodies(design, *program, *box, surface, made, diagnostics_);
-    return made;
+    const MeshPlan estimate = estimate_mesh(*program, *box, *fineness, request_.threads);
+    if (request_.announce) request_.announce(estimate);
+    if (!fits(estimate, request_, loaded_, diagnostics_)) return std::nullopt;
+    surface::ContourOptions contour;
+    contour.corners = corners_over(*box, fineness->cell);
+    contour.tolerance_mm = fineness->tolerance_mm;
+    contour.join_flat = request_.join_flat;
+    contour.workers = {request_.threads, stop_};
+    contour.memory_bytes = request_.memory_bytes;
+    return PlannedSurface{std::move(design), std::move(*program), *box, estimate, is_coarser_, contour};
+  }
+
+  std::optional<MeshedDesign> mesh(const design::Design& whole, const design::NodePtr& shape) {
+    const auto planned = plan(whole, shape);
+    return planned ? std::optional(make_surface(*planned, nullptr, diagnostics_, progress_)) : std::nullopt;
   }
 
   std::optional<MeshedDesign> mesh_beams() {
@@ -155,7 +165,7 @@ class Mesher {
     const auto program = build_regions(coarse, box, request_, reported_later, shape);
     if (!program) return fine;
     stages_of(coarse)->prepare(loan(request_, progress_, stop_));
-    const double cells = plan_mesh(*program, box, *fine, request_.threads).cells;
+    const double cells = estimate_mesh(*program, box, *fine, request_.threads).cells;
     const double coarser = std::clamp(std::ceil(std::sqrt(cells / usual_cells)), 1.0, most_coarser);
     if (coarser == 1) return fine;
     is_coarser_ = true;
@@ -244,26 +254,63 @@ class Mesher {
   bool is_coarser_ = false;
 };
 
+// A request with the regions that the design's materials take.
+struct Chosen {
+  MeshRequest request;
+  MaterialsInside materials;
+};
+
+std::optional<Chosen> choose_regions(const design::Design& design, const MeshRequest& request,
+                                     Diagnostics& diagnostics) {
+  Chosen chosen{request, {}};
+  if (request.usual == UsualRegions::as_requested) return chosen;
+  auto found = materials_of(design, request.threads, diagnostics);
+  if (!found) return std::nullopt;
+  chosen.materials = std::move(*found);
+  if (request.usual == UsualRegions::separate) separate(chosen.materials, chosen.request);
+  return chosen;
+}
+
+Loaded staged(const Loaded& loaded, const MeshRequest& request, Progress* progress, const StopFlag* stop) {
+  return {loaded.path, loaded.source, with_stages(loaded.design, loan(request, progress, stop))};
+}
+
 }  // namespace
+
+std::optional<PlannedMesh> plan_mesh(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
+                                     Progress* progress, const StopFlag* stop) {
+  Loaded own = staged(loaded, request, progress, stop);
+  auto chosen = choose_regions(own.design, request, diagnostics);
+  if (!chosen) return std::nullopt;
+  auto surface = Mesher(own, chosen->request, diagnostics, progress, stop).plan(own.design, nullptr);
+  if (!surface) return std::nullopt;
+  return PlannedMesh{std::move(own), std::move(chosen->materials), chosen->request.bands.has_value(),
+                     std::move(*surface)};
+}
+
+MeshedDesign make_mesh(const PlannedMesh& planned, const surface::GridBorders* known, Diagnostics& diagnostics,
+                       Progress* progress) {
+  MeshedDesign made = make_surface(planned.surface, known, diagnostics, progress);
+  made.materials = planned.materials;
+  made.is_by_bands = planned.is_by_bands;
+  return made;
+}
 
 std::optional<MeshedDesign> mesh_design(const Loaded& loaded, const MeshRequest& request, Diagnostics& diagnostics,
                                         Progress* progress, const StopFlag* stop) {
   if (request.keeps_polyhedra)
     if (auto exact = exact_bodies(loaded.design, request, stop)) return exact;
-  const Loaded own{loaded.path, loaded.source, with_stages(loaded.design, loan(request, progress, stop))};
-  MeshRequest chosen = request;
-  MaterialsInside materials;
-  if (request.usual != UsualRegions::as_requested) {
-    auto found = materials_of(own.design, request.threads, diagnostics);
-    if (!found) return std::nullopt;
-    materials = std::move(*found);
-    if (request.usual == UsualRegions::separate) separate(materials, chosen);
+  if (!request.beams) {
+    const auto planned = plan_mesh(loaded, request, diagnostics, progress, stop);
+    return planned ? std::optional(make_mesh(*planned, nullptr, diagnostics, progress)) : std::nullopt;
   }
-  Mesher mesher(own, chosen, diagnostics, progress, stop);
-  auto made = request.beams ? mesher.mesh_beams() : mesher.mesh(own.design, nullptr);
+  const Loaded own = staged(loaded, request, progress, stop);
+  auto chosen = choose_regions(own.design, request, diagnostics);
+  if (!chosen) return std::nullopt;
+  auto made = Mesher(own, chosen->request, diagnostics, progress, stop).mesh_beams();
   if (!made) return std::nullopt;
-  made->materials = std::move(materials);
-  made->is_by_bands = chosen.bands.has_value();
+  made->materials = std::move(chosen->materials);
+  made->is_by_bands = chosen->request.bands.has_value();
   return made;
 }
 

@@ -16,11 +16,14 @@
 #include "jobs/common/job_steps.h"
 #include "jobs/common/overwrite.h"
 #include "jobs/common/session.h"
+#include "jobs/common/settings_key.h"
 #include "jobs/mesh/beam_document.h"
+#include "jobs/mesh/exact_bodies.h"
 #include "jobs/mesh/height_bands.h"
 #include "jobs/mesh/mesh_choices.h"
 #include "jobs/mesh/mixed_filaments.h"
 #include "jobs/mesh/painted_surfaces.h"
+#include "jobs/mesh/shared_mesh.h"
 #include "jobs/mesh/slicer_bodies.h"
 #include "jobs/mesh/vertex_colours.h"
 #include "jobs/mesh/virtual_tools.h"
@@ -184,10 +187,11 @@ void check_project(const MeshChoices& a, const MeshOutput& output) {
       throw WrongArgument(option + " is for projects of slicers in .3mf files; write " +
                           spelled::option("--flavour", words));
   };
+  const std::string projects = "prusa, bambu, orca or snapmaker";
   const bool is_bambu = a.flavour == formats::SlicerFlavour::bambu;
-  needs(a.mix_layers > 0, spelled::option("--mix-layers"), true, "prusa, bambu or orca");
-  needs(a.height_ranges, spelled::option("--height-ranges"), true, "prusa, bambu or orca");
-  needs(a.virtual_tools, spelled::option("--virtual-tools"), !is_bambu, "prusa or orca");
+  needs(a.mix_layers > 0, spelled::option("--mix-layers"), true, projects);
+  needs(a.height_ranges, spelled::option("--height-ranges"), true, projects);
+  needs(a.virtual_tools, spelled::option("--virtual-tools"), !is_bambu, "prusa, orca or snapmaker");
   if (a.height_ranges && (a.regions.by.empty() || a.mix_layers > 0 || a.virtual_tools))
     throw WrongArgument(spelled::option("--height-ranges") + " is for attributes; write " +
                         spelled::option("--by", "infill_density") + " without filaments of their own");
@@ -196,10 +200,14 @@ void check_project(const MeshChoices& a, const MeshOutput& output) {
                         " both choose filaments; leave one of the two out");
 }
 
-void refuse(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
+void refuse_written(const MeshChoices& a, const MeshOutput& output) {
   const formats::MeshFormat& format = *output.format;
   refuse_to_overwrite(output.path, a.force);
   if (format.companion_bytes) refuse_to_overwrite(exporting::companion_path(output.path, format), a.force);
+}
+
+void refuse_options(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
+  const formats::MeshFormat& format = *output.format;
   if (a.beams) check_beams(a, request, output.path, format);
   check_project(a, output);
   for (const std::string& setting : a.settings) SlicerSetting(setting).check(a.flavour);
@@ -227,14 +235,12 @@ class PrintedDiagnostics {
   size_t printed_ = 0;
 };
 
-std::optional<compile::MeshedDesign> make_mesh(const compile::Loaded& loaded, compile::MeshRequest request,
-                                               PrintedDiagnostics& printed, Session& session) {
-  request.announce = [&](const compile::MeshPlan& plan) {
-    printed.print();
-    tell_plan(session.events, plan);
-  };
+// Makes the surfaces, and adds diagnostics.
+using MakeMesh = std::function<std::optional<compile::MeshedDesign>(PrintedDiagnostics& printed, Progress& progress)>;
+
+std::optional<compile::MeshedDesign> make_mesh(const MakeMesh& make, PrintedDiagnostics& printed, Session& session) {
   JobProgress progress(session.events, Counted::steps);
-  auto made = compile::mesh_design(loaded, request, printed.diagnostics(), &progress, &session.stop);
+  auto made = make(printed, progress);
   progress.finish();
   printed.print();
   if (!made || printed.diagnostics().has_errors()) return std::nullopt;
@@ -304,33 +310,89 @@ int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDe
   return done;
 }
 
+// Makes the mesh, tells of it, and writes it; returns an exit code.
+int make_and_write(const MeshChoices& a, const compile::Loaded& loaded, const MeshOutput& output, const MakeMesh& make,
+                   const Stopwatch& watch, Session& session) {
+  PrintedDiagnostics printed(session.events);
+  auto made = make_mesh(make, printed, session);
+  if (!made) return wrong_input;
+  tell_materials(session.events, *made, output);
+  tell_bodies(session.events, *made);
+  warn_of_folds(session.events, *made);
+  tell_distance(session.events, *made);
+  warn_of_lost_parts(session.events, *made);
+  const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
+  if (const int code = write(a, loaded, *made, output, settings, printed, session); code != done) return code;
+  session.events.say(output.path + " written in " + format_rounded(watch.seconds(), 3) + " s");
+  session.events.event("done", {{"file", output.path}, {"seconds", watch.seconds()}});
+  return done;
+}
+
 int mesh(const MeshChoices& a, Session& session) {
   compile::MeshRequest request = a.request();
-  const std::vector<SlicerSetting> settings(a.settings.begin(), a.settings.end());
   const MeshOutput output = output_of(a);
   request.usual = usual_regions(a, *output.format);
   const Stopwatch watch;
   JobSteps<compile::LoadedPtr> steps;
-  steps.refuse = [&] { refuse(a, request, output); };
+  steps.refuse = [&] {
+    refuse_written(a, output);
+    refuse_options(a, request, output);
+  };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
     const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
     return loaded ? std::optional(loaded) : std::nullopt;
   };
   steps.run = [&](const compile::LoadedPtr& loaded) {
-    PrintedDiagnostics printed(session.events);
-    auto made = make_mesh(*loaded, request, printed, session);
-    if (!made) return wrong_input;
-    tell_materials(session.events, *made, output);
-    tell_bodies(session.events, *made);
-    warn_of_folds(session.events, *made);
-    tell_distance(session.events, *made);
-    warn_of_lost_parts(session.events, *made);
-    if (const int code = write(a, *loaded, *made, output, settings, printed, session); code != done) return code;
-    session.events.say(output.path + " written in " + format_rounded(watch.seconds(), 3) + " s");
-    session.events.event("done", {{"file", output.path}, {"seconds", watch.seconds()}});
-    return done;
+    const MakeMesh make = [&](PrintedDiagnostics& printed, Progress& progress) {
+      request.announce = [&](const compile::MeshPlan& plan) {
+        printed.print();
+        tell_plan(session.events, plan);
+      };
+      return compile::mesh_design(*loaded, request, printed.diagnostics(), &progress, &session.stop);
+    };
+    return make_and_write(a, *loaded, output, make, watch, session);
   };
   return take_steps(steps, session);
+}
+
+void refuse_unshared(const MeshChoices& a) {
+  if (a.beams || a.force)
+    throw WrongArgument("meshes are shared out without " + spelled::option("--beams") + " and " +
+                        spelled::option("--force"));
+}
+
+// Exact bodies are cut without cells.
+void refuse_exact(const compile::Loaded& loaded, const compile::MeshRequest& request, const Session& session) {
+  if (request.keeps_polyhedra && compile::exact_bodies(loaded.design, request, &session.stop))
+    throw WrongArgument(
+        "a script's polyhedra keep their triangles, which one process writes at once; run the job, or "
+        "save it with " +
+        spelled::option("--keep-all"));
+}
+
+SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) {
+  const auto& a = *static_cast<const MeshChoices*>(job);
+  refuse_unshared(a);
+  compile::MeshRequest request = a.request();
+  const MeshOutput output = output_of(a);
+  request.usual = usual_regions(a, *output.format);
+  refuse_options(a, request, output);
+  const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
+  if (!loaded) return nullptr;
+  refuse_exact(*loaded, request, session);
+  auto planned = compile::plan_mesh(*loaded, request, diagnostics, nullptr, &session.stop);
+  if (!planned || diagnostics.has_errors()) return nullptr;
+  MeshToShare shared{output.path + ".slabs", std::move(*planned),
+                     settings_key(a.design.design, loaded->design, a.given, session.program), nullptr, nullptr};
+  shared.refuse_written = [a, output] { refuse_written(a, output); };
+  shared.write = [a, output, loaded](const compile::PlannedMesh& mesh, const surface::GridBorders& known,
+                                     Session& here) {
+    const MakeMesh make = [&](PrintedDiagnostics& printed, Progress& progress) {
+      return std::optional(compile::make_mesh(mesh, &known, printed.diagnostics(), &progress));
+    };
+    return make_and_write(a, *loaded, output, make, Stopwatch(), here);
+  };
+  return share_mesh(std::move(shared));
 }
 
 }  // namespace
@@ -341,6 +403,7 @@ JobKind mesh_kind() {
       job_kind<MeshChoices>("mesh", "Write closed surfaces: STL, 3MF and others",
                             "Lengths are millimetres.\n\nFILE ends in " + words_text(endings) + mesh_footer, mesh);
   kind.endings = endings;
+  kind.share = share;
   return kind;
 }
 

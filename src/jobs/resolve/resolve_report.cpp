@@ -51,16 +51,18 @@ std::string rounding_text(const std::string& what, double step) {
 
 // Returns what a step does and where its numbers come from, a line each.
 std::vector<std::string> lines_of(const ResolvedStep& step) {
-  const calibration::Calibration& calibration = *step.step.calibration;
-  std::vector<std::string> lines{
-      join(step.step.from(), " and ") + " to " + step.step.to() + materials_text(step) + " by " + calibration.name,
-      calibration.title + (calibration.is_illustrative ? " (illustrative)" : "")};
+  std::vector<std::string> lines{join(step.step.from(), " and ") + " to " + step.step.to() + materials_text(step) +
+                                 " by " + step.step.names()};
+  for (const calibration::CalibrationPtr& used : step.step.calibrations())
+    lines.push_back(used->title + (used->is_illustrative ? " (illustrative)" : ""));
   lines.push_back(step.inks ? inks_text(step) : reach_text({step.attribute, step.unit, step.reach}));
   for (const compile::ReadAttribute& other : step.others) lines.push_back(reach_text(other));
   if (!step.place_in_reach.empty()) lines.push_back("at each place less is reached, as the other attributes allow");
   if (step.rounds_to) lines.push_back(rounding_text(step.step.to(), *step.rounds_to));
-  if (!calibration.method.empty()) lines.push_back("method: " + calibration.method);
-  lines.push_back("source: " + calibration.citation);
+  for (const calibration::CalibrationPtr& used : step.step.calibrations()) {
+    if (!used->method.empty()) lines.push_back("method: " + used->method);
+    lines.push_back("source: " + used->citation);
+  }
   return lines;
 }
 

@@ -107,6 +107,7 @@ std::vector<ReachCheck> checks_of(const Resolution& resolution) {
       const bool varies = !step.place_in_reach.empty();
       checks.push_back({&step, step.attribute, step.unit, varies ? step.place_in_reach : step.attribute,
                         varies ? Interval(1, 2) : step.reach});
+      if (step.joint) continue;  // its place says whether both are reached
       for (const ReadAttribute& other : step.others)
         checks.push_back({&step, other.attribute, other.unit, other.attribute, other.reach});
     }
@@ -154,6 +155,29 @@ void report(const ReachCheck& check, const OutOfReach& beyond, const design::Des
                         spelled::option("--out-of-reach", "nearest"));
 }
 
+// Reports two properties that no mixture has both of.
+void report_joint(const ReachCheck& check, const OutOfReach& beyond, const design::Design& design,
+                  const SourceRange& where, Diagnostics& diagnostics) {
+  const ResolvedStep& step = *check.step;
+  const ReadAttribute& other = step.others[0];
+  const double one = number_at(design, step.attribute, beyond.worst_mm, diagnostics);
+  const double two = number_at(design, other.attribute, beyond.worst_mm, diagnostics);
+  const auto reach = calibration::reach_beside(step.joint->first, step.joint->second, two);
+  const auto range = [](const Interval& of, const std::string& unit) {
+    return format_rounded(of.lo, 6) + " to " + with_unit(of.hi, unit);
+  };
+  const std::string can =
+      reach ? "beside this " + other.attribute + " " + step.attribute + " is " + range(*reach, step.unit) + " by " +
+                  step.step.names()
+            : other.attribute + " is " + range(other.reach, other.unit) + " by " + step.step.beside->name;
+  diagnostics.error(Code::limit, where,
+                    step.attribute + " and " + other.attribute + " are out of reach together at " +
+                        format_count(beyond.voxels) + " voxels: they are " + with_unit(one, step.unit) + " and " +
+                        with_unit(two, other.unit) + " at " + format_point(beyond.worst_mm) + " mm, and " + can,
+                    "ask for what a mixture of " + join(step.materials, ", ") + " has, or take a near one with " +
+                        spelled::option("--out-of-reach", "nearest"));
+}
+
 }  // namespace
 
 std::optional<Resolution> resolve_for_job(const LoadedPtr& loaded, const PlanOptions& options,
@@ -188,7 +212,8 @@ void report_out_of_reach(const design::Design& resolved, const voxel::Lattice& l
   for (const ReachCheck& check : checks) reaches.push_back({check.surveyed, check.reach});
   const auto found = survey_reach(resolved, lattice, reaches, options.threads, options.stop, diagnostics);
   for (size_t n = 0; found && n < checks.size(); ++n)
-    if ((*found)[n].voxels > 0) report(checks[n], (*found)[n], resolved, where, diagnostics);
+    if ((*found)[n].voxels > 0)
+      (checks[n].step->joint ? report_joint : report)(checks[n], (*found)[n], resolved, where, diagnostics);
 }
 
 }  // namespace ombre::compile

@@ -97,18 +97,17 @@ uint32_t MixedCells::find(const CellPlace& at) const {
   return found != end && found->at[0] == at[0] ? static_cast<uint32_t>(found - cells_.begin()) : none;
 }
 
-MixedCells find_mixed_cells(const program::Program& label, const Lattice& corners, int threads, Progress* progress,
-                            const StopFlag* stop) {
+std::vector<MixedCell> mixed_cells_in(CellLayers layers, const program::Program& label, const Lattice& corners,
+                                      int threads, Progress* progress, const StopFlag* stop) {
   const voxel::FieldEvaluator evaluator(label, corners, voxel::best_evaluator(corners));
-  const int64_t cell_layers = corners.count[2] - 1;
-  const auto slabs = static_cast<size_t>((cell_layers + slab_layers - 1) / slab_layers);
+  const auto slabs = static_cast<size_t>((layers.end - layers.begin + slab_layers - 1) / slab_layers);
   const Stopwatch watch;
   std::vector<MixedCell> all;
   run_ordered<std::vector<MixedCell>>(
       slabs, threads, 2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
       [&](size_t n) {
-        const int64_t k = static_cast<int64_t>(n) * slab_layers;
-        const TileBox box{{0, 0, k}, {corners.count[0], corners.count[1], std::min(k + slab_layers, cell_layers) + 1}};
+        const int64_t k = layers.begin + static_cast<int64_t>(n) * slab_layers;
+        const TileBox box{{0, 0, k}, {corners.count[0], corners.count[1], std::min(k + slab_layers, layers.end) + 1}};
         CornerSlab slab(box);
         for (const FieldTile& tile : evaluator.tiles(box, stop)) slab.take(tile);
         slab.clear_outermost(corners);
@@ -121,7 +120,12 @@ MixedCells find_mixed_cells(const program::Program& label, const Lattice& corner
         all.insert(all.end(), cells.begin(), cells.end());
         if (progress) progress->update(at_steady_pace(n + 1, slabs, watch.seconds()));
       });
-  return {corners, std::move(all)};
+  return all;
+}
+
+MixedCells find_mixed_cells(const program::Program& label, const Lattice& corners, int threads, Progress* progress,
+                            const StopFlag* stop) {
+  return {corners, mixed_cells_in(all_layers(corners), label, corners, threads, progress, stop)};
 }
 
 }  // namespace ombre::surface

@@ -58,8 +58,18 @@ class MixedCells {
   std::vector<uint32_t> row_begins_;
 };
 
-// Evaluates the labels of all corners tile by tile in single precision and keeps the mixed cells. The outermost corners
-// count as void. Throws Cancelled.
+// Layers [begin, end) of cells along z.
+struct CellLayers {
+  int64_t begin = 0, end = 0;
+};
+inline CellLayers all_layers(const voxel::Lattice& corners) { return {0, corners.count[2] - 1}; }
+
+// Returns the mixed cells of some layers, in order. Evaluates the labels of their corners tile by tile in single
+// precision. The outermost corners of the lattice count as void. Throws Cancelled.
+std::vector<MixedCell> mixed_cells_in(CellLayers layers, const program::Program& label, const voxel::Lattice& corners,
+                                      int threads, Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+// Returns the mixed cells of all layers. Throws Cancelled.
 MixedCells find_mixed_cells(const program::Program& label, const voxel::Lattice& corners, int threads,
                             Progress* progress = nullptr, const StopFlag* stop = nullptr);
 

@@ -8,6 +8,7 @@
 #include "base/system/stopwatch.h"
 #include "base/system/tasks.h"
 #include "base/text/error.h"
+#include "base/text/text.h"
 #include "surface/cells/border_normals.h"
 #include "surface/cells/edge_search.h"
 #include "surface/cells/shortened.h"
@@ -215,6 +216,19 @@ std::vector<Crossing> find(const Partition& partition, const CellTree& tree, Cro
 std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads, Progress* progress,
                                      const StopFlag* stop) {
   return find(partition, tree, CrossingList(tree, {}, {}, threads, stop), threads, progress, stop);
+}
+
+std::vector<Crossing> crossings_at(const std::vector<BorderPoint>& points, const CellTree& tree, int threads,
+                                   const StopFlag* stop) {
+  std::vector<Crossing> crossings = CrossingList(tree, {}, {}, threads, stop).all;
+  if (crossings.size() != points.size())
+    throw Error(Code::other_job, "the cells have " + format_count(crossings.size()) + " crossed edges, and " +
+                                     format_count(points.size()) + " crossings were found before");
+  for (size_t n = 0; n < points.size(); ++n) {
+    crossings[n].at = points[n].at;
+    crossings[n].normal = points[n].normal;
+  }
+  return crossings;
 }
 
 std::vector<Crossing> find_crossings_after_growth(const Partition& partition, const CellTree& tree,

@@ -17,9 +17,19 @@ struct Crossing {
   uint32_t before = none;  // its number before the last growth, if the edge was already crossed
 };
 
+// Where an edge crosses a border, in mm, and the normal as of a Crossing.
+struct BorderPoint {
+  Vec3 at, normal;
+};
+
 // Returns all crossings, in order of their leaves, then axes. Throws Cancelled.
 std::vector<Crossing> find_crossings(const Partition& partition, const CellTree& tree, int threads,
                                      Progress* progress = nullptr, const StopFlag* stop = nullptr);
+
+// Returns the crossings of a tree in which no leaf is subdivided, whose points were found before. Throws Error if those
+// are not as many as the tree has, and Cancelled.
+std::vector<Crossing> crossings_at(const std::vector<BorderPoint>& points, const CellTree& tree, int threads,
+                                   const StopFlag* stop = nullptr);
 
 // Returns all crossings after the tree grew, and copies those that are known from `before`. `leaves` maps old numbers
 // of leaves to new ones. Throws Cancelled.

@@ -20,8 +20,8 @@ using voxel::TileBox;
 constexpr uint8_t fine_level = grid_level - 2;
 constexpr int32_t units = 1 << fine_level;            // distance between corners of finer cells, in units
 constexpr int32_t per_cell = units_per_cell / units;  // number of finer cells along a side of a cell of the grid
-constexpr int64_t fine_slab_layers = int64_t{4} * per_cell;
-constexpr int64_t strip_rows = 64;  // number of rows of a slab whose labels are in memory at a time
+constexpr int64_t fine_strip_layers = strip_layers * per_cell;
+constexpr int64_t strip_rows = 64;  // number of rows of a strip whose labels are in memory at a time
 constexpr size_t edges_at_once = size_t{1} << 18;
 
 // Returns the lattice of corners of finer cells, which starts at the grid's first corner; null if its pitch is too
@@ -109,25 +109,23 @@ class TileEdges {
 
 }  // namespace
 
-void find_hidden_edges(const program::Program& label, const CellTree& tree, int threads, const StopFlag* stop,
-                       const std::function<bool(const std::vector<CrossedEdge>&)>& take) {
+void hidden_edges_in(CellLayers layers, const program::Program& label, const CellTree& tree, int threads,
+                     const StopFlag* stop, const TakeEdges& take) {
   const std::optional<Lattice> lattice = finer(tree.lattice());
   if (!lattice) return;
   const Lattice& fine = *lattice;
   const voxel::FieldEvaluator evaluator(label, fine, voxel::best_evaluator(fine));
-  std::vector<CrossedEdge> waiting;
+  // The last corners lie behind the last layer.
+  const bool is_last = layers.end == all_layers(tree.lattice()).end;
+  const int64_t begin = layers.begin * per_cell, end = is_last ? fine.count[2] : layers.end * per_cell;
   std::atomic<bool> goes_on = true;
-  const auto hand_over = [&] {
-    if (!waiting.empty() && goes_on) goes_on = take(waiting);
-    waiting.clear();
-  };
   run_ordered<std::vector<CrossedEdge>>(
-      static_cast<size_t>((fine.count[2] + fine_slab_layers - 1) / fine_slab_layers), threads,
+      static_cast<size_t>((end - begin + fine_strip_layers - 1) / fine_strip_layers), threads,
       2 * static_cast<size_t>(threads > 0 ? threads : core_count()),
       [&](size_t n) {
         std::vector<CrossedEdge> edges;
-        TileBox strip{{0, 0, static_cast<int64_t>(n) * fine_slab_layers}, fine.count};
-        strip.hi[2] = std::min(strip.lo[2] + fine_slab_layers, fine.count[2]);
+        TileBox strip{{0, 0, begin + static_cast<int64_t>(n) * fine_strip_layers}, fine.count};
+        strip.hi[2] = std::min(strip.lo[2] + fine_strip_layers, end);
         for (; goes_on && strip.lo[1] < fine.count[1]; strip.lo[1] += strip_rows) {
           strip.hi[1] = std::min(strip.lo[1] + strip_rows, fine.count[1]);
           for (const FieldTile& tile : evaluator.tiles(strip, stop))
@@ -137,10 +135,29 @@ void find_hidden_edges(const program::Program& label, const CellTree& tree, int 
       },
       [&](size_t, std::vector<CrossedEdge>& edges) {
         if (stop && stop->requested()) throw Cancelled();
-        waiting.insert(waiting.end(), edges.begin(), edges.end());
-        if (waiting.size() >= edges_at_once) hand_over();
+        if (goes_on) goes_on = take(edges);
       });
-  hand_over();
+}
+
+bool EdgeBatches::add(const std::vector<CrossedEdge>& edges) {
+  waiting_.insert(waiting_.end(), edges.begin(), edges.end());
+  if (waiting_.size() >= edges_at_once) hand_over();
+  return goes_on_;
+}
+
+void EdgeBatches::finish() { hand_over(); }
+
+void EdgeBatches::hand_over() {
+  if (!waiting_.empty() && goes_on_) goes_on_ = take_(waiting_);
+  waiting_.clear();
+}
+
+void find_hidden_edges(const program::Program& label, const CellTree& tree, int threads, const StopFlag* stop,
+                       const TakeEdges& take) {
+  EdgeBatches batches(take);
+  hidden_edges_in(all_layers(tree.lattice()), label, tree, threads, stop,
+                  [&](const std::vector<CrossedEdge>& edges) { return batches.add(edges); });
+  batches.finish();
 }
 
 }  // namespace ombre::surface

@@ -35,14 +35,14 @@ size_t most_leaves(size_t grid_leaves, size_t memory_bytes) {
 
 class CellRefiner {
  public:
-  CellRefiner(const Partition& partition, const ContourOptions& options, Progress* progress)
+  CellRefiner(const Partition& partition, const ContourOptions& options, Progress* progress, const GridBorders* known)
       : partition_(partition),
         options_(options),
         progress_(progress),
-        tree_(find_mixed_cells(partition.label, options.corners, options.workers.threads, progress,
-                               options.workers.stop)),
+        known_(known),
+        tree_(grid_cells()),
         most_leaves_(most_leaves(tree_.leaves().size(), options.memory_bytes)),
-        crossings_(find_crossings(partition, tree_, options.workers.threads, progress, options.workers.stop)),
+        crossings_(grid_crossings()),
         mesh_(make_dual_mesh(tree_, crossings_, options.workers)),
         check_(partition, options),
         intersections_(options.workers) {}
@@ -65,6 +65,26 @@ class CellRefiner {
   }
 
  private:
+  MixedCells grid_cells() const {
+    if (known_) return {options_.corners, known_->cells};
+    return find_mixed_cells(partition_.label, options_.corners, options_.workers.threads, progress_,
+                            options_.workers.stop);
+  }
+
+  std::vector<Crossing> grid_crossings() const {
+    if (known_) return crossings_at(known_->crossings, tree_, options_.workers.threads, options_.workers.stop);
+    return find_crossings(partition_, tree_, options_.workers.threads, progress_, options_.workers.stop);
+  }
+
+  void each_hidden_edge(const TakeEdges& take) const {
+    if (!known_)
+      return find_hidden_edges(partition_.label, tree_, options_.workers.threads, options_.workers.stop, take);
+    EdgeBatches batches(take);
+    for (const std::vector<CrossedEdge>& strip : known_->hidden)
+      if (!batches.add(strip)) break;
+    batches.finish();
+  }
+
   int rounds_of_finishing(const SurfaceMaker& maker) const {
     const bool may_settle = maker.crosses_nowhere() || tree_.leaves().size() < most_leaves_of_rounds;
     return may_settle ? most_finishing_rounds : 1;
@@ -72,7 +92,8 @@ class CellRefiner {
 
   std::vector<CrossedEdge> hidden_edges(SurfaceMaker& maker) const {
     if (options_.tolerance_mm == 0) return {};
-    return maker.far_hidden_edges((most_leaves_ - tree_.leaves().size()) / leaves_of_hidden_edge);
+    return maker.far_hidden_edges([&](const TakeEdges& take) { each_hidden_edge(take); },
+                                  (most_leaves_ - tree_.leaves().size()) / leaves_of_hidden_edge);
   }
 
   // Subdivides cells. Returns false if there is nothing to subdivide or the tree has reached its greatest size.
@@ -93,6 +114,7 @@ class CellRefiner {
   const Partition& partition_;
   const ContourOptions& options_;
   Progress* progress_;
+  const GridBorders* known_;
   CellTree tree_;
   size_t most_leaves_;
   std::vector<Crossing> crossings_;
@@ -103,8 +125,9 @@ class CellRefiner {
 
 }  // namespace
 
-RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress) {
-  RegionSurface surface = CellRefiner(partition, options, progress).make();
+RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress,
+                      const GridBorders* known) {
+  RegionSurface surface = CellRefiner(partition, options, progress, known).make();
   surface.report.lost =
       find_lost_parts(partition, surface, options.corners, options.workers.threads, options.workers.stop);
   return surface;

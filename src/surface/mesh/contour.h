@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/system/progress.h"
+#include "surface/cells/grid_borders.h"
 #include "surface/mesh/contour_types.h"
 
 namespace ombre::surface {
@@ -15,6 +16,8 @@ constexpr double bytes_per_mixed_cell = 850;
 // Subdivision stops after some millions of additional cells.
 // Where more than two regions meet, they share vertices. Features thinner than a quarter of a cell may be lost; the
 // report says where. Throws Cancelled.
-RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr);
+// What is known of the grid's borders, all of them, is not found again; null: nothing is.
+RegionSurface contour(const Partition& partition, const ContourOptions& options, Progress* progress = nullptr,
+                      const GridBorders* known = nullptr);
 
 }  // namespace ombre::surface

@@ -77,6 +77,29 @@ TEST(Contour, IsTheSameForAnyNumberOfThreads) {
   for (size_t n = 0; n < one.facets.size(); ++n) EXPECT_EQ(one.facets[n].corners, three.facets[n].corners);
 }
 
+// The pocket of 0.3 mm lies between the corners, in the third of six slabs.
+TEST(Contour, IsTheSameWhenBordersAreFoundInSlabs) {
+  const Partition partition = solid_where_negative([](Builder& b) {
+    const Field outwards = length(b.input(0) - 11.2, b.input(1) - 10.9) - ring;
+    const Field pocket = length(b.input(0) - 17.5, b.input(1) - 10.5, b.input(2) - 11.5) - 0.3;
+    return max(length(outwards, b.input(2) - 11.1) - tube, -pocket);
+  });
+  const ContourOptions options{corners_from_origin({23, 23, 23}), 0.05, true, {1}, 0};
+  GridBorders known;
+  size_t hidden = 0;
+  for (int64_t begin = 0; begin < 22; begin += strip_layers)
+    known.append(
+        find_grid_borders({begin, std::min<int64_t>(begin + strip_layers, 22)}, partition, options.corners, true, {1}));
+  for (const auto& strip : known.hidden) hidden += strip.size();
+  EXPECT_GT(hidden, 0U);
+  const RegionSurface alone = contour(partition, options), joined = contour(partition, options, nullptr, &known);
+  EXPECT_EQ(alone.vertices, joined.vertices);
+  ASSERT_EQ(alone.facets.size(), joined.facets.size());
+  for (size_t n = 0; n < alone.facets.size(); ++n) EXPECT_EQ(alone.facets[n].corners, joined.facets[n].corners);
+  known.crossings.pop_back();
+  EXPECT_THROW(contour(partition, options, nullptr, &known), Error);
+}
+
 TEST(Contour, NeedsMemoryForItsCells) {
   const ContourOptions options{corners_from_origin({23, 23, 23}), 0.05, true, {1}, 10'000};
   try {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/math/evenly_spaced.h"
-#include "surface/cells/hidden_edges.h"
 #include "surface/mesh/border_offsets.h"
 #include "surface/mesh/deep_borders.h"
 #include "surface/mesh/side_normals.h"
@@ -281,14 +280,14 @@ void FacetCheck::check_crossings(const QuadSurface& surface, const std::vector<u
   std::ranges::merge(still, off, std::back_inserter(far_crossings_));
 }
 
-std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most) {
+std::vector<CrossedEdge> FacetCheck::far_hidden_edges(const QuadSurface& surface, const CellTree& tree,
+                                                      const EachHiddenEdge& each, size_t most) {
   std::vector<CrossedEdge> far;
   std::vector<Vec3> places;
-  find_hidden_edges(partition_.label, tree, workers_.threads, workers_.stop,
-                    [&](const std::vector<CrossedEdge>& hidden) {
-                      add_far_among(hidden, surface, tree, far, places);
-                      return far.size() <= most;
-                    });
+  each([&](const std::vector<CrossedEdge>& hidden) {
+    add_far_among(hidden, surface, tree, far, places);
+    return far.size() <= most;
+  });
   if (far.size() <= most) return far;
   left_hidden_ = evenly_spaced(places, most_measured);
   return {};

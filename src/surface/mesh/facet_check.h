@@ -1,14 +1,19 @@
 // Checks whether the facets and the borders of regions agree within a tolerance.
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "surface/cells/hidden_edges.h"
 #include "surface/mesh/facet_distance.h"
 #include "surface/mesh/quad_surface.h"
 #include "surface/mesh/seen_quads.h"
 #include "surface/mesh/surface_distance.h"
 
 namespace ombre::surface {
+
+// Hands out the hidden edges of a grid.
+using EachHiddenEdge = std::function<void(const TakeEdges& take)>;
 
 class FacetCheck {
  public:
@@ -23,9 +28,11 @@ class FacetCheck {
   std::vector<uint32_t> far_quads() const;
   // Returns points of borders that the far quads miss.
   std::vector<Vec3> missed_borders() const;
-  // Returns hidden edges whose border has no facet within reach. If there are more than `most`, returns none, and
-  // counts them as far in farthest_in_tolerances(). No leaf of the tree may be subdivided yet. Throws Cancelled.
-  std::vector<CrossedEdge> far_hidden_edges(const QuadSurface& surface, const CellTree& tree, size_t most);
+  // Returns those of the hidden edges whose border has no facet within reach. If there are more than `most`, returns
+  // none, and counts them as far in farthest_in_tolerances(). No leaf of the tree may be subdivided yet. Throws
+  // Cancelled.
+  std::vector<CrossedEdge> far_hidden_edges(const QuadSurface& surface, const CellTree& tree,
+                                            const EachHiddenEdge& each, size_t most);
   // Returns the greatest distance in tolerances at the far samples (at most a thousand of them), at crossings and at
   // hidden borders counted as far; 1 if all are near. Throws Cancelled.
   double farthest_in_tolerances(const QuadSurface& surface) const;

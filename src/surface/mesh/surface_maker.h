@@ -22,7 +22,9 @@ class SurfaceMaker {
   Growth far_cells() const;
   Growth coarse_cells();
   // Returns borders that the grid does not show; no leaf of the tree may be subdivided yet.
-  std::vector<CrossedEdge> far_hidden_edges(size_t most) { return check_.far_hidden_edges(surface_, tree_, most); }
+  std::vector<CrossedEdge> far_hidden_edges(const EachHiddenEdge& each, size_t most) {
+    return check_.far_hidden_edges(surface_, tree_, each, most);
+  }
   // Fits volumes and mends intersections. Throws Cancelled.
   void finish(const Partition& partition);
   bool crosses_nowhere() const { return pairs_left_ == 0; }  // valid after finish()
