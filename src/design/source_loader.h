@@ -159,7 +159,8 @@ struct PolygonsRequest {
 // - path: the polyline through them, with the channels "distance" in mm and "along", the share (0 to 1) of the whole
 //   length up to the nearest position.
 // - separate: the points, with the channels "distance" and "index", the number of the nearest point.
-// - pairs: a segment from each even point to the next one, with the channel "distance".
+// - pairs: a segment from each even point to the next one, with the channel "distance". With a `fillet` R it is
+//   R - sqrt(sum of (R - d)^2) over all segments whose distances d are less than R, if there are any.
 // - triples: a triangle of each three points, with the channel "distance".
 // - cells: the Voronoi cells of at least two points, with the channel "distance" from the nearest wall between cells.
 enum class PathKind : uint8_t { path, separate, pairs, triples, cells };
@@ -167,6 +168,7 @@ struct PathRequest {
   using Result = program::FieldSource;
   std::vector<Vec3> points;
   PathKind kind = PathKind::path;
+  double fillet = 0;  // mm; of pairs alone
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 

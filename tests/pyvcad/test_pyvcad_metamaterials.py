@@ -332,8 +332,24 @@ def test_struts_lie_between_scattered_points():
     assert distances[2] - distances[0] < 1e-6
     if numpy.abs(middle).max() < 4.5:
         assert cells.evaluate(*middle.tolist()) == pytest.approx(-0.3, abs=1e-6)
-    with pytest.raises(pv.MissingFeature, match="node_radius"):
-        mm.voronoi_graph_lattice(block, points, 0.6, member_blend_radius=0.5)
+
+
+# Eight points around the middle have the axes as the edges of their cells. In the plane z = 0, the point (s, s, 0) is s away
+# from two axes and s sqrt(2) from the third: with the radius 0.5 and the fillet 1 the surface is at s = 0.831.
+def test_seams_of_random_struts_have_fillets():
+    block = pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(8, 8, 8))
+    points = [pv.Vec3(x, y, z) for x in (-2, 2) for y in (-2, 2) for z in (-2, 2)]
+    sharp = mm.voronoi_graph_lattice(block, points, beam_thickness=1)
+    round_ = mm.voronoi_graph_lattice(block, points, beam_thickness=1, member_blend_radius=1.0)
+    s = 0.83
+    assert sharp.evaluate(s, s, 0) == pytest.approx(s - 0.5)
+    known = 1 - math.sqrt(2 * (1.5 - s) ** 2 + (1.5 - s * math.sqrt(2)) ** 2)
+    assert round_.evaluate(s, s, 0) == pytest.approx(known)
+    assert round_.evaluate(3, 0.6, 0) == pytest.approx(sharp.evaluate(3, 0.6, 0)) == pytest.approx(0.1)
+    with pytest.raises(pv.MissingFeature, match="graph lattices"):
+        mm.voronoi_plate_lattice(block, points, 0.6, member_blend_radius=0.5)
+    with pytest.raises(ValueError):
+        mm.delaunay_graph_lattice(block, points, 0.6, member_blend_radius=-1)
 
 
 def test_missing_names_say_what_to_write_instead():

@@ -178,17 +178,20 @@ def _balls(edges: list[Any], radius: float) -> ombre.Solid:
     return ombre.lattice(edges=[[[x, y, z], [x, y, z + short]] for x, y, z in sorted(ends)], radius=radius)
 
 
-def _struts(what: str, host: Any, places: list[list[float]], edges: list[Any], closed: Any, beam_thickness: float,
-            node_radius: float | None, boundary: str) -> Node:
-    """Struts along edges; `closed` is the node of ombre that closes them at the surface of a body."""
+def _struts(what: str, host: Any, places: list[list[float]], edges: list[Any], of_points: Any, beam_thickness: float,
+            node_radius: float | None, boundary: str, blend: float) -> Node:
+    """Struts along edges; `of_points` is the node of ombre that closes them at the surface of a body, and rounds seams."""
     radius, closes = length(float(beam_thickness)) / 2, _is_closed(what, boundary)
+    fillet = not_negative(float(blend))
     if not edges:
         raise ValueError(f"{what}: no edge lies between these points")
     balls = None if node_radius is None else length(float(node_radius))
 
     def make(body: ombre.Solid) -> ombre.Solid:
-        struts = (closed(places, radius, region=body, closed=True) if closes
-                  else _cut(body, ombre.lattice(edges=edges, radius=radius)))
+        if closes or fillet:
+            struts = of_points(places, radius, region=body, closed=closes, **({"blend": fillet} if fillet else {}))
+        else:
+            struts = _cut(body, ombre.lattice(edges=edges, radius=radius))
         return struts if balls is None else ombre.union(struts, _cut(body, _balls(edges, balls)), materials="first")
     return _Within(as_node(host), make)
 
@@ -202,25 +205,25 @@ def voronoi_graph_lattice(host: Any, points: Any, beam_thickness: float, node_ra
         beam_thickness: diameter of struts, mm.
         node_radius: radius of balls where struts meet, mm; none: no balls.
         boundary: "open", or "closed" with struts along the surface where walls between cells meet it.
+        member_blend_radius: radius of fillets along the seams of struts, mm; 0: sharp seams.
     """
-    _no_blend("voronoi_graph_lattice", member_blend_radius)
     places = _places("voronoi_graph_lattice", points)
     low, high = (numpy.array(corner) for corner in as_node(host)._design().bounds)
     margin = float(beam_thickness) + 0.1 * float((high - low).max())
     edges = ombre.voronoi_edges(numpy.array(places), low - margin, high + margin).tolist()
-    return _struts("voronoi_graph_lattice", host, places, edges, ombre.voronoi_struts, beam_thickness, node_radius, boundary)
+    return _struts("voronoi_graph_lattice", host, places, edges, ombre.voronoi_struts, beam_thickness, node_radius, boundary,
+                   member_blend_radius)
 
 
 def delaunay_graph_lattice(host: Any, points: Any, beam_thickness: float, node_radius: float | None = None,
                            boundary: str = "open", mode: str = "mesh_edges", member_blend_radius: float = 0.0) -> Node:
     """Struts from each point to its neighbours, cut at the surface of the body; arguments as for voronoi_graph_lattice."""
-    _no_blend("delaunay_graph_lattice", member_blend_radius)
     if mode != "mesh_edges":
         raise missing(f"delaunay_graph_lattice with the mode {mode!r}", 'mode="mesh_edges"')
     places = _places("delaunay_graph_lattice", points)
     edges = ombre.delaunay_edges(numpy.array(places)).tolist()
     return _struts("delaunay_graph_lattice", host, places, edges, ombre.delaunay_struts, beam_thickness, node_radius,
-                   boundary)
+                   boundary, member_blend_radius)
 
 
 def _walls(what: str, make: Any, host: Any, points: Any, wall_thickness: Any, boundary: str, blend: float) -> Node:
@@ -247,4 +250,4 @@ def delaunay_plate_lattice(host: Any, points: Any, wall_thickness: Any, boundary
 
 def _no_blend(what: str, radius: float) -> None:
     if radius:
-        raise missing(f"{what} with blended joints", "node_radius makes balls at joints")
+        raise missing(f"{what} with blended joints", "the graph lattices take it")

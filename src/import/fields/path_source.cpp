@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "base/math/box_tree.h"
+#include "base/math/segment_sets.h"
 #include "base/system/assert.h"
+#include "base/text/text.h"
 #include "import/fields/segment_tree.h"
 #include "import/fields/triangle_distance.h"
 
@@ -196,6 +198,68 @@ class DistanceSource : public program::FieldSource {
   Hash content_;
 };
 
+// Segments whose distances are joined with fillets.
+class FilletedSegments final : public program::FieldSource {
+ public:
+  FilletedSegments(const std::vector<Vec3>& points, double reach)
+      : content_(content_of("fillets " + format_number(reach), points)), reach_(reach) {
+    for (size_t n = 0; n + 1 < points.size(); n += 2)
+      segments_.push_back({points[n], points[n + 1], static_cast<uint32_t>(n / 2)});
+    std::vector<Box> boxes;
+    std::vector<Edge3> edges;
+    for (const auto& [from, to, number] : segments_) {
+      edges.push_back({from, to});
+      boxes.push_back(hull(Box{from, from}, Box{to, to}));
+      bounds_ = hull(bounds_, boxes.back());
+    }
+    tree_ = BoxTree(boxes);
+    most_ = reach * std::sqrt(static_cast<double>(most_within(edges, reach)));
+  }
+
+  std::string name() const override { return "segments with fillets"; }
+  Hash content() const override { return content_; }
+  Box bounds() const override { return bounds_; }
+  int channel(std::string_view channel_name) const override { return channel_name == "distance" ? 0 : -1; }
+  double ops_of_sample(int) const override { return 150; }
+  double sample(int, Vec3 p) const override {
+    if (!is_finite(p)) return 0;
+    const double influence = influences(Box{p, p}, 0).lo;
+    return influence > 0 ? reach_ - influence : nearest(p);
+  }
+  Interval range(int, const Box& box) const override {
+    if (!box.is_bounded()) return {-most_, Box::inf};
+    const double half = 0.5 * length(box.size()), middle = nearest(box.center());
+    const double room = path_rounding * (half + middle + most_ + length(box.center()) + length(bounds_.size()));
+    const Interval by = half < 4 * reach_ ? influences(box, half) : Interval{0, most_};
+    // The distance with fillets is never above that to the nearest segment.
+    const double least = by.hi > 0 ? reach_ - by.hi : std::max(reach_, middle - half);
+    const double greatest = by.lo > 0 ? std::min(middle + half, reach_ - by.lo) : middle + half;
+    return {round_down(least - room), round_up(greatest + room)};
+  }
+
+ private:
+  double nearest(Vec3 p) const {
+    return tree_.nearest(p, Box::inf, 0, [&](uint32_t n) { return std::sqrt(squared_distance(segments_[n], p)); });
+  }
+  // Returns the range of sqrt(sum of (reach - d)^2) for points that are at most `half` away from the middle of the box.
+  Interval influences(const Box& box, double half) const {
+    double least = 0, greatest = 0;
+    tree_.each_that_meets(box.expanded(reach_), [&](size_t n) {
+      const double d = std::sqrt(squared_distance(segments_[n], box.center()));
+      const double far = std::max(0.0, reach_ - d - half), near = std::max(0.0, reach_ - std::max(0.0, d - half));
+      least += far * far;
+      greatest += near * near;
+    });
+    return {std::sqrt(least), std::sqrt(greatest)};
+  }
+
+  Hash content_;
+  double reach_ = 0, most_ = 0;
+  std::vector<LineSegment> segments_;
+  BoxTree tree_;
+  Box bounds_;
+};
+
 // A point is as far from the wall between its cell and another one as from the plane between both points. A point b
 // whose plane is w away is at most 2 w farther than the nearest point a: the foot of the perpendicular on the plane is
 // as far from b as from a. So a search for the least |p - a| + 2 w never skips the nearest wall.
@@ -271,6 +335,11 @@ program::SourceField make_points_source(const std::vector<Vec3>& points) {
 program::SourceField make_segments_source(const std::vector<Vec3>& points) {
   ASSERT(points.size() >= 2 && points.size() / 2 * 2 == points.size());
   return std::make_shared<SegmentsSource>(points);
+}
+
+program::SourceField make_filleted_source(const std::vector<Vec3>& points, double reach) {
+  ASSERT(points.size() >= 2 && points.size() / 2 * 2 == points.size() && reach > 0);
+  return std::make_shared<FilletedSegments>(points, reach);
 }
 
 program::SourceField make_triangles_source(const std::vector<Vec3>& points) {

@@ -16,6 +16,9 @@ program::SourceField make_path_source(const std::vector<Vec3>& points);
 program::SourceField make_points_source(const std::vector<Vec3>& points);
 // Returns segments, each from an even point to the next one. Channel "distance" is that to the nearest segment.
 program::SourceField make_segments_source(const std::vector<Vec3>& points);
+// Returns such segments with fillets: where segments have distances d below `reach`, the channel "distance" is reach -
+// sqrt(sum of (reach - d)^2), elsewhere that to the nearest segment (nodes/solids/blends.h).
+program::SourceField make_filleted_source(const std::vector<Vec3>& points, double reach);
 // Returns triangles, each of three points. Channel "distance" is that to the nearest triangle.
 program::SourceField make_triangles_source(const std::vector<Vec3>& points);
 // Returns the Voronoi cells of at least two points. Channel "distance" is that to the nearest wall between cells.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "import/fields/segment_tree.h"
@@ -39,6 +40,50 @@ class PointSources : public testing::Test {
 };
 
 }  // namespace
+
+// In the plane of two segments at a right angle, their fillet is a quarter of a circle around the point that is
+// radius + fillet away from both.
+TEST_F(PointSources, FilletsOfSegmentsAtARightAngleAreCircles) {
+  const double radius = 0.5, fillet = 0.75, reach = radius + fillet;
+  const auto source = make_filleted_source({{0, 0, 0}, {9, 0, 0}, {0, 0, 0}, {0, 9, 0}}, reach);
+  for (double angle = 182; angle < 269; angle += 8) {
+    const Vec3 p{reach + fillet * std::cos(angle * M_PI / 180), reach + fillet * std::sin(angle * M_PI / 180), 0};
+    EXPECT_NEAR(source->sample(0, p), radius, 1e-12);
+  }
+  // Beyond the fillet, distances are those of the nearest segment.
+  EXPECT_EQ(source->sample(0, {5, 0.5, 0}), 0.5);
+  EXPECT_EQ(source->sample(0, {5, 1, -1}), std::sqrt(2.0));
+  EXPECT_EQ(source->sample(0, {1, 7, 3}), std::sqrt(10.0));
+}
+
+// Where two segments are equally near, at any angle, the surface is fillet / sqrt(2) deeper than the fillet's radius.
+TEST_F(PointSources, FilletsHaveTheDepthOfTheirFormula) {
+  const double radius = 0.5, fillet = 1, reach = radius + fillet;
+  for (const double half : {0.3, 0.6, 1.2}) {
+    const Vec3 one{9 * std::cos(half), 9 * std::sin(half), 0}, other{9 * std::cos(half), -9 * std::sin(half), 0};
+    const auto source = make_filleted_source({{}, one, {}, other}, reach);
+    const double off = radius + fillet * (1 - std::sqrt(0.5));
+    EXPECT_NEAR(source->sample(0, {off / std::sin(half), 0, 0}), radius, 1e-12);
+  }
+}
+
+TEST_F(PointSources, FilletsAreTheFormulaForManySegments) {
+  const double reach = 2.5;
+  const std::vector<Vec3> points = random_points(120);
+  const auto source = make_filleted_source(points, reach);
+  for (int n = 0; n < 500; ++n) {
+    const Vec3 p = random_point(13);
+    double sum = 0, least = Box::inf;
+    for (size_t i = 0; i < points.size(); i += 2) {
+      const double d = std::sqrt(squared_distance(LineSegment{points[i], points[i + 1]}, p));
+      sum += d < reach ? (reach - d) * (reach - d) : 0;
+      least = std::min(least, d);
+    }
+    EXPECT_NEAR(source->sample(0, p), sum > 0 ? reach - std::sqrt(sum) : least, 1e-12);
+  }
+  expect_ranges(*source);
+  expect_ranges(*make_filleted_source(points, 0.2));
+}
 
 // The walls of the nearest point's cell lie in the planes between it and the others.
 TEST_F(PointSources, CellsEndHalfWayBetweenPoints) {

@@ -1,4 +1,7 @@
 // Lattices of struts: named unit cells, or graphs of edges.
+#include <map>
+
+#include "base/math/segment_sets.h"
 #include "design/spec.h"
 #include "nodes/common/cell_metric.h"
 #include "nodes/common/segments.h"
@@ -281,25 +284,14 @@ struct Lattice {
     return found;
   }
 
-  // Joins struts that share an end and go on straight from one to the other.
+  // Joins struts of the same radius that share an end and go on straight from one to the other.
   static void join_in_line(std::vector<Strut>& struts) {
     constexpr double tolerance = 1e-9;
-    for (size_t i = 0; i < struts.size(); ++i)
-      for (size_t j = 0; j < struts.size(); ++j) {
-        Strut& one = struts[i];
-        Strut other = struts[j];
-        if (i == j || one.own_radius != other.own_radius) continue;
-        if (length(other.end - one.end) < tolerance || length(other.end - one.start) < tolerance)
-          std::swap(other.start, other.end);
-        if (length(other.start - one.start) < tolerance) std::swap(one.start, one.end);
-        const Vec3 way = one.end - one.start, onward = other.end - other.start;
-        const bool follows = length(other.start - one.end) < tolerance;
-        if (!follows || length((1 / length(way)) * way - (1 / length(onward)) * onward) > tolerance) continue;
-        one.end = other.end;
-        struts.erase(struts.begin() + static_cast<ptrdiff_t>(j));
-        i = i > j ? i - 1 : i;
-        j = static_cast<size_t>(-1);  // looks for others that follow
-      }
+    std::map<double, std::vector<Edge3>> of_radius;
+    for (const Strut& strut : struts) of_radius[strut.own_radius].push_back({strut.start, strut.end});
+    struts.clear();
+    for (const auto& [own_radius, edges] : of_radius)
+      for (const auto& [start, end] : joined_in_line(edges, tolerance)) struts.push_back({{start, end}, own_radius});
   }
 
   // Returns the struts of this cell and its neighbours, each once.

@@ -1,8 +1,10 @@
 // Struts and walls of the Voronoi cells of points, and of Delaunay's tetrahedra between points.
+#include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "base/math/point_sets.h"
+#include "base/math/segment_sets.h"
 #include "base/system/assert.h"
 #include "design/source_loader.h"
 #include "design/spec.h"
@@ -62,8 +64,10 @@ struct PointStruts {
   Number radius = 0.5;
   SolidName region;
   bool closed = false;
+  std::optional<double> blend;
   MaterialName material;
   program::SourceField struts, walls;  // made with the node; walls only if closed
+  size_t most_at_once = 1;             // greatest number of struts whose fillets meet
 
   static Spec<PointStruts> spec() {
     constexpr bool is_voronoi = kind == Between::voronoi;
@@ -77,7 +81,10 @@ struct PointStruts {
          {"closed", &PointStruts::closed,
           "Adds struts along the lines in which walls between cells meet the surface of the region; as thick as the "
           "others where these meet it at right angles"},
-         {"material", &PointStruts::material, "Their material"}},
+         {"material", &PointStruts::material, "Their material"},
+         {"blend", &PointStruts::blend,
+          "Radius of fillets along the seams of struts, whose radius is a number then; none: sharp seams",
+          unit::positive_mm}},
         no_inputs,
         is_voronoi ? "voronoi_struts(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
                      "closed=true, material=\"red\");"
@@ -92,15 +99,16 @@ struct PointStruts {
     const OfPoints<Edge3> edges = edges_here();
     if (!edges.problem.empty()) return refuse_points(reader, edges.problem);
     if (edges.list.empty()) return refuse_points(reader, "there are no edges between cells here");
-    std::vector<Vec3> ends;
-    for (const Edge3& edge : edges.list) ends.insert(ends.end(), edge.begin(), edge.end());
-    if (!load_distances({std::move(ends), PathKind::pairs}, struts, reader)) return false;
+    if (!(blend ? load_with_fillets(edges.list, reader) : load_struts(edges.list, 0, reader))) return false;
     return !closed || load_walls(kind, points, walls, reader);
   }
 
-  Metric metric() const { return region.node ? weaker(Metric::bounded(), region.node->metric()) : Metric::bounded(); }
+  Metric metric() const {
+    const Metric own = Metric::bounded(blend ? std::sqrt(static_cast<double>(at_once())) : 1);
+    return region.node ? weaker(own, region.node->metric()) : own;
+  }
   Box reach(const Inputs&, const Box& where, double margin) const {
-    const Box own = closed ? where : struts->bounds().expanded(radius.range(where).hi + margin);
+    const Box own = closed ? where : struts->bounds().expanded(radius.range(where).hi + reach_of_struts(margin));
     return region.node ? intersect(own, box_of(region, where, margin)) : own;
   }
 
@@ -110,11 +118,42 @@ struct PointStruts {
     const Field outside = in.distance_to(region, p);
     if (!closed) return max(outside, inner);
     // The distance from the line changes by at most sqrt(2) mm for each mm.
-    const Field rim = (length(outside, distance_from(walls, p)) - r) / std::numbers::sqrt2;
-    return max(outside, min(inner, rim));
+    const Field rim = length(outside, distance_from(walls, p)) - r;
+    return max(outside, blend ? with_fillet(inner, rim) : min(inner, rim / std::numbers::sqrt2));
   }
 
  private:
+  bool load_struts(const std::vector<Edge3>& edges, double fillet, const Reader& reader) {
+    std::vector<Vec3> ends;
+    for (const Edge3& edge : edges) ends.insert(ends.end(), edge.begin(), edge.end());
+    return load_distances({std::move(ends), PathKind::pairs, fillet}, struts, reader);
+  }
+  // Struts in line are one, since seams between them would have a fillet.
+  bool load_with_fillets(const std::vector<Edge3>& edges, const Reader& reader) {
+    constexpr double same_place = 1e-9;  // mm
+    if (!radius.constant())
+      return reader.refuse("the radius of struts with fillets changes from place to place",
+                           "write a number, or leave out blend");
+    const double fillet = *radius.constant() + *blend;
+    const std::vector<Edge3> lines = joined_in_line(edges, same_place);
+    most_at_once = most_within(lines, fillet);
+    return load_struts(lines, fillet, reader);
+  }
+
+  // The lines at the surface count as two struts, since their distance changes by sqrt(2) mm for each mm.
+  size_t at_once() const { return most_at_once + (closed ? 2 : 0); }
+  // Returns how far from the surfaces of struts a point may be at which g is at most the margin. The g of n struts with
+  // fillets of the radius k is at least k - (k - d) sqrt(n), where d is their least distance.
+  double reach_of_struts(double margin) const {
+    if (!blend || margin >= *blend) return margin;
+    return *blend - (*blend - margin) / std::sqrt(static_cast<double>(at_once()));
+  }
+  // Joins the struts, whose g has fillets, with another solid.
+  Field with_fillet(Field struts_distance, Field other) const {
+    const Field of_struts = max(*blend - struts_distance, 0.0), of_other = max(*blend - other, 0.0);
+    return max(min(struts_distance, other), *blend) - length(of_struts, of_other);
+  }
+
   OfPoints<Edge3> edges_here() const {
     if constexpr (kind == Between::delaunay) return delaunay_edges(points.at);
     if (!region.node) return voronoi_edges(points.at, std::nullopt);
