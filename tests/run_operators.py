@@ -89,13 +89,17 @@ def examples():
             yield name, library, example[1] if example else ""
 
 
-def example_works(ombre, library, example):
+def write_example(design, library, example):
     """Models stand beside the examples of the repository."""
+    design.write_text(f"use <{library}>\n{example}\n".replace("models/", f"{program.SOURCE}/examples/models/"))
+
+
+def example_works(ombre, library, example):
     if not example:
         return "it has no example"
     with tempfile.TemporaryDirectory() as scratch:
         design = pathlib.Path(scratch) / "example.vcad"
-        design.write_text(f"use <{library}>\n{example}\n".replace("models/", f"{program.SOURCE}/examples/models/"))
+        write_example(design, library, example)
         result = program.run([ombre, "probe", design, "--at", "1,2,3", "--json"])
     return result.stdout if result.returncode or '"message"' in result.stdout else ""
 

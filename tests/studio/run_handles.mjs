@@ -1,8 +1,9 @@
-// Handles in the view from outside: a drag changes the number in the text by what the projection says.
+// Handles in the views from outside and of the inside: a drag changes the number in the text by what the projection says.
 import assert from "node:assert/strict";
-import { editor, isReady, open, page, pathOf, picture, status, test, text, textIs, until, violations } from "./studio_page.mjs";
+import { editor, isReady, open, page, pathOf, picture, small, status, test, text, textIs, until, violations } from "./studio_page.mjs";
 
-const handle = (key) => page.locator(`[data-handle="${key}"]`);
+let view = "surface";
+const handle = (key) => page.locator(`.${view} [data-handle="${key}"]`);
 const label = (key) => handle(key).getAttribute("aria-label");
 
 // The numbers that a handle tells, and where it is seen, in pixels.
@@ -33,13 +34,13 @@ async function putCaret(part) {
 }
 
 async function look(from) {
-  await page.locator(".surface .viewbar select").first().selectOption(from);
-  await isReady();
+  await page.locator(`.${view} .viewbar select`).first().selectOption(from);
+  await isReady(view);
 }
 
 async function upToDate() {
   await status("[data-old=false][data-busy=false]");
-  await isReady();
+  await isReady(view);
 }
 
 async function undo(wanted) {
@@ -67,9 +68,10 @@ translate([0, 0, 6])
   cube(16, assign(in_sphere(5, origin = [3, 0, 0]), "red", "blue"));
 `;
 
+const viewport = { width: 1400, height: 860 };
 let pixelMm; // of the view from the front
 
-await test({ files: { "places.vcad": script, "regions.vcad": regions }, place: pathOf("places.vcad"), viewport: { width: 1400, height: 860 } }, {
+await test({ files: { "places.vcad": script, "regions.vcad": regions }, place: pathOf("places.vcad"), viewport }, {
   async "the handles of a call lie where its numbers are"() {
     await isReady();
     await look("front");
@@ -187,6 +189,51 @@ await test({ files: { "places.vcad": script, "regions.vcad": regions }, place: p
     close(after[1] - before[1], 20, 1.2, "pixels downward");
     await undo(script);
     await page.uncheck("text=Perspective");
+  },
+
+  async "in the volume, handles lie on what is seen, and follow the pointer"() {
+    await page.setViewportSize(small); // drawn soon
+    await page.click("#tab-volume");
+    view = "volume";
+    await isReady(view);
+    await page.selectOption(".volume select:has(option[value='32'])", "32");
+    await look("front");
+    await putCaret("strut(");
+    await handle("end 0").waitFor();
+    await picture("handles_volume");
+    assert.deepEqual(await violations(), []);
+    // How much is seen beside the end of the strut, to the right by some pixels.
+    const opacityBeside = async (right) => {
+      const box = await page.locator(".volume canvas").boundingBox(), [x, y] = await seen("end 0");
+      return page.evaluate(([x, y]) => {
+        const canvas = document.querySelector(".volume canvas"), copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+        copy.drawImage(canvas, 0, 0);
+        return copy.getImageData(Math.round(x), Math.round(y), 1, 1).data[3];
+      }, [x - box.x + right, y - box.y]);
+    };
+    const lieOnTheStrut = async () => {
+      const millimetre = ((await seen("end 0"))[0] - (await seen("start 0"))[0]) / 20;
+      assert.ok((await opacityBeside(-millimetre)) > 0 && (await opacityBeside(4 * millimetre)) === 0);
+    };
+    await lieOnTheStrut();
+    await page.check("text=Perspective");
+    await lieOnTheStrut();
+    const before = await seen("end 0");
+    await drag("end 0", 35, 20);
+    await until(async () => (await text()) !== script);
+    await upToDate();
+    const after = await seen("end 0");
+    close(after[0] - before[0], 35, 1.2, "pixels to the right");
+    close(after[1] - before[1], 20, 1.2, "pixels downward");
+    await undo(script);
+    await page.uncheck("text=Perspective");
+    await page.uncheck("text=Handles");
+    assert.equal(await page.locator(".handle").count(), 0);
+    await page.check("text=Handles");
+    await page.click("#tab-surface");
+    await page.setViewportSize(viewport);
+    view = "surface";
+    await isReady();
   },
 
   async "a card of the graph is chosen, and its handles are seen"() {

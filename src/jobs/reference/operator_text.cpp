@@ -75,6 +75,7 @@ std::string section(const Operator& op) {
   std::string text = "\n### " + declared.name + "\n\n" + declared.sentence;
   text += declared.is_module ? "\n" : " Gives values.\n";
   text += "\n```\n" + use_line(op) + '\n' + declared.example + "\n```\n";
+  text += "\n![" + declared.name + "](operators/" + declared.name + ".png)\n";
   if (!declared.parameters.empty()) text += "\n| parameter | is | default | |\n| --- | --- | --- | --- |\n";
   for (const DeclaredParameter& parameter : declared.parameters)
     text += "| `" + parameter.name + "` | " + kind_text(parameter) + " | " +

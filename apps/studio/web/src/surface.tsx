@@ -221,7 +221,7 @@ function ViewButtons() {
 
 // Shows how the part is seen and by what it is coloured: `others` are options beside its materials.
 export function ViewBar({ others, children }: { others: ComponentChildren; children: ComponentChildren }) {
-  const { by } = useStore();
+  const { by, handles } = useStore();
   return (
     <div class="viewbar">
       <ViewButtons />
@@ -234,6 +234,10 @@ export function ViewBar({ others, children }: { others: ComponentChildren; child
         </select>
       </label>
       {children}
+      <label title="Where the caret stands in a call whose numbers are places, they can be moved in the view">
+        <input type="checkbox" checked={handles} onChange={(e) => set({ handles: e.currentTarget.checked })} />
+        Handles
+      </label>
     </div>
   );
 }
@@ -242,7 +246,7 @@ export function ViewBar({ others, children }: { others: ComponentChildren; child
 export const attributeOptions = (attributes: { name: string }[] = []) => attributes.map((a) => <option value={a.name}>{a.name}</option>);
 
 export function SurfaceView() {
-  const { design, camera, by, palette, hello, file, handles } = useStore();
+  const { design, camera, by, palette, hello, file } = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const drawer = useRef<Drawer>();
   const [height, setHeight] = useState(1);
@@ -271,10 +275,6 @@ export function SurfaceView() {
             </select>
           </label>
         )}
-        <label title="Where the caret stands in a call whose numbers are places, they can be moved in the view">
-          <input type="checkbox" checked={handles} onChange={(e) => set({ handles: e.currentTarget.checked })} />
-          Handles
-        </label>
       </ViewBar>
       <div class="stage">
         <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The design from outside${design ? `, materials ${design.materials.map((m) => m.name).join(", ")}` : ""}. Arrows turn it, with Shift they move it, plus and minus zoom.`}

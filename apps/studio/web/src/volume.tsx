@@ -1,6 +1,7 @@
 // Shows the inside, by rays through a texture of the materials' fractions, or of an attribute's values.
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axes, eyeDistance } from "./camera";
+import { Handles } from "./handles/handles";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
 import { Refused } from "./session/connection";
 import { about } from "./session/evaluation";
@@ -228,6 +229,7 @@ export function VolumeView() {
   const painter = useRef<VolumePainter>();
   const [side, setSide] = useState(64);
   const [problem, setProblem] = useState("");
+  const [, setSize] = useState("");
   const pointer = useMemo(() => moveByPointer(canvas), []);
   useEffect(() => {
     try {
@@ -236,7 +238,10 @@ export function VolumeView() {
       setProblem((error as Error).message);
       return;
     }
-    const size = new ResizeObserver(() => painter.current!.paint());
+    const size = new ResizeObserver(() => {
+      painter.current!.paint();
+      setSize(`${canvas.current!.clientWidth} ${canvas.current!.clientHeight}`); // the handles move
+    });
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
@@ -269,6 +274,7 @@ export function VolumeView() {
       <div class="stage">
         <canvas ref={canvas} tabIndex={0} role="img" {...pointer} onKeyDown={moveByKeys}
                 aria-label="The inside of the design; opacities are in the panel of materials. Arrows turn it, with Shift they move it." />
+        <Handles canvas={canvas} />
         <p class="viewproblem" role="status">{problem}</p>
         {by && range && <TransferCurve attribute={by} range={range} colours={coloursOf(palette)} />}
       </div>

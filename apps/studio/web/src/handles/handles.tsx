@@ -1,4 +1,4 @@
-// Handles in the view from outside, by which the numbers of a call are moved where they are places.
+// Handles in the views that share the camera, by which the numbers of a call are moved where they are places.
 import { RefObject } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { axes, barLength, projected, sightThrough } from "../camera";
