@@ -91,8 +91,8 @@ struct OutputSpec {
   OutputSpec(std::string_view name, M (T::*method)() const, std::string_view doc)
       : info{std::string(name), std::string(doc), OutputPort<M>::type()},
         constant([method](const T& t) { return Port<M>::write((t.*method)(), false); }) {}
-  template <IsPort M>
-  OutputSpec(std::string_view name, M T::*member, std::string_view doc)
+  template <IsPort M, class Owner>
+  requires std::derived_from<T, Owner> OutputSpec(std::string_view name, M Owner::*member, std::string_view doc)
       : info{std::string(name), std::string(doc), OutputPort<M>::type()},
         constant([member](const T& t) { return Port<M>::write(t.*member, false); }) {}
   template <class M>

@@ -71,6 +71,18 @@ translate([0, 0, 6])
 const viewport = { width: 1400, height: 860 };
 let pixelMm; // of the view from the front
 
+// The end of the strut goes as far as the pointer.
+async function followsThePointer() {
+  const before = await seen("end 0");
+  await drag("end 0", 35, 20);
+  await until(async () => (await text()) !== script);
+  await upToDate();
+  const after = await seen("end 0");
+  close(after[0] - before[0], 35, 1.2, "pixels to the right");
+  close(after[1] - before[1], 20, 1.2, "pixels downward");
+  await undo(script);
+}
+
 await test({ files: { "places.vcad": script, "regions.vcad": regions }, place: pathOf("places.vcad"), viewport }, {
   async "the handles of a call lie where its numbers are"() {
     await isReady();
@@ -180,14 +192,7 @@ await test({ files: { "places.vcad": script, "regions.vcad": regions }, place: p
     await upToDate();
     await putCaret("strut(");
     await handle("end 0").waitFor();
-    const before = await seen("end 0");
-    await drag("end 0", 35, 20);
-    await until(async () => (await text()) !== script);
-    await upToDate();
-    const after = await seen("end 0");
-    close(after[0] - before[0], 35, 1.2, "pixels to the right");
-    close(after[1] - before[1], 20, 1.2, "pixels downward");
-    await undo(script);
+    await followsThePointer();
     await page.uncheck("text=Perspective");
   },
 
@@ -218,14 +223,7 @@ await test({ files: { "places.vcad": script, "regions.vcad": regions }, place: p
     await lieOnTheStrut();
     await page.check("text=Perspective");
     await lieOnTheStrut();
-    const before = await seen("end 0");
-    await drag("end 0", 35, 20);
-    await until(async () => (await text()) !== script);
-    await upToDate();
-    const after = await seen("end 0");
-    close(after[0] - before[0], 35, 1.2, "pixels to the right");
-    close(after[1] - before[1], 20, 1.2, "pixels downward");
-    await undo(script);
+    await followsThePointer();
     await page.uncheck("text=Perspective");
     await page.uncheck("text=Handles");
     assert.equal(await page.locator(".handle").count(), 0);

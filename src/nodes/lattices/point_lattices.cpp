@@ -55,44 +55,52 @@ bool load_walls(Between kind, const Points& points, program::SourceField& source
   return load_distances({std::move(corners), PathKind::triples}, source, reader);
 }
 
-constexpr std::string_view points_doc = "The points, for example of scattered_points";
-constexpr std::string_view region_doc = "The solid that is filled, at whose surface they are cut off";
-
-template <Between kind>
-struct PointStruts {
+struct PointLattice {
   Points points;
-  Number radius = 0.5;
   SolidName region;
   bool closed = false;
-  std::optional<double> blend;
   MaterialName material;
-  program::SourceField struts, walls;  // made with the node; walls only if closed
-  size_t most_at_once = 1;             // greatest number of struts whose fillets meet
+  program::SourceField walls;  // between the cells; made with the node
+
+  bool makes_nothing() const { return points.at.empty(); }
+
+  // Returns the parameters of T, which derives from this class. The second one is how thick it is.
+  template <class T>
+  static std::vector<Parameter<T>> parameters(Parameter<T> thickness, std::string_view closed_doc) {
+    return {{"points", &T::points, "The points, for example of scattered_points", required(unit::points)},
+            std::move(thickness),
+            {"region", &T::region, "The solid that is filled, at whose surface they are cut off"},
+            {"closed", &T::closed, closed_doc},
+            {"material", &T::material, "Their material"}};
+  }
+};
+
+template <Between kind>
+struct PointStruts : PointLattice {
+  Number radius = 0.5;
+  std::optional<double> blend;
+  program::SourceField struts;  // made with the node, and walls if closed
+  size_t most_at_once = 1;      // greatest number of struts whose fillets meet
 
   static Spec<PointStruts> spec() {
     constexpr bool is_voronoi = kind == Between::voronoi;
-    return {
-        is_voronoi ? "voronoi_struts" : "delaunay_struts",
-        is_voronoi ? "An open foam: struts along the edges of the Voronoi cells of points, with round joints."
-                   : "Struts from point to point along the edges of Delaunay's tetrahedra, with round joints.",
-        {{"points", &PointStruts::points, points_doc, required(unit::points)},
-         {"radius", &PointStruts::radius, "Radius of the struts", unit::positive_mm},
-         {"region", &PointStruts::region, region_doc},
-         {"closed", &PointStruts::closed,
-          "Adds struts along the lines in which walls between cells meet the surface of the region; as thick as the "
-          "others where these meet it at right angles"},
-         {"material", &PointStruts::material, "Their material"},
-         {"blend", &PointStruts::blend,
-          "Radius of fillets along the seams of struts, whose radius is a number then; none: sharp seams",
-          unit::positive_mm}},
-        no_inputs,
-        is_voronoi ? "voronoi_struts(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
-                     "closed=true, material=\"red\");"
-                   : "delaunay_struts(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");",
-        {{"points", &PointStruts::points, "The points"}}};
+    auto all = parameters<PointStruts>(
+        {"radius", &PointStruts::radius, "Radius of the struts", unit::positive_mm},
+        "Adds struts along the lines in which walls between cells meet the surface of the region; as thick as the "
+        "others where these meet it at right angles");
+    all.emplace_back("blend", &PointStruts::blend,
+                     "Radius of fillets along the seams of struts, whose radius is a number then; none: sharp seams",
+                     unit::positive_mm);
+    return {is_voronoi ? "voronoi_struts" : "delaunay_struts",
+            is_voronoi ? "An open foam: struts along the edges of the Voronoi cells of points, with round joints."
+                       : "Struts from point to point along the edges of Delaunay's tetrahedra, with round joints.",
+            std::move(all),
+            no_inputs,
+            is_voronoi ? "voronoi_struts(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
+                         "closed=true, material=\"red\");"
+                       : "delaunay_struts(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");",
+            {{"points", &PointStruts::points, "The points"}}};
   }
-
-  bool makes_nothing() const { return points.at.empty(); }
 
   bool complete(const Reader& reader) {
     if (!check_region(reader, region, closed)) return false;
@@ -163,32 +171,22 @@ struct PointStruts {
 };
 
 template <Between kind>
-struct PointWalls {
-  Points points;
+struct PointWalls : PointLattice {
   Number thickness = 0.5;
-  SolidName region;
-  bool closed = false;
-  MaterialName material;
-  program::SourceField walls;  // made with the node
 
   static Spec<PointWalls> spec() {
     constexpr bool is_voronoi = kind == Between::voronoi;
     return {is_voronoi ? "voronoi_walls" : "delaunay_walls",
             is_voronoi ? "A closed foam: walls between the Voronoi cells of points."
                        : "Walls along the faces of Delaunay's tetrahedra between points.",
-            {{"points", &PointWalls::points, points_doc, required(unit::points)},
-             {"thickness", &PointWalls::thickness, "Thickness of the walls", unit::positive_mm},
-             {"region", &PointWalls::region, region_doc},
-             {"closed", &PointWalls::closed, "Adds a skin of the same thickness inside the surface of the region"},
-             {"material", &PointWalls::material, "Their material"}},
+            parameters<PointWalls>({"thickness", &PointWalls::thickness, "Thickness of the walls", unit::positive_mm},
+                                   "Adds a skin of the same thickness inside the surface of the region"),
             no_inputs,
             is_voronoi ? "voronoi_walls(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
                          "material=\"red\");"
                        : "delaunay_walls(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");",
             {{"points", &PointWalls::points, "The points"}}};
   }
-
-  bool makes_nothing() const { return points.at.empty(); }
 
   bool complete(const Reader& reader) {
     if (!check_region(reader, region, closed)) return false;
