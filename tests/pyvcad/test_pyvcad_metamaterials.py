@@ -208,6 +208,13 @@ def test_bodies_are_mixed_by_weights_and_regions():
     banded = mm.mix(left, right, region=region, half_width=2.0)
     assert banded.evaluate(-5, 0, 0) == pytest.approx(1) and banded.evaluate(6, 0, 0) == pytest.approx(-2)
     assert banded.evaluate(0, 6, 0) == pytest.approx(0, abs=1e-9)  # the middle of the band
+    # Struts turn into walls; where one has all the weight, it is unchanged.
+    cells = box(3, 12.0)
+    struts, walls = mm.bcc(cells, beam_radius=0.5), mm.gyroid(cells, wall_thickness=0.6)
+    whole = mm.mix(struts, walls, mm.ramp(4, 8, axis="x"))
+    points = numpy.random.default_rng(4).uniform((0, 0, 0), (12, 12, 12), (300, 3))
+    for only, kept in ((struts, points[:, 0] < 4), (walls, points[:, 0] > 8)):
+        assert (whole._design().distance(points[kept]) == only._design().distance(points[kept])).all()
     with pytest.raises(TypeError, match="either a weight"):
         mm.mix(left, right)
 

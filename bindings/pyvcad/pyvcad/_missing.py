@@ -36,7 +36,7 @@ MISSING: dict[str, dict[str, str]] = {
     "pyvcad_metamaterials": {
         "cell_map_between_cad_faces": _maps,
         "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
-        "idw_weight": "mix_many(bodies, weights), with weights of FloatAttribute(1/ombre.point_distance([seed])**2)"},
+        "idw_weight": "ombre.morph(first, second, third, seeds=[...]), whose weights fall with the distance from a seed for each body"},
     "pyvcad_metamaterials.properties": {"characterize_mesh": "characterize(Mesh(surface), voxel_size)"},
     "pyvcad_rendering": dict.fromkeys(
         ("select_mesh_patch", "resolve_selection_mesh", "save_mesh_selection", "load_mesh_selection",

@@ -21,18 +21,6 @@ constexpr std::string_view blend_doc = "Radius of the fillet, or size of the cha
 constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat bevel";
 Domain join_choices() { return one_of({"round", "chamfer"}); }
 
-constexpr std::string_view attributes_doc =
-    "Rules for attributes where children overlap, in place of the attributes' own: [[\"modulus\", \"max\"]]";
-Domain attribute_rules() { return one_of({overlap_names.begin(), overlap_names.end()}); }
-
-// Returns the attribute's declaration with the overlap rule of this node.
-AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, const std::vector<NamedWord>& rules) {
-  AttributeDeclaration declaration = in.declaration(part);
-  for (const NamedWord& rule : rules)
-    if (rule.name == declaration.name) declaration.overlap = overlap_called(rule.word);
-  return declaration;
-}
-
 // Returns weights of the inputs that contain the point, or of the nearest input where none does and it matters.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
   std::vector<Field> flags = in.memberships(p, Border::included);
@@ -72,7 +60,7 @@ struct Union {
             {{"materials", &Union::materials, union_overlap_doc, one_of({"mix", "first", "last", "blend"})},
              {"blend", &Union::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Union::join, join_doc, join_choices()},
-             {"attributes", &Union::attribute_words, attributes_doc, attribute_rules()}},
+             {"attributes", &Union::attribute_words, attribute_rules_doc, attribute_rules()}},
             many_solids,
             "union(blend=1) { cube(8, \"red\"); translate(4, 4, 4) { sphere(4, \"blue\"); } }"};
   }
@@ -132,7 +120,7 @@ struct Union {
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.attribute(0, name, p, demand);
-    const AttributeDeclaration here = declaration_here(in, name, attribute_words);
+    const AttributeDeclaration here = in_place_of(in.declaration(name), attribute_words);
     if (!blend().is_plain()) return blended_attribute(in, name, p, demand, blend().falloff(), here);
     return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), here);
   }
@@ -218,7 +206,7 @@ struct Intersection {
             {{"materials", &Intersection::materials, overlap_doc, overlap_choices()},
              {"blend", &Intersection::blend_radius, blend_doc, unit::not_negative_mm},
              {"join", &Intersection::join, join_doc, join_choices()},
-             {"attributes", &Intersection::attribute_words, attributes_doc, attribute_rules()}},
+             {"attributes", &Intersection::attribute_words, attribute_rules_doc, attribute_rules()}},
             grouped_solids(OfNothing::gives_nothing),
             "intersection() { cube(8, \"red\"); sphere(5, \"red\"); }"};
   }
@@ -254,7 +242,7 @@ struct Intersection {
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     const auto flags = demand == Demand::inside ? std::vector<Field>(in.count(), p.constant(1))
                                                 : overlap_weights(in, p, demand, "mix");
-    return overlapping_attribute(in, name, p, demand, flags, declaration_here(in, name, attribute_words));
+    return overlapping_attribute(in, name, p, demand, flags, in_place_of(in.declaration(name), attribute_words));
   }
 
  private:
