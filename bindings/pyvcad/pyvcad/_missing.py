@@ -9,9 +9,6 @@ from ._errors import missing
 from ._tree import Node
 
 _grids = "ombre voxels writes grids, and node.toSignedDistanceArray and toRGBAArray give arrays"
-_maps = "ombre.surface_cells(path, ...) maps cells on meshes and faces of CAD files, also up to another surface"
-_surfaces = "ombre.conformal_map, surface_map and relief lay things along surfaces"
-_images = "ombre.relief reads images as heights"
 _tables = "its measurements are not free to copy; register_calibration(name or file) takes a calibration of your own"
 
 # Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
@@ -34,7 +31,6 @@ MISSING: dict[str, dict[str, str]] = {
         ("FullSpectrumSlicerProjectCompiler",),
         "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
     "pyvcad_metamaterials": {
-        "cell_map_between_cad_faces": _maps,
         "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
         "idw_weight": "ombre.morph(first, second, third, seeds=[...]), whose weights fall with the distance from a seed for each body"},
     "pyvcad_metamaterials.properties": {"characterize_mesh": "characterize(Mesh(surface), voxel_size)"},
