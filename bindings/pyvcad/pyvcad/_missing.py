@@ -17,7 +17,6 @@ MISSING: dict[str, dict[str, str]] = {
         "TexturedMesh": "Mesh(path) reads the shape",
         "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
         "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
-        "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions",
         "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids,
         "probe_point": "node.snap(point)",
@@ -26,10 +25,9 @@ MISSING: dict[str, dict[str, str]] = {
     "pyvcad_compilers": dict.fromkeys(
         ("GCVFCompiler",),
         "ColorInkjetCompiler and MaterialInkjetCompiler write the images of a material printer") | dict.fromkeys(
-        ("MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
-         "MyersonCompiler"), "VatCompiler writes gray images, and ombre slice -o part.sl1 an archive for printers") | dict.fromkeys(
         ("FullSpectrumSlicerProjectCompiler",),
-        "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
+        "ombre.Design.mesh(path, bands=4, mix_layers=4, flavour=\"orca\") mixes two filaments layer by layer, and "
+        "colour_by=\"color_rgb\" paints the surface"),
     "pyvcad_metamaterials": {
         "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
         "idw_weight": "ombre.morph(first, second, third, seeds=[...]), whose weights fall with the distance from a seed for each body"},
