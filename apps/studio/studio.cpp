@@ -120,6 +120,7 @@ const std::vector<Studio::Kind>& Studio::kinds() {
                                       {"script_graph", &Studio::of_folder<script_graph_answer>},
                                       {"edit_graph", &Studio::of_folder<edit_graph_answer>},
                                       {"render", &Studio::show<picture_answer>},
+                                      {"seen_at", &Studio::show<seen_at_answer>},
                                       {"thumbnail", &Studio::show<thumbnail_answer>},
                                       {"node_picture", &Studio::node_picture},
                                       {"plan", &Studio::show<plan_answer>},

@@ -143,6 +143,20 @@ Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag
   return answer;
 }
 
+Answer seen_at_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
+  compile::PictureRequest picture = picture_request(request);
+  picture.memory = &design.memory;
+  const std::vector<double> pixel = request.numbers("pixel", 2);
+  const auto within = [](double v, int64_t size) { return v >= 0 && v < static_cast<double>(size); };
+  if (!within(pixel[0], picture.width) || !within(pixel[1], picture.height))
+    throw RequestError("request", "\"pixel\" is [column, row] in the picture");
+  Diagnostics diagnostics;
+  const auto point = compile::point_at_pixel(*design.loaded, picture, static_cast<int64_t>(pixel[0]),
+                                             static_cast<int64_t>(pixel[1]), stop, diagnostics);
+  if (diagnostics.has_errors()) throw design_error(diagnostics);
+  return {{{"at", point ? Data(list_of(*point)) : Data()}}, {}};
+}
+
 Answer plan_answer(OpenDesign& design, const Request& request, const StopFlag&) {
   const CutDesignPtr cut = design.cut(read_job_choices(request, {}));
   const compile::SliceRequest& job = cut->plan.request;

@@ -12,6 +12,8 @@ namespace ombre::studio {
 
 // Answers "render": a picture from a camera, with cuts, as PNG.
 Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
+// Answers "seen_at": the point of the surface that such a picture shows at a pixel.
+Answer seen_at_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
 // Answers "thumbnail": a small picture of the result of one node of the design, as PNG.
 Answer thumbnail_answer(OpenDesign& design, const Request& request, const StopFlag& stop);
 // Answers "plan": the lattice of a printer's job, its materials, and the text of job.json.

@@ -47,6 +47,22 @@ TEST_F(StudioTest, PicturesAreCutByWedgesAndBoxes) {
   EXPECT_EQ(text(ask("render", wrong).first, "error"), "request");
 }
 
+// From the front, x is to the right and z downward; the front of the box is at y = -5.
+TEST_F(StudioTest, FindsThePointUnderAPixel) {
+  const std::string design = load("translate(2, 0, 1) cube(10, red);\n");
+  const std::string view = R"("width": 40, "height": 20, "azimuth": 0, "elevation": 0, "target": [2, 0, 1], )"
+                           R"("height_mm": 20, "design": ")" +
+                           design + '"';
+  const Data found = ask("seen_at", view + R"(, "pixel": [22, 7])").first;  // 1 mm for each pixel
+  const auto at = [&](size_t n) { return *(*found.find("at")->list())[n].number(); };
+  EXPECT_NEAR(at(0), 2 + 2.5, 1e-3);
+  EXPECT_NEAR(at(1), -5, 0.02);
+  EXPECT_NEAR(at(2), 1 + 2.5, 1e-3);
+  EXPECT_TRUE(ask("seen_at", view + R"(, "pixel": [2, 7])").first.find("at")->is_null());
+  EXPECT_EQ(text(ask("seen_at", view + R"(, "pixel": [40, 7])").first, "error"), "request");
+  EXPECT_EQ(text(ask("seen_at", view).first, "error"), "request");
+}
+
 TEST_F(StudioTest, SaysWhichCallsMadeAPoint) {
   const std::string script =
       "translate(10, 0, 0) union() {\n"

@@ -23,7 +23,8 @@ enum class InSpace : uint8_t {
   profile,    // points [rho, z] beside the z axis
   direction,  // of any length
   offset,     // a length from the origin along the first direction among the parameters
-  radius      // a length from the first point among the parameters, or from the axis there along the first direction
+  radius,     // a length from the first point among the parameters, or from the axis there along the first direction
+  surface     // a place on or near a surface, which a click in a picture chooses
 };
 
 // Returns "point" and so on, and "" for nothing.
@@ -110,6 +111,7 @@ namespace unit {
 inline const Domain mm = any("mm"), degrees = any("deg"), none = any();
 inline const Domain point = in_space(InSpace::point, mm);
 inline const Domain points = in_space(InSpace::point, from_to(-design_limit_mm, design_limit_mm, "mm"));
+inline const Domain on_surface = in_space(InSpace::surface, from_to(-design_limit_mm, design_limit_mm, "mm"));
 inline const Domain direction = in_space(InSpace::direction, none), offset = in_space(InSpace::offset, mm);
 inline const Domain positive_mm = positive("mm"), not_negative_mm = not_negative("mm");
 inline const Domain radius = in_space(InSpace::radius, positive_mm);

@@ -329,10 +329,8 @@ struct SurfaceSpace {
 
 // A part of the surface of a mesh or CAD file. Conditions are combined; without any, all of the surface is taken. A
 // single face of a CAD file keeps its own u and v; several are joined and laid out as a mesh is.
-struct SurfaceRequest {
-  using Result = SurfaceSpace;
+struct SurfaceChoice {
   FilePath file;
-  FilePath to;                 // another mesh, up to which the space reaches; an empty path if there is none
   std::optional<Vec3> at;      // triangles linked to the one nearest to this point ...
   double angle_deg = 180;      // ... over edges that bend by at most this angle
   std::optional<Box> box;      // triangles whose centres lie in it
@@ -340,11 +338,29 @@ struct SurfaceRequest {
   double within_deg = 60;      // ... up to this angle
   std::string kind = {};       // of CAD files: the kind of a face, one of cad::face_kinds; empty for any
   Interval area_mm2 = Interval::everything();  // of CAD files: the area of a face
-  Choice method = "lscm";                      // the way to lay the surface out: "lscm", "arap" or "authalic"
-  Vec3 toward{1, 0, 0};                        // direction of u, as far as possible
-  double standoff_mm = 0, height_mm = 5;  // without another mesh: the space's distance from the surface, and its height
+
+  bool is_whole() const {
+    return !at && !box && !normal && kind.empty() && area_mm2.lo <= 0 && area_mm2.hi == Interval::everything().hi;
+  }
+};
+
+// Words for how places of two surfaces are joined: along the normals, or at equal shares of u and v. These run along
+// the other surface's u and v, or along its v and u, or against them; "nearest" stands for those with the shortest
+// ways.
+inline constexpr std::array<std::string_view, 10> pairings{"normal",    "nearest",      "uv", "uv_flip_u",
+                                                           "uv_flip_v", "uv_flip_both", "vu", "vu_flip_u",
+                                                           "vu_flip_v", "vu_flip_both"};
+
+struct SurfaceRequest {
+  using Result = SurfaceSpace;
+  SurfaceChoice part;
+  SurfaceChoice to;           // another surface, up to which the space reaches; an empty path if there is none
+  Choice pairing = "normal";  // one of `pairings`
+  Choice method = "lscm";     // the way to lay surfaces out: "lscm", "arap" or "authalic"
+  Vec3 toward{1, 0, 0};       // direction of u, as far as possible
+  double standoff_mm = 0, height_mm = 5;  // without another surface: the space's distance from it, and its height
   bool is_inward = false;                 // the space lies on the inner side
-  double tolerance_mm = 0.05;             // greatest distance of the upper side from the other mesh
+  double tolerance_mm = 0.05;             // greatest distance of the upper side from the other surface
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 

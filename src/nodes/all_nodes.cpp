@@ -6,7 +6,7 @@
   row(box_solids) row(round_solids) row(profiles) row(point_solids) row(text)                     \
   row(implicit_solids) row(imported) row(relief) row(volumes) row(results) row(voxels)            \
   row(lattices) row(tiles) row(tpms) row(cell_walls) row(point_lattices) row(transforms) row(arrays) row(warps)                       \
-  row(booleans) row(sums) row(offsets) row(maps) row(material_gradients) row(attributes)          \
+  row(booleans) row(sums) row(morphs) row(offsets) row(maps) row(material_gradients) row(attributes)          \
   row(parts) row(solid_of) row(supports) row(noise) row(value_nodes) row(value_places) row(random_points)         \
   row(value_cells) row(cell_maps) row(tpms_values) row(formula_cells) row(curve_cells) row(surface_cells) row(between_cells) \
   row(value_curves) row(value_colours) row(geodesic_distance) row(attribute_of) row(output_of)                                           \

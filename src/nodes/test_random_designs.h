@@ -184,8 +184,9 @@ class RandomDesign {
     if (type.name == "scattered_points" && parameter.name == "distance")  // avoids very many points
       return Data(number(4, 9));
     if (type.name == "scattered_points" && parameter.name == "density") return Data(number(0.001, 0.01));
-    if (kind == "3 numbers" && type.name == "function")
-      return Data(DataList(3, Data(parameter.name == "min" ? number(-6, -1) : number(1, 6))));
+    const bool is_low = parameter.name.ends_with("min"), is_high = parameter.name.ends_with("max");
+    if (kind == "3 numbers" && (is_low || is_high) && (type.name == "function" || type.name == "surface_cells"))
+      return Data(DataList(3, Data(is_low ? number(-6, -1) : number(1, 6))));
     if (kind == "3 numbers" && type.name == "tile" && parameter.name != "size") {
       const double sign = parameter.name == "first" ? -1 : 1;
       return Data(DataList{Data(sign * static_cast<double>(index(3))), Data(sign * static_cast<double>(index(3))),
@@ -219,7 +220,9 @@ class RandomDesign {
     }
     if (kind == "list of edges") return edges();
     if (kind == "font") return Data("DejaVu Sans");
-    if (kind == "list of points") return type.name == "revolve" ? star(true, 7, 6, 1) : points(type, 4 + index(4));
+    if (kind == "list of points")
+      return type.name == "revolve" ? star(true, 7, 6, 1)
+                                    : points(type, type.name == "morph" ? 2 + index(2) : 4 + index(4));
     if (kind == "list of lists of points") return Data(DataList{star(true, 0, 0, 0.3)});
     if (kind == "lists of lists of numbers")
       return Data(DataList{Data(DataList{Data(DataList{Data(1.0), Data(number(0, 2)), Data(1.0)})})});
@@ -233,6 +236,7 @@ class RandomDesign {
     DataList list;
     for (size_t i = 0; i < lists_; ++i)
       list.push_back(kind == "list of materials" ? Data(i % 2 ? "red" : "clear")
+                     : type.name == "morph"      ? one_number(domain, true)
                      : i % 2                     ? Data("0.1 + abs(d)/9")
                                                  : Data(number(0.1, 1)));
     return Data(std::move(list));

@@ -9,6 +9,7 @@
 #include "base/text/text.h"
 #include "formats/packages/read_mesh.h"
 #include "import/charts/flat_surface.h"
+#include "import/charts/paired_places.h"
 #include "import/charts/shell.h"
 #include "import/charts/shortest_ways.h"
 #include "import/charts/surface_rays.h"
@@ -32,16 +33,21 @@ class SpaceMaker {
 
   sources::Loading::Made<SurfaceSpace> run() {
     Shell shell;
-    if (!(cad::is_cad_file(request_.file.path) ? take_faces(shell.patch) : take_triangles(shell.patch))) return {};
-    if (request_.is_inward)
-      for (auto& [a, b, c] : shell.patch.triangles) std::swap(b, c);
+    auto part = part_of(request_.part);
+    if (!part) return {};
+    shell.patch = std::move(part->patch);
+    lengths_ = part->lengths;
     if (!add_ways(shell)) return {};
     return is_sound(shell) ? made(std::move(shell)) : sources::Loading::Made<SurfaceSpace>();
   }
 
  private:
   sources::Loading::Made<SurfaceSpace> refuse(const std::string& problem, const Phrase& hint) const {
-    reader_.diagnostics.error(reader_.where, "surface_cells of \"" + request_.file.path + "\": " + problem, hint);
+    return refuse(request_.part, problem, hint);
+  }
+  sources::Loading::Made<SurfaceSpace> refuse(const SurfaceChoice& choice, const std::string& problem,
+                                              const Phrase& hint) const {
+    reader_.diagnostics.error(reader_.where, "surface_cells of \"" + choice.file.path + "\": " + problem, hint);
     return {};
   }
 
@@ -73,17 +79,21 @@ class SpaceMaker {
     for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
   }
 
-  bool take_triangles(SurfacePatch& patch) {
-    const auto surface = surface_of(request_.file);
-    if (!surface) return false;
-    const importing::PatchChoice choice{request_.at, request_.angle_deg, request_.box, request_.normal,
-                                        request_.within_deg};
-    return take(importing::choose_patch(surface->points, surface->triangles, choice), patch) && lay_out(patch);
+  // A part of a surface with places, and their extents.
+  struct Part {
+    SurfacePatch patch;
+    Vec2 lengths;
+  };
+
+  std::optional<Part> part_of(const SurfaceChoice& choice) const {
+    return cad::is_cad_file(choice.file.path) ? faces_of(choice) : triangles_of(choice);
   }
-  bool take(importing::ChosenPatch chosen, SurfacePatch& patch) const {
-    if (!chosen.problem.empty()) refuse(chosen.problem, chosen.hint);
-    patch = std::move(chosen.patch);
-    return chosen.problem.empty();
+
+  std::optional<Part> triangles_of(const SurfaceChoice& choice) const {
+    const auto surface = surface_of(choice.file);
+    if (!surface) return std::nullopt;
+    const importing::PatchChoice conditions{choice.at, choice.angle_deg, choice.box, choice.normal, choice.within_deg};
+    return laid_out(choice, importing::choose_patch(surface->points, surface->triangles, conditions));
   }
 
   // A face of a solid, with its number there.
@@ -93,40 +103,45 @@ class SpaceMaker {
     cad::FaceMesh mesh;
   };
 
-  bool take_faces(SurfacePatch& patch) {
-    if (!request_.kind.empty() && std::ranges::find(cad::face_kinds, request_.kind) == cad::face_kinds.end()) {
-      refuse("there is no kind of faces called \"" + request_.kind + '"',
-             sources::hint_of_names(request_.kind, {cad::face_kinds.begin(), cad::face_kinds.end()}, ""));
-      return false;
+  std::optional<Part> faces_of(const SurfaceChoice& choice) const {
+    if (!choice.kind.empty() && std::ranges::find(cad::face_kinds, choice.kind) == cad::face_kinds.end()) {
+      refuse(choice, "there is no kind of faces called \"" + choice.kind + '"',
+             sources::hint_of_names(choice.kind, {cad::face_kinds.begin(), cad::face_kinds.end()}, ""));
+      return std::nullopt;
     }
-    const auto read = sources::read_cad(request_.file, loading_);
-    if (!read) return false;
+    const auto read = sources::read_cad(choice.file, loading_);
+    if (!read) return std::nullopt;
     std::vector<Face> chosen;
     std::string all;
     for (const cad::SolidPtr& solid : read->solids) {
       std::vector<cad::FaceMesh> faces = solid->face_meshes(request_.tolerance_mm);
       for (uint32_t n = 0; n < faces.size(); ++n) {
         all += (all.empty() ? "" : "; ") + described(faces[n]);
-        if (fits(faces[n])) chosen.push_back({solid.get(), n, std::move(faces[n])});
+        if (fits(choice, faces[n])) chosen.push_back({solid.get(), n, std::move(faces[n])});
       }
     }
     if (chosen.empty()) {
-      refuse("no face of the CAD file is chosen", "its faces are: " + shortened(all));
-      return false;
+      refuse(choice, "no face of the CAD file is chosen", "its faces are: " + shortened(all));
+      return std::nullopt;
     }
-    if (request_.at) keep_nearest(chosen);
-    if (chosen.size() > 1) return join(chosen, patch);
-    cad::FaceMesh& face = chosen.front().mesh;
-    patch = {std::move(face.points), std::move(face.triangles), std::move(face.normals), std::move(face.places)};
-    fill_normals(patch);
-    if (const auto turned = importing::turned_over(patch)) {
-      refuse("u and v of the face have no area at " + place_text(patch.points[patch.triangles[*turned][0]]),
+    if (choice.at) keep_nearest(chosen, *choice.at);
+    return chosen.size() > 1 ? joined(choice, chosen) : with_own_places(choice, std::move(chosen.front().mesh));
+  }
+  std::optional<Part> with_own_places(const SurfaceChoice& choice, cad::FaceMesh face) const {
+    Part part;
+    part.patch = {std::move(face.points), std::move(face.triangles), std::move(face.normals), std::move(face.places)};
+    fill_normals(part.patch);
+    if (const auto turned = importing::turned_over(part.patch)) {
+      refuse(choice, "u and v of the face have no area at " + place_of(part.patch, *turned),
              "choose a face without such a point, or several faces, which are laid out by " +
                  std::string(request_.method.text()));
-      return false;
+      return std::nullopt;
     }
-    lengths_ = importing::moved_to_zero(patch);
-    return true;
+    part.lengths = importing::moved_to_zero(part.patch);
+    return part;
+  }
+  static std::string place_of(const SurfacePatch& patch, uint32_t triangle) {
+    return place_text(patch.points[patch.triangles[triangle][0]]);
   }
   static std::string described(const cad::FaceMesh& face) {
     return face.kind + " of " + format_rounded(face.area_mm2) + " mm^2 around " + place_text(face.center);
@@ -135,19 +150,19 @@ class SpaceMaker {
     constexpr size_t most = 600;
     return text.size() > most ? text.substr(0, text.rfind(';', most)) + "; ..." : text;
   }
-  bool fits(const cad::FaceMesh& face) const {
-    if (face.triangles.empty() || (!request_.kind.empty() && face.kind != request_.kind)) return false;
-    if (!request_.area_mm2.contains(face.area_mm2)) return false;
-    if (request_.box && !request_.box->contains(face.center)) return false;
-    if (!request_.normal) return true;
-    const double cosine = math::cos(request_.within_deg * math::degree);
-    return length(face.normal) > 0 && dot(face.normal, *request_.normal) >= cosine * length(*request_.normal);
+  static bool fits(const SurfaceChoice& choice, const cad::FaceMesh& face) {
+    if (face.triangles.empty() || (!choice.kind.empty() && face.kind != choice.kind)) return false;
+    if (!choice.area_mm2.contains(face.area_mm2)) return false;
+    if (choice.box && !choice.box->contains(face.center)) return false;
+    if (!choice.normal) return true;
+    const double cosine = math::cos(choice.within_deg * math::degree);
+    return length(face.normal) > 0 && dot(face.normal, *choice.normal) >= cosine * length(*choice.normal);
   }
-  void keep_nearest(std::vector<Face>& faces) const {
+  static void keep_nearest(std::vector<Face>& faces, Vec3 at) {
     size_t nearest = 0;
     double least = Box::inf;
     for (size_t n = 0; n < faces.size(); ++n) {
-      const double here = importing::SurfaceRays(faces[n].mesh.points, faces[n].mesh.triangles).distance(*request_.at);
+      const double here = importing::SurfaceRays(faces[n].mesh.points, faces[n].mesh.triangles).distance(at);
       if (here >= least) continue;
       least = here;
       nearest = n;
@@ -155,7 +170,7 @@ class SpaceMaker {
     faces = {std::move(faces[nearest])};
   }
   // Joins faces along their common edges.
-  bool join(const std::vector<Face>& faces, SurfacePatch& patch) {
+  std::optional<Part> joined(const SurfaceChoice& choice, const std::vector<Face>& faces) const {
     Surface all;
     std::map<const cad::Solid*, std::set<uint32_t>> numbers;
     for (const Face& face : faces) numbers[face.solid].insert(face.number);
@@ -169,9 +184,9 @@ class SpaceMaker {
       mesh.triangles = std::move(kept);
       append(mesh, all);
     }
-    importing::PatchChoice choice;
-    choice.angle_deg = request_.angle_deg;
-    return take(importing::choose_patch(all.points, all.triangles, choice), patch) && lay_out(patch);
+    importing::PatchChoice conditions;
+    conditions.angle_deg = choice.angle_deg;
+    return laid_out(choice, importing::choose_patch(all.points, all.triangles, conditions));
   }
   // Gives points without a normal, such as a tip, the mean normal of their triangles.
   static void fill_normals(SurfacePatch& patch) {
@@ -181,47 +196,106 @@ class SpaceMaker {
       if (length(normals[n]) > 0) patch.normals[n] = normals[n];
   }
 
-  bool lay_out(SurfacePatch& patch) {
-    patch.places = importing::flatten(patch.points, patch.triangles, method_called(request_.method));
-    if (const auto turned = importing::turned_over(patch)) {
-      refuse("the surface folds at " + place_text(patch.points[patch.triangles[*turned][0]]) +
-                 " where it is laid out by " + std::string(request_.method.text()),
-             "choose a smaller or flatter part of it, or another method: lscm, arap or authalic");
-      return false;
+  std::optional<Part> laid_out(const SurfaceChoice& choice, importing::ChosenPatch chosen) const {
+    if (!chosen.problem.empty()) {
+      refuse(choice, chosen.problem, chosen.hint);
+      return std::nullopt;
     }
-    lengths_ = importing::align_places(patch, request_.toward);
-    return true;
+    Part part{std::move(chosen.patch), {}};
+    part.patch.places = importing::flatten(part.patch.points, part.patch.triangles, method_called(request_.method));
+    if (const auto turned = importing::turned_over(part.patch)) {
+      refuse(choice,
+             "the surface folds at " + place_of(part.patch, *turned) + " where it is laid out by " +
+                 std::string(request_.method.text()),
+             "choose a smaller or flatter part of it, or another method: lscm, arap or authalic");
+      return std::nullopt;
+    }
+    part.lengths = importing::align_places(part.patch, request_.toward);
+    return part;
   }
 
   bool add_ways(Shell& shell) {
-    const double sign = request_.is_inward ? -1 : 1;
-    if (request_.to.path.empty()) {
-      for (const Vec3& normal : shell.patch.normals) shell.ways.push_back(sign * normal);
-      shell.heights = {request_.standoff_mm, request_.standoff_mm + request_.height_mm};
-      return true;
-    }
-    const auto other = surface_of(request_.to);
+    if (is_between()) return request_.pairing == "normal" ? add_ways_along_normals(shell) : add_ways_of_pairs(shell);
+    turn_inward(shell);
+    for (const Vec3& normal : shell.patch.normals) shell.ways.push_back(sign() * normal);
+    shell.heights = {request_.standoff_mm, request_.standoff_mm + request_.height_mm};
+    return true;
+  }
+  bool is_between() const { return !request_.to.file.path.empty(); }
+  double sign() const { return request_.is_inward ? -1 : 1; }
+  void turn_inward(Shell& shell) const {
+    if (request_.is_inward) turn(shell);
+  }
+  static void turn(Shell& shell) {
+    for (auto& [a, b, c] : shell.patch.triangles) std::swap(b, c);
+  }
+
+  bool add_ways_along_normals(Shell& shell) {
+    const auto other = request_.to.is_whole() ? surface_of(request_.to.file) : surface_of_part(request_.to);
     if (!other) return false;
-    shell.heights = {0, 1};
-    reach_to(importing::SurfaceRays(other->points, other->triangles), sign, shell);
+    turn_inward(shell);
+    const importing::SurfaceRays rays(other->points, other->triangles);
+    reach_to(
+        shell, [&](uint32_t n) { return rays.way_from(shell.patch.points[n], sign() * shell.patch.normals[n]); },
+        [&](const importing::Corners& corners) { return rays.distance(middle(shell, corners)); });
+    return true;
+  }
+  std::optional<Surface> surface_of_part(const SurfaceChoice& choice) const {
+    auto part = part_of(choice);
+    if (!part) return std::nullopt;
+    return Surface{std::move(part->patch.points), std::move(part->patch.triangles)};
+  }
+  // The middle of a triangle on the upper side.
+  static Vec3 middle(const Shell& shell, const importing::Corners& corners) {
+    const auto& [a, b, c] = corners;
+    return (1.0 / 3) * (shell.at(a, 1) + shell.at(b, 1) + shell.at(c, 1));
+  }
+
+  // Joins places of both surfaces at equal shares of u and v.
+  bool add_ways_of_pairs(Shell& shell) {
+    const auto other = part_of(request_.to);
+    if (!other) return false;
+    const importing::PairedPlaces pairs(other->patch, lengths_, other->lengths, request_.pairing.text(), shell.patch);
+    if (const auto lonely = pairs.without_partner()) {
+      refuse("no place of \"" + request_.to.file.path + "\" pairs with " + place_text(*lonely),
+             "choose parts of both surfaces that have the same outline");
+      return false;
+    }
+    reach_to(
+        shell, [&](uint32_t n) { return pairs.partner(shell.patch.places[n]) - shell.patch.points[n]; },
+        [&](const importing::Corners& corners) {
+          const auto& [a, b, c] = corners;
+          const std::vector<Vec2>& places = shell.patch.places;
+          return length(pairs.partner((1.0 / 3) * (places[a] + places[b] + places[c])) - middle(shell, corners));
+        });
+    if (pairs.farthest_off() > request_.tolerance_mm)
+      reader_.diagnostics.warning(reader_.where,
+                                  "the outlines of both surfaces of surface_cells differ by up to " +
+                                      format_rounded(pairs.farthest_off()) + " mm; cells go on beyond that of \"" +
+                                      request_.to.file.path + '"',
+                                  "choose parts of both surfaces that have the same outline");
+    double rise = 0;
+    for (size_t n = 0; n < shell.ways.size(); ++n) rise += dot(shell.ways[n], shell.patch.normals[n]);
+    if (rise < 0) turn(shell);
     return true;
   }
 
-  // Divides triangles until the upper side is near enough to the other surface.
-  void reach_to(const importing::SurfaceRays& other, double sign, Shell& shell) {
+  // Divides triangles until the upper side is near enough to the other surface. `way` is that of a point of the patch,
+  // `off` the distance of a triangle's middle from where it should be.
+  template <class Way, class Off>
+  void reach_to(Shell& shell, const Way& way, const Off& off) {
     constexpr size_t most_triangles = 300000;
+    shell.heights = {0, 1};
     for (;;) {
       shell.ways.clear();
-      for (size_t n = 0; n < shell.patch.points.size(); ++n)
-        shell.ways.push_back(other.way_from(shell.patch.points[n], sign * shell.patch.normals[n]));
+      for (uint32_t n = 0; n < shell.patch.points.size(); ++n) shell.ways.push_back(way(n));
       double farthest = 0;
-      for (const auto& [a, b, c] : shell.patch.triangles)
-        farthest = std::max(farthest, other.distance((1.0 / 3) * (shell.at(a, 1) + shell.at(b, 1) + shell.at(c, 1))));
+      for (const importing::Corners& corners : shell.patch.triangles) farthest = std::max(farthest, off(corners));
       if (farthest <= request_.tolerance_mm) return;
       if (4 * shell.patch.triangles.size() > most_triangles) {
         reader_.diagnostics.warning(reader_.where,
                                     "cells of surface_cells end up to " + format_rounded(farthest) +
-                                        " mm away from \"" + request_.to.path + "\"",
+                                        " mm away from \"" + request_.to.file.path + "\"",
                                     "smooth the surface, or set a greater tolerance");
         return;
       }
@@ -231,11 +305,10 @@ class SpaceMaker {
 
   bool is_sound(const Shell& shell) {
     if (const auto fold = importing::find_fold(shell)) {
-      const bool is_between = !request_.to.path.empty();
       const double most = std::abs(fold->height);
-      std::string hint = is_between ? "choose a smaller part, or smooth the surface"
-                                    : "the surface bends there so that cells may be at most " + format_rounded(most) +
-                                          " mm high; make standoff and height smaller, or smooth the surface";
+      std::string hint = is_between() ? "choose a smaller part, smooth the surface, or choose another pairing"
+                                      : "the surface bends there so that cells may be at most " + format_rounded(most) +
+                                            " mm high; make standoff and height smaller, or smooth the surface";
       refuse("cells are folded at " + place_text(fold->at), hint);
       return false;
     }
@@ -253,7 +326,7 @@ class SpaceMaker {
     constexpr double most_aspect = 8;
     if (report.aspect > most_aspect)
       reader_.diagnostics.warning(reader_.where,
-                                  "surface_cells of \"" + request_.file.path + "\" stretches lengths up to " +
+                                  "surface_cells of \"" + request_.part.file.path + "\" stretches lengths up to " +
                                       format_rounded(report.aspect) + " times as much in one direction as in the other",
                                   "choose a flatter part, without tips and poles, or another method");
     double way = 0;
@@ -264,7 +337,7 @@ class SpaceMaker {
     for (const auto& [a, b] : importing::border_of(shell.patch.triangles))
       space->border.push_back({shell.patch.places[a], shell.patch.places[b]});
     const size_t bytes = bytes_per_triangle * shell.patch.triangles.size();
-    space->source = importing::make_shell_source(request_.file.path, std::move(shell), key_);
+    space->source = importing::make_shell_source(request_.part.file.path, std::move(shell), key_);
     return {std::move(space), bytes};
   }
 
@@ -278,6 +351,14 @@ class SpaceMaker {
 void add(sources::Key& key, const std::optional<Vec3>& point) {
   key.add(point ? 1.0 : 0.0);
   if (point) key.add(point->x).add(point->y).add(point->z);
+}
+void add(sources::Key& key, const SurfaceChoice& choice) {
+  key.add(choice.file.content).add(ending_of(choice.file.path));
+  add(key, choice.at);
+  add(key, choice.box ? std::optional(choice.box->lo) : std::nullopt);
+  add(key, choice.box ? std::optional(choice.box->hi) : std::nullopt);
+  add(key, choice.normal);
+  key.add(choice.kind).add(choice.area_mm2.lo).add(choice.area_mm2.hi).add(choice.angle_deg).add(choice.within_deg);
 }
 
 }  // namespace
@@ -310,20 +391,17 @@ std::shared_ptr<const program::FieldSource> GeodesicRequest::load(sources::Loadi
 }
 
 std::shared_ptr<const SurfaceSpace> SurfaceRequest::load(sources::Loading& loading) {
-  if (!loading.find(file) || !loading.read_content(file)) return nullptr;
-  if (!to.path.empty() && (!loading.find(to) || !loading.read_content(to))) return nullptr;
+  if (!loading.find(part.file) || !loading.read_content(part.file)) return nullptr;
+  const bool is_between = !to.file.path.empty();
+  if (is_between && (!loading.find(to.file) || !loading.read_content(to.file))) return nullptr;
   sources::Key key("surface");
-  key.add(file.content).add(ending_of(file.path)).add(to.path.empty() ? 0.0 : 1.0);
-  if (!to.path.empty()) key.add(to.content).add(ending_of(to.path));
-  add(key, at);
-  add(key, box ? std::optional(box->lo) : std::nullopt);
-  add(key, box ? std::optional(box->hi) : std::nullopt);
-  add(key, normal);
+  add(key, part);
+  key.add(is_between ? 1.0 : 0.0).add(pairing.text());
+  if (is_between) add(key, to);
   add(key, toward);
-  key.add(kind).add(area_mm2.lo).add(area_mm2.hi).add(tolerance_mm);
-  key.add(angle_deg).add(within_deg).add(method.text()).add(standoff_mm).add(height_mm).add(is_inward ? 1.0 : 0.0);
+  key.add(tolerance_mm).add(method.text()).add(standoff_mm).add(height_mm).add(is_inward ? 1.0 : 0.0);
   const Hash hash = key.hash();
-  return loading.cached<Result>(hash, file.path,
+  return loading.cached<Result>(hash, part.file.path,
                                 [&](const Reader& reader) { return SpaceMaker(*this, loading, reader, hash).run(); });
 }
 

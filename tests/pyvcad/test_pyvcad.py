@@ -297,7 +297,7 @@ def test_newer_nodes():
 
 
 @pytest.mark.parametrize("make", [
-    lambda: pv.ColorMap(), lambda: pv.FloatGrid(), lambda: pv.CellMap.between_cad_faces(None),
+    lambda: pv.ColorMap(), lambda: pv.FloatGrid(),
     lambda: pyvcad_compilers.GCVFCompiler(pv.Sphere()),
     lambda: pyvcad_rendering.select_mesh_patch(pv.Sphere())])
 def test_what_is_missing_says_so(make):

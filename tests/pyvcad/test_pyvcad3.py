@@ -1,10 +1,12 @@
 """Attributes, converters, samplers and compilers of pyvcad 3."""
 import math
+import pathlib
 import re
 import struct
 import subprocess
 import sys
 import zipfile
+import zlib
 
 import numpy
 import pytest
@@ -13,6 +15,7 @@ import ombre
 import pyvcad as pv
 import pyvcad_compilers as pvc
 import run_ink
+from pyvcad_compilers._png import write_gray
 
 origin = pv.Vec3(0, 0, 0)
 
@@ -188,6 +191,140 @@ def test_projects_of_slicers_have_a_body_for_each_band(tmp_path):
         pvc.PrusaSlicerProjectCompiler(ball(), pv.Vec3(1, 1, 1), tmp_path / "b.3mf").compile()
     with pytest.raises(pv.MissingFeature):
         pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "b.3mf", enable_color_mix=True)
+    with pytest.raises(TypeError, match="enable_colour_mix"):
+        pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "b.3mf", enable_colour_mix=True)
+
+
+def test_temperatures_become_tools_with_the_profiles_settings(tmp_path):
+    part = pv.RectPrism(origin, pv.Vec3(20, 10, 10))
+    part.set_attribute(pv.DefaultAttributes.TEMPERATURE, pv.FloatAttribute("220 + x"))
+    with pytest.raises(RuntimeError, match="temperature of tools need printer_profile_path"):
+        pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "a.3mf", num_regions=2).compile()
+    printer, filament = tmp_path / "printer.ini", tmp_path / "filament.ini"
+    printer.write_text("# generated\n[printer:mine]\nmax_print_height = 210\nretract_length = 0.8\n")
+    filament.write_text("filament_cost = 25\nfilament_type = PETG\n")
+    pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "a.3mf", 2, printer, filament).compile()
+    with zipfile.ZipFile(tmp_path / "a.3mf") as archive:
+        assert archive.testzip() is None
+        config = archive.read("Metadata/Slic3r_PE.config").decode()
+    assert "; max_print_height = 210" in config and "; filament_cost = 25" in config
+    assert "; temperature = 215,225" in config  # the middles of both halves
+    assert config.count("; filament_type = ") == 1  # the project's own comes first
+    empty = tmp_path / "empty.ini"
+    empty.write_text("# nothing\n")
+    with pytest.raises(ValueError, match="no settings"):
+        pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "a.3mf", 2, printer, empty)
+
+
+def gray(path):
+    """The pixels of an image that write_gray has made."""
+    data = pathlib.Path(path).read_bytes()
+    columns, rows = struct.unpack(">II", data[16:24])
+    length, = struct.unpack(">I", data[33:37])
+    return numpy.frombuffer(zlib.decompress(data[41:41 + length]), dtype=numpy.uint8).reshape(rows, columns + 1)[:, 1:]
+
+
+def test_vats_of_two_materials(tmp_path):
+    table = pv.default_materials
+    red, blue = table.id("red"), table.id("blue")
+    part = pv.RectPrism(pv.Vec3(3, -2, 8), pv.Vec3(10, 6, 1))
+    part.set_attribute("volume_fractions", pv.VolumeFractionsAttribute([(0.75, red), (0.25, blue)]))
+    part.set_attribute("blue_intensity", pv.FloatAttribute(0.5))
+
+    def made(name, mode="directory", seed=0):
+        compiler = pvc.MultiMaterialVatCompiler(part, tmp_path / name, table, ["red", "blue"], layer_thickness=0.5,
+                                                output_mode=pvc.MultiMaterialVatOutputMode(mode), random_seed=seed)
+        compiler.compile()
+        return compiler
+    compiler = made("a")
+    assert tuple(compiler.printer_volume()) == (55.01, 34.38, 150) and compiler.archive_path() == ""
+    assert sorted(p.name for p in (tmp_path / "a").rglob("*.png")) == [
+        f"vat{v}_layer_000{n}.png" for v in "ab" for n in (0, 1)]
+    a, b = (gray(tmp_path / "a" / f"vat_{v}" / f"vat{v}_layer_0001.png") for v in "ab")
+    assert a.shape == (800, 1280) and set(numpy.unique(a)) == {0, 255} and set(numpy.unique(b)) == {0, 128}
+    filled = (a > 0) | (b > 0)
+    assert not ((a > 0) & (b > 0)).any()
+    # The box lies in the middle: 10 of 55.01 mm and 6 of 34.38 mm, all of it filled.
+    rows, columns = numpy.flatnonzero(filled.any(axis=1)), numpy.flatnonzero(filled.any(axis=0))
+    assert len(columns) == pytest.approx(10 / 55.01 * 1280, abs=1) and len(rows) == pytest.approx(6 / 34.38 * 800, abs=1)
+    assert columns[0] + columns[-1] == 1279 and rows[0] + rows[-1] == 799
+    count = int(filled.sum())
+    assert count == len(rows) * len(columns)
+    assert abs((a > 0).sum() / count - 0.75) < 4 * math.sqrt(0.75 * 0.25 / count)
+    made("b"), made("c", seed=1)
+    same, other = (gray(tmp_path / name / "vat_a" / "vata_layer_0001.png") for name in "bc")
+    assert (same == a).all() and (other != a).any()
+    archive = made("d", "zip").archive_path()
+    assert not (tmp_path / "d").exists()
+    with zipfile.ZipFile(archive) as file:
+        assert sorted(file.namelist())[0] == "vat_a/vata_layer_0000.png" and len(file.namelist()) == 4
+
+
+def test_layers_of_one_bit_for_each_material(tmp_path):
+    table = pv.default_materials
+    left, right = (pv.RectPrism(pv.Vec3(x, 0, 0), pv.Vec3(10, 8, 1)) for x in (-5, 5))
+    for part, name in ((left, "red"), (right, "blue")):
+        part.set_attribute("volume_fractions", pv.VolumeFractionsAttribute([(1, table.id(name))]))
+    whole = pv.Union(left, right)
+    pvc.MyersonCompiler(0.5, 25.4, 50.8, 0, 0, tmp_path, whole, table).compile()
+    assert sorted(p.name for p in tmp_path.iterdir()) == [f"{name}_0000{n}.bmp" for name in ("blue", "red") for n in (0, 1)]
+    data = (tmp_path / "red_00001.bmp").read_bytes()
+    offset, columns, rows = *struct.unpack("<I", data[10:14]), *struct.unpack("<ii", data[18:26])
+    assert (columns, rows) == (20, 16) and struct.unpack("<H", data[28:30]) == (1,)  # pixels of 1 x 0.5 mm
+    bits = numpy.unpackbits(numpy.frombuffer(data[offset:], dtype=numpy.uint8).reshape(16, 4), axis=1)[:, :20]
+    assert (bits[:, :10] == 0).all() and (bits[:, 10:] == 1).all() and data[54:58] == bytes(4)  # 0 is black
+    with pytest.raises(pv.MissingFeature, match="taper"):
+        pvc.MyersonCompiler(0.5, 25.4, 50.8, 2, 0, tmp_path, whole, table)
+
+
+def test_what_no_printer_of_vats_can_make(tmp_path):
+    table, make = pv.default_materials, pvc.MultiMaterialVatCompiler
+    part = pv.RectPrism(origin, pv.Vec3(10, 6, 1))
+    with pytest.raises(RuntimeError, match="volume_fractions"):
+        make(part, tmp_path / "a", table, ["red"]).compile()
+    part.set_attribute("volume_fractions", pv.VolumeFractionsAttribute([("x", table.id("red")), ("1 - x", table.id("blue"))]))
+    with pytest.raises(RuntimeError, match="no vat has the material blue"):
+        make(part, tmp_path / "a", table, ["red"], 0.5).compile()
+    with pytest.raises(ValueError, match="1 to 2 materials for DUAL"):
+        make(part, tmp_path / "a", table, ["red", "blue", "green"])
+    make(part, tmp_path / "a", table, ["red", "blue", "green"], system=pvc.MultiMaterialVatSystem.QUAD)
+    with pytest.raises(ValueError, match="0.01 mm or more"):
+        make(part, tmp_path / "a", table, ["red", "blue"], 0.001)
+    large = pv.RectPrism(origin, pv.Vec3(56, 6, 1))
+    large.set_attribute("volume_fractions", pv.VolumeFractionsAttribute([(1, table.id("red"))]))
+    with pytest.raises(RuntimeError, match="56 x 6 x 1 mm"):
+        make(large, tmp_path / "a", table, ["red"]).compile()
+    assert not (tmp_path / "a").exists()
+
+
+# The bottom of tests/cad/cylinder.step is a disc of radius 5 at the lower end; its outer side is below.
+def test_reliefs_lie_on_faces(tmp_path):
+    model = pv.CADModel.from_step(pathlib.Path(__file__).parents[1] / "cad" / "cylinder.step")
+    (lower,) = model.select_faces(normal=(0, 0, -1), min_dot=0.9)
+    z = lower.centroid.z
+    heights = pv.FunctionalHeightField(pv.FloatAttribute("0.5"), amplitude_mm=2)
+    relief = pv.SurfaceReliefVolume(lower, heights, embed_mm=0.5, edge_falloff_mm=1)
+    for below, inside in ((-0.45, True), (-0.55, False), (0.95, True), (1.05, False)):
+        assert (relief.evaluate(0.3, 0.2, z - below) <= 0) == inside, below
+    # Half way through the band along the border it is half as high.
+    assert relief.evaluate(4.5, 0, z - 0.4) < 0 < relief.evaluate(4.5, 0, z - 0.6)
+    assert relief.evaluate(5.2, 0, z - 0.1) > 0
+    # An image whose upper half is white: (0, 0) is the lower left.
+    pixels = numpy.zeros((8, 4), dtype=numpy.uint8)
+    pixels[:4] = 255
+    write_gray(tmp_path / "half.png", pixels)
+    printed = pv.SurfaceReliefVolume(lower, pv.ImageHeightField(tmp_path / "half.png", 1.0))
+    u, v, _ = printed._above.place
+    for x, y in ((0, 2), (0, -2), (2, 0.5), (-2, -0.5), (1, 1), (-1, 1)):
+        share = float(v([[x, y, z - 0.5]])[0])
+        if abs(share - 0.5) > 0.1:
+            assert (printed.evaluate(x, y, z - 0.5) < 0) == (share > 0.5)
+    with pytest.raises(TypeError, match="CADFace or a TriangleMeshSurface"):
+        pv.SurfaceReliefVolume(ball(), heights)
+    with pytest.raises(ValueError, match="luminance"):
+        pv.ImageHeightField(tmp_path / "half.png", 1.0, channel="alpha")
+    with pytest.raises(ValueError):
+        pv.FunctionalHeightField(pv.FloatAttribute(1), amplitude_mm=0)
 
 
 def test_tables_of_several_inputs():

@@ -208,6 +208,13 @@ def test_bodies_are_mixed_by_weights_and_regions():
     banded = mm.mix(left, right, region=region, half_width=2.0)
     assert banded.evaluate(-5, 0, 0) == pytest.approx(1) and banded.evaluate(6, 0, 0) == pytest.approx(-2)
     assert banded.evaluate(0, 6, 0) == pytest.approx(0, abs=1e-9)  # the middle of the band
+    # Struts turn into walls; where one has all the weight, it is unchanged.
+    cells = box(3, 12.0)
+    struts, walls = mm.bcc(cells, beam_radius=0.5), mm.gyroid(cells, wall_thickness=0.6)
+    whole = mm.mix(struts, walls, mm.ramp(4, 8, axis="x"))
+    points = numpy.random.default_rng(4).uniform((0, 0, 0), (12, 12, 12), (300, 3))
+    for only, kept in ((struts, points[:, 0] < 4), (walls, points[:, 0] > 8)):
+        assert (whole._design().distance(points[kept]) == only._design().distance(points[kept])).all()
     with pytest.raises(TypeError, match="either a weight"):
         mm.mix(left, right)
 
@@ -353,8 +360,6 @@ def test_seams_of_random_struts_have_fillets():
 
 
 def test_missing_names_say_what_to_write_instead():
-    with pytest.raises(pv.MissingFeature, match="ombre.surface_cells"):
-        mm.cell_map_between_cad_faces(None, None, cells=(2, 2, 2))
     with pytest.raises(pv.MissingFeature, match="reentrant_honeycomb"):
         mm.plate_lattice(None, wall_thickness=1)
     with pytest.raises(AttributeError, match="did you mean 'octet'"):
@@ -439,7 +444,7 @@ def test_surfaces_without_cells_are_refused():
         mm.cell_map_from_surface(surface, (1, 1, 1), height=0)
     with pytest.raises(pv.MissingFeature, match="trim="):
         mm.cell_map_from_surface(surface, (1, 1, 1), height=1, trim="none")
-    with pytest.raises(TypeError, match="surface_cells"):
+    with pytest.raises(TypeError, match="CADFace or a TriangleMeshSurface"):
         mm.cell_map_from_surface("part.step", (1, 1, 1), height=1)
 
 
@@ -552,6 +557,37 @@ def test_cells_lie_on_faces_of_cad_files():
         pv.CADModel.from_cadquery(3)
     with pytest.raises(FileNotFoundError):
         pv.CADModel.from_step("nothing.step")
+
+
+# The bottom and the top of that cylinder are parallel planes, 20 mm apart.
+def test_cells_reach_from_one_cad_face_to_another():
+    model = pv.CADModel.from_step(pathlib.Path(__file__).parents[1] / "cad" / "cylinder.step")
+    (lower,), (upper,) = (model.select_faces(normal=(0, 0, z), min_dot=0.9) for z in (-1, 1))
+    start = lower.centroid.z
+    cells = mm.cell_map_between_cad_faces(lower, upper, cells=(4, 4, 2))
+    for x, y, z in ((1, 2, 3), (-2, 0.5, 11), (0, -3, 19)):
+        place = cells.inverse((x, y, start + z))
+        assert place.z == pytest.approx(z / 10, abs=1e-6)
+        assert sorted((min(place.x, 4 - place.x), min(place.y, 4 - place.y))) == pytest.approx(
+            sorted((2 - abs(x) / 2.5, 2 - abs(y) / 2.5)), abs=0.01)  # 2.5 mm long; directions are those of the face
+    assert abs(cells.jacobian_determinant((2.2, 1.7, 0.5))) == pytest.approx(2.5 * 2.5 * 10, rel=0.01)
+    assert tuple(cells.inverse(cells.forward((1.5, 2.5, 0.5)))) == pytest.approx((1.5, 2.5, 0.5), abs=1e-8)
+    same = pv.CellMap.between_cad_faces(upper, lower, (4, 4, 2))
+    assert same.inverse((1, 2, start + 3)).z == pytest.approx(1.7, abs=1e-6)
+    # A patch of a mesh above the top.
+    disc = [(0, 0, start + 26)] + [(3 * math.cos(k * math.pi / 16), 3 * math.sin(k * math.pi / 16), start + 26) for k in range(32)]
+    patch = pv.TriangleMeshSurface(disc, [(0, 1 + k, 1 + (k + 1) % 32) for k in range(32)])
+    both = mm.cell_map_between_surfaces(upper, patch, cells=(2, 2, 1))
+    assert both.inverse((0.4, 0.3, start + 23)).z == pytest.approx(0.5, abs=1e-3)
+    (side,) = model.select_faces(surface_type="cylinder")
+    with pytest.raises(RuntimeError, match="cell_map_between_cad_faces"):
+        mm.cell_map_between_cad_faces(lower, side, cells=(4, 4, 2))
+    with pytest.raises(ValueError, match="auto_align=False"):
+        mm.cell_map_between_cad_faces(lower, upper, cells=(4, 4, 2), flip_u=True)
+    with pytest.raises(TypeError, match="two CADFaces"):
+        mm.cell_map_between_cad_faces(lower, patch, cells=(4, 4, 2))
+    with pytest.raises(pv.MissingFeature, match="flip_u"):
+        mm.cell_map_between_cad_faces(lower, upper, cells=(4, 4, 2), first_origin=(0, 0, 0))
 
 
 def test_rims_run_along_borders():

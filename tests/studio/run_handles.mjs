@@ -1,6 +1,6 @@
 // Handles in the views from outside and of the inside: a drag changes the number in the text by what the projection says.
 import assert from "node:assert/strict";
-import { editor, isReady, open, page, pathOf, picture, small, status, test, text, textIs, until, violations } from "./studio_page.mjs";
+import { editor, isReady, open, page, pathOf, picture, putCaret, small, status, test, text, textIs, until, violations } from "./studio_page.mjs";
 
 let view = "surface";
 const handle = (key) => page.locator(`.${view} [data-handle="${key}"]`);
@@ -22,15 +22,6 @@ async function drag(key, dx, dy, steps = 1) {
   await page.mouse.down();
   await page.mouse.move(x + dx, y + dy, { steps });
   await page.mouse.up();
-}
-
-// Puts the caret behind the first place of a text.
-async function putCaret(part) {
-  const all = await text(), at = all.indexOf(part) + part.length;
-  assert.ok(at >= part.length, part);
-  await editor().click();
-  await page.keyboard.press("Control+Home");
-  for (let n = 0; n < at; ++n) await page.keyboard.press("ArrowRight");
 }
 
 async function look(from) {

@@ -110,6 +110,15 @@ export const isReady = (view = "surface", more = "") => page.waitForSelector(`.$
 export const design = () => page.getAttribute(".surface canvas", "data-design");
 export const untilOtherDesign = (before) => untilOnPage((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
 
+// Puts the caret behind the first place of a text.
+export async function putCaret(part) {
+  const all = await text(), at = all.indexOf(part) + part.length;
+  assert.ok(at >= part.length, part);
+  await editor().click();
+  await page.keyboard.press("Control+Home");
+  for (let n = 0; n < at; ++n) await page.keyboard.press("ArrowRight");
+}
+
 // The name of the file that the page has opened, also while another one is chosen.
 export const opened = () => page.getAttribute("select.file", "title");
 // The list of files is read again when it gets the focus.

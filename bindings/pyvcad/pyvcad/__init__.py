@@ -26,6 +26,7 @@ from ._missing import Map, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
+from ._reliefs import FunctionalHeightField, ImageHeightField, SurfaceReliefVolume
 from ._resolvers import Vec4Mode, resolvers
 from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
@@ -60,7 +61,8 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "Vec3sVolume", "Vec4sVolume", "vdb_loader", "SignedDistanceField", "CoverageFailure",
            "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "HexahedralMesh", "SimulationCellType", "SimulationModel", "TetrahedralMesh",
            "UnstructuredFieldDataset", "XDMFFieldLoader", "CellMap", "CellMapCollection", "GraphUnitCell", "ImplicitUnitCell",
-           "CADFace", "CADModel", "MappedGraphLattice", "MappedImplicitLattice", "MeshSelection", "TriangleMeshSurface", "TrimMode"]
+           "CADFace", "CADModel", "MappedGraphLattice", "MappedImplicitLattice", "MeshSelection", "TriangleMeshSurface", "TrimMode",
+           "FunctionalHeightField", "ImageHeightField", "SurfaceReliefVolume"]
 
 
 def __getattr__(name: str) -> object:

@@ -13,14 +13,14 @@ import ombre
 from ombre._commands import run
 
 from ._arguments import number, vector
-from ._cell_maps import CellMap, CellMapCollection
+from ._cell_maps import CellMap, CellMapCollection, TrimMode
 from ._errors import missing
 from ._solids import CAD, _find
-from ._surfaces import made_map, options_of_map
+from ._surfaces import OpenSurface, cells_on, made_map, options_of_map, paired
 from ._vectors import Vec3
 
 
-class CADFace:
+class CADFace(OpenSurface):
     """A face of a CADModel. Areas are mm2; the normal is the mean one, out of the solid."""
 
     def __init__(self, model: CADModel, index: int, face: dict[str, Any]) -> None:
@@ -52,16 +52,15 @@ class CADFace:
     def __repr__(self) -> str:
         return f"CADFace({self.index}, {self.surface_type!r}, area={self.area:g})"
 
-    def _chosen(self) -> dict[str, Any]:
-        """What ombre.surface_cells takes of this face alone."""
+    def _part(self) -> tuple[str, dict[str, Any]]:
         low, high = (numpy.array(corner) for corner in self.bounding_box)
         room = 0.02 * float(numpy.linalg.norm(high - low)) + 1e-6
         center = numpy.array(list(self.centroid))
-        return {"kind": self.surface_type, "least_area": 0.98 * self.area, "most_area": 1.02 * self.area,
-                "min": tuple(map(float, center - room)), "max": tuple(map(float, center + room))}
+        return self._model._path, {
+            "kind": self.surface_type, "least_area": 0.98 * self.area, "most_area": 1.02 * self.area,
+            "min": tuple(map(float, center - room)), "max": tuple(map(float, center + room))}
 
     def _starts(self) -> numpy.ndarray:
-        """Points near the face, from which places are sought."""
         low, high = (numpy.array(corner) for corner in self.bounding_box)
         axes = [numpy.linspace(a, b, 7) for a, b in zip(low, high)]
         return numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -173,12 +172,34 @@ def from_cad_face(face: Any, cells: Any, height: float, linear: bool = True, tri
     if not isinstance(face, CADFace):
         return CellMapCollection([from_cad_face(one, cells, height, linear, trim, standoff) for one in face])
     counts, mode, options = options_of_map("cell_map_from_cad_face", cells, height, trim, standoff)
-    try:
-        value = ombre.surface_cells(face._model._path, count=counts, **face._chosen(), **options)
-        value.region.bounds  # noqa: B018  # loads the face
-    except ombre.DesignError as error:
-        raise RuntimeError(f"cell_map_from_cad_face: {error}") from None
-    return made_map(value, counts, mode, face._starts(), face._model)
+    return made_map(cells_on("cell_map_from_cad_face", face, counts, **options), counts, mode, face._starts(), face._model)
 
 
-CellMap.from_cad_face = staticmethod(from_cad_face)
+def between_cad_faces(a: Any, b: Any, cells: Any, linear: bool = True, trim: Any = TrimMode.boundary,
+                      auto_align: bool = True, flip_u: bool = False, flip_v: bool = False, exchange_uv: bool = False,
+                      first_origin: Any = None, second_origin: Any = None) -> CellMap:
+    """Cells from a face to another one; places at equal shares of u and v are joined.
+
+    Args:
+        a, b: CADFaces; u and v are those of the first.
+        cells: their numbers along u, v and w.
+        linear: accepted; walls and struts follow the faces.
+        trim: TrimMode.boundary cuts cells at the border, TrimMode.cells keeps whole ones.
+        auto_align: of all pairings, takes the one whose ways are shortest.
+        flip_u, flip_v: without auto_align: u, or v, of the first face runs against that of the second.
+        exchange_uv: without auto_align: u of the first face runs along v of the second, and v along u.
+    """
+    what = "cell_map_between_cad_faces"
+    for face in (a, b):
+        if not isinstance(face, CADFace):
+            raise TypeError(f"{what}: expected two CADFaces, found {type(face).__name__}")
+    if first_origin is not None or second_origin is not None:
+        raise missing(f"{what} with origins", "flip_u, flip_v and exchange_uv, with auto_align=False")
+    if auto_align and (flip_u or flip_v or exchange_uv):
+        raise ValueError(f"{what}: auto_align finds flips by itself; write auto_align=False to give them")
+    flips = "_flip_both" if flip_u and flip_v else "_flip_u" if flip_u else "_flip_v" if flip_v else ""
+    named = ("vu" if exchange_uv else "uv") + flips
+    return paired(what, a, b, cells, trim, "nearest" if auto_align else named)
+
+
+CellMap.from_cad_face, CellMap.between_cad_faces = staticmethod(from_cad_face), staticmethod(between_cad_faces)

@@ -18,8 +18,6 @@ from ._vectors import Vec3
 # A function of u, v and w, which are numbers, arrays or expressions, that returns x, y and z.
 Forward = Callable[[Any, Any, Any], tuple[Any, Any, Any]]
 
-_surfaces = "ombre.surface_cells(path, ...) maps cells on meshes and faces of CAD files, also up to another surface"
-
 
 class TrimMode(enum.Enum):
     """What becomes of cells at the edge of a trimmed face."""
@@ -41,13 +39,6 @@ class MapReport(NamedTuple):
     maximum_aspect_ratio: float
     non_neighbor_overlap_count: int = 0
     trimmed_element_count: int = 0
-
-
-def _lacking(name: str) -> Any:
-    """A function of CellMap that is missing."""
-    def refuse(*arguments: Any, **named: Any) -> Any:
-        raise missing(f"CellMap.{name}", _surfaces)
-    return staticmethod(refuse)
 
 
 class CellMap:
@@ -76,7 +67,7 @@ class CellMap:
         return CellMap(ombre.box_cells(count=counts, min=low, max=high), counts, forward)
 
     from_cad_face: Any  # set by _cad
-    between_cad_faces = _lacking("between_cad_faces")
+    between_cad_faces: Any
     from_surface: Any  # set by _surfaces
     between_surfaces: Any
 

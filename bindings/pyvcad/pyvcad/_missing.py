@@ -9,9 +9,6 @@ from ._errors import missing
 from ._tree import Node
 
 _grids = "ombre voxels writes grids, and node.toSignedDistanceArray and toRGBAArray give arrays"
-_maps = "ombre.surface_cells(path, ...) maps cells on meshes and faces of CAD files, also up to another surface"
-_surfaces = "ombre.conformal_map, surface_map and relief lay things along surfaces"
-_images = "ombre.relief reads images as heights"
 _tables = "its measurements are not free to copy; register_calibration(name or file) takes a calibration of your own"
 
 # Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
@@ -20,7 +17,6 @@ MISSING: dict[str, dict[str, str]] = {
         "TexturedMesh": "Mesh(path) reads the shape",
         "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
         "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
-        "SurfaceReliefVolume": _surfaces, "ImageHeightField": _images, "FunctionalHeightField": _surfaces,
         "Mix": "Union(True, [...]) mixes compositions",
         "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids,
         "probe_point": "node.snap(point)",
@@ -29,14 +25,12 @@ MISSING: dict[str, dict[str, str]] = {
     "pyvcad_compilers": dict.fromkeys(
         ("GCVFCompiler",),
         "ColorInkjetCompiler and MaterialInkjetCompiler write the images of a material printer") | dict.fromkeys(
-        ("MultiMaterialVatCompiler", "MultiMaterialVatSystem", "MultiMaterialVatOutputMode",
-         "MyersonCompiler"), "VatCompiler writes gray images, and ombre slice -o part.sl1 an archive for printers") | dict.fromkeys(
         ("FullSpectrumSlicerProjectCompiler",),
-        "PrusaSlicerProjectCompiler writes a .3mf with a body for each band"),
+        "ombre.Design.mesh(path, bands=4, mix_layers=4, flavour=\"orca\") mixes two filaments layer by layer, and "
+        "colour_by=\"color_rgb\" paints the surface"),
     "pyvcad_metamaterials": {
-        "cell_map_between_cad_faces": _maps,
         "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
-        "idw_weight": "mix_many(bodies, weights), with weights of FloatAttribute(1/ombre.point_distance([seed])**2)"},
+        "idw_weight": "ombre.morph(first, second, third, seeds=[...]), whose weights fall with the distance from a seed for each body"},
     "pyvcad_metamaterials.properties": {"characterize_mesh": "characterize(Mesh(surface), voxel_size)"},
     "pyvcad_rendering": dict.fromkeys(
         ("select_mesh_patch", "resolve_selection_mesh", "save_mesh_selection", "load_mesh_selection",

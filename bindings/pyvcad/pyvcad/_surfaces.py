@@ -17,7 +17,34 @@ from ._triangles import Triangles
 _methods = ("lscm", "arap", "authalic")
 
 
-class TriangleMeshSurface(Triangles):
+class OpenSurface:
+    """A surface with an open border: a face of a CADModel or a TriangleMeshSurface."""
+
+    def _part(self) -> tuple[str, dict[str, Any]]:
+        """The file of the surface, and the options with which ombre.surface_cells takes it alone."""
+        raise NotImplementedError
+
+    def _layout(self) -> dict[str, Any]:
+        """The options of ombre.surface_cells that lay it out."""
+        return {}
+
+    def _starts(self) -> numpy.ndarray:
+        """Points near the surface, from which places are sought."""
+        raise NotImplementedError
+
+
+def cells_on(what: str, surface: OpenSurface, counts: tuple[int, int, int], **options: Any) -> Any:
+    """The value of ombre.surface_cells on a surface, whose mistakes are RuntimeErrors, as in pyvcad."""
+    path, part = surface._part()
+    try:
+        value = ombre.surface_cells(path, count=counts, **part, **surface._layout(), **options)
+        value.region.bounds  # noqa: B018  # loads the surface
+    except ombre.DesignError as error:
+        raise RuntimeError(f"{what}: {error}") from None
+    return value
+
+
+class TriangleMeshSurface(OpenSurface, Triangles):
     """A patch of triangles that is laid out in a plane: TriangleMeshSurface(vertices, triangles, u_axis_hint=None,
     method="lscm").
 
@@ -42,7 +69,8 @@ class TriangleMeshSurface(Triangles):
         self.parameterization_method = method
         self._folder = tempfile.TemporaryDirectory(prefix="ombre_")
         self._path = self._written()
-        self._cells((1, 1, 1), height=1e-6 * float(numpy.ptp(self._vertices, axis=0).max()))  # lays it out, or refuses
+        # Lays it out, or refuses.
+        cells_on("TriangleMeshSurface", self, (1, 1, 1), height=1e-6 * float(numpy.ptp(self._vertices, axis=0).max()))
 
     @staticmethod
     def from_selection(mesh: Any, ids: Any, u_axis_hint: Any = None, method: str = "lscm") -> TriangleMeshSurface:
@@ -65,28 +93,19 @@ class TriangleMeshSurface(Triangles):
             file.writelines("3 " + " ".join(str(int(n)) for n in t) + "\n" for t in self._triangles)
         return path
 
-    def _middle(self) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """The mean place and the mean normal, by areas."""
-        corners = self._vertices[self._triangles]
-        areas = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        weights = numpy.linalg.norm(areas, axis=1, keepdims=True)
-        return (corners.mean(axis=1) * weights).sum(axis=0) / weights.sum(), areas.sum(axis=0)
+    def _part(self) -> tuple[str, dict[str, Any]]:
+        return self._path, {}
 
-    def _cells(self, counts: tuple[int, int, int], **options: Any) -> Any:
-        """The value of ombre.surface_cells, whose mistakes are RuntimeErrors, as in pyvcad."""
-        try:
-            value = ombre.surface_cells(self._path, count=counts, toward=self._toward, method=self.parameterization_method,
-                                        **options)
-            value.region.bounds  # noqa: B018  # loads the surface
-        except ombre.DesignError as error:
-            raise RuntimeError(f"TriangleMeshSurface: {error}") from None
-        return value
+    def _layout(self) -> dict[str, Any]:
+        return {"toward": self._toward, "method": self.parameterization_method}
+
+    def _starts(self) -> numpy.ndarray:
+        return self.vertices
 
 
-def _expect_surface(what: str, value: Any) -> TriangleMeshSurface:
-    if not isinstance(value, TriangleMeshSurface):
-        raise TypeError(f"{what}: expected a TriangleMeshSurface, found {type(value).__name__}; for faces of CAD files "
-                        'write ombre.surface_cells("part.step", count=(8, 8, 2), at=point_of_the_face)')
+def _expect_surface(what: str, value: Any) -> OpenSurface:
+    if not isinstance(value, OpenSurface):
+        raise TypeError(f"{what}: expected a CADFace or a TriangleMeshSurface, found {type(value).__name__}")
     return value
 
 
@@ -120,26 +139,40 @@ def from_surface(surface: Any, cells: Any, height: float, linear: bool = True, t
     """Cells on a surface: u and v along it, w along its normal.
 
     Args:
-        surface: a TriangleMeshSurface.
+        surface: a TriangleMeshSurface or a CADFace.
         cells: their numbers along u, v and w.
         height: of all cells together, mm; below 0 on the other side.
         linear: accepted; walls and struts follow the surface.
         trim: TrimMode.boundary cuts cells at the border, TrimMode.cells keeps whole ones.
         standoff: distance of the first cells from the surface, mm.
     """
-    mesh = _expect_surface("cell_map_from_surface", surface)
-    counts, mode, options = options_of_map("cell_map_from_surface", cells, height, trim, standoff)
-    return made_map(mesh._cells(counts, **options), counts, mode, mesh.vertices, mesh)
+    what = "cell_map_from_surface"
+    one = _expect_surface(what, surface)
+    counts, mode, options = options_of_map(what, cells, height, trim, standoff)
+    return made_map(cells_on(what, one, counts, **options), counts, mode, one._starts(), one)
+
+
+def paired(what: str, a: Any, b: Any, cells: Any, trim: Any, pairing: str) -> CellMap:
+    """Cells from a surface to another one, whose places at equal shares of u and v are joined."""
+    first, second = (_expect_surface(what, one) for one in (a, b))
+    counts, (mode, options) = whole_counts("cells", cells), _trimmed(trim)
+    path, part = second._part()
+    of_second = {f"to_{name}": value for name, value in part.items()}
+    value = cells_on(what, first, counts, to=path, pairing=pairing, **of_second, **options)
+    return made_map(value, counts, mode, first._starts(), first, second)
 
 
 def between_surfaces(a: Any, b: Any, cells: Any, linear: bool = True, trim: Any = TrimMode.boundary) -> CellMap:
-    """Cells from a surface along its normals to another one; u and v are those of the first."""
-    first, second = (_expect_surface("cell_map_between_surfaces", one) for one in (a, b))
-    counts, (mode, options) = whole_counts("cells", cells), _trimmed(trim)
-    (start, normal), (end, _) = first._middle(), second._middle()
-    side = "inside" if float(numpy.dot(normal, end - start)) < 0 else "outside"
-    value = first._cells(counts, to=second._path, side=side, **options)
-    return made_map(value, counts, mode, first.vertices, first, second)
+    """Cells from a surface to another one; u and v are those of the first, and places at equal shares of u and v are
+    joined such that the ways between them are short.
+
+    Args:
+        a, b: a CADFace or a TriangleMeshSurface each.
+        cells: their numbers along u, v and w.
+        linear: accepted; walls and struts follow the surfaces.
+        trim: TrimMode.boundary cuts cells at the border, TrimMode.cells keeps whole ones.
+    """
+    return paired("cell_map_between_surfaces", a, b, cells, trim, "nearest")
 
 
 CellMap.from_surface, CellMap.between_surfaces = staticmethod(from_surface), staticmethod(between_surfaces)

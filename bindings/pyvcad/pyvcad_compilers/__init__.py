@@ -11,10 +11,13 @@ from ._simulation import (InpWriter, SimulationBackend, SimulationCellType, Simu
                           SimulationTetFixedMeshSettings)
 from ._inkjet import (ColorInkjetCompiler, ColorInkjetExportMode, ColorPipeline, ColorPipelineOptions,
                       MaterialInkjetCompiler, MaterialInkjetExportMode)
+from ._material_vats import MultiMaterialVatCompiler, MultiMaterialVatOutputMode, MultiMaterialVatSystem
+from ._myerson import MyersonCompiler
 from ._slicer_projects import PrusaSlicerProjectCompiler
 
 __all__ = ["ColorInkjetCompiler", "ColorInkjetExportMode", "ColorPipeline", "ColorPipelineOptions", "PrusaSlicerProjectCompiler",
-           "MaterialInkjetCompiler", "MaterialInkjetExportMode", "VatCompiler", "VdbCompiler",
+           "MaterialInkjetCompiler", "MaterialInkjetExportMode", "MultiMaterialVatCompiler", "MultiMaterialVatOutputMode",
+           "MultiMaterialVatSystem", "MyersonCompiler", "VatCompiler", "VdbCompiler",
            "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler",
            "SimulationBackend", "SimulationCellType", "SimulationCompiler", "SimulationCompilerSettings",
            "SimulationHexMeshSettings", "SimulationMeshKind", "SimulationModel", "SimulationTetFixedMeshSettings"]

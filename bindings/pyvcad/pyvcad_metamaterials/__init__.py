@@ -19,12 +19,12 @@ from ._lattices import (bcc, cubic, cubic_octet_plate, diamond, fcc, graph_latti
                         simple_cubic_plate, split_p, tpms)
 from ._scattered import (ScatteredPoints, delaunay_graph_lattice, delaunay_plate_lattice, sample_points_in_host,
                          voronoi_graph_lattice, voronoi_plate_lattice)
-from ._maps import (cell_map_between_surfaces, cell_map_from_cad_face, cell_map_from_surface, cylindrical_cell_map,
-                    rectangular_cell_map, spherical_cell_map, warp_cell_map)
+from ._maps import (cell_map_between_cad_faces, cell_map_between_surfaces, cell_map_from_cad_face,
+                    cell_map_from_surface, cylindrical_cell_map, rectangular_cell_map, spherical_cell_map, warp_cell_map)
 
 __all__ = ["CellMap", "CellMapCollection", "GraphUnitCell", "ImplicitUnitCell", "LATTICE_NAMES", "ScatteredPoints", "TPMS_NAMES",
            "TrimMode", "delaunay_graph_lattice", "delaunay_plate_lattice", "sample_points_in_host", "voronoi_graph_lattice",
-           "voronoi_plate_lattice", "bcc", "cell_map_between_surfaces", "cell_map_from_cad_face", "cell_map_from_surface",
+           "voronoi_plate_lattice", "bcc", "cell_map_between_cad_faces", "cell_map_between_surfaces", "cell_map_from_cad_face", "cell_map_from_surface",
            "cubic", "cubic_octet_plate", "cylindrical_cell_map", "diamond", "fcc", "graph_lattice", "gyroid", "iwp",
            "kelvin", "lidinoid", "mix", "mix_many", "neovius", "octet", "properties", "ramp", "rectangular_cell_map",
            "reentrant_hex_prism_reference_aspect_ratio", "reentrant_honeycomb", "rim", "schwarz_d", "schwarz_p",

@@ -7,7 +7,6 @@ import ombre
 from pyvcad import FloatAttribute, Vec3Attribute
 from pyvcad._arguments import length, number
 from pyvcad._cell_maps import control
-from pyvcad._resolvers import numbers_of
 from pyvcad._tree import Binary, Node, as_node
 
 
@@ -49,38 +48,12 @@ class Mix(Binary):
     def _composing(self) -> list[Node]:
         return super()._inputs()
 
-    def _share(self, solids: list[ombre.Solid]) -> Any:
-        """The weight of the right body, from 0 to 1, as a value."""
-        if self._region is None:
-            return ombre.formula(ombre.clamp(0, control(self._weight), 1)).value
-        return ombre.formula(ombre.clamp(0, 0.5 + ombre.distance_to(solids[2]).distance / (2 * self._half_width), 1)).value
-
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        left, right, share = solids[0], solids[1], self._share(solids)
-        places = [ombre.distance_to(solid) for solid in (left, right)]
-        corners = [solid.bounds for solid in (left, right)]
-        low, high = ([pick(axis) for axis in zip(*(corner[n] for corner in corners))] for n, pick in ((0, min), (1, max)))
-        mixed = (1 - share) * places[0].distance + share * places[1].distance
-        material = ombre.mix(ombre.composition_of(left), ombre.composition_of(right), share)
-        whole: ombre.Solid = ombre.function(mixed, material, min=low, max=high)
-        names = [node.attribute_list() for node in super()._inputs()]
-        for name in sorted({*names[0], *names[1]} - {"volume_fractions"}):
-            whole = self._with_mixed(whole, name, [solid for solid, own in zip((left, right), names) if name in own],
-                                     share, places)
-        return whole
-
-    @staticmethod
-    def _with_mixed(whole: ombre.Solid, name: str, solids: list[ombre.Solid], share: Any, places: Any) -> ombre.Solid:
-        numbers = [numbers_of(solid, name) for solid in solids]
-        if len(numbers) == 2:
-            in_left, in_right = places[0].inside > 0.5, places[1].inside > 0.5
-            values = [ombre.formula(ombre.where(in_left & in_right, (1 - share) * a + share * b,
-                                                ombre.where(in_left, a, b))).value for a, b in zip(*numbers)]
+        if self._region is None:
+            weight = control(self._weight)
         else:
-            values = numbers[0]
-        if len(values) == 1:
-            return ombre.attribute(whole, name, values[0])
-        return ombre.attribute(whole, name, values, type="colour" if len(values) == 4 else "vector")
+            weight = ombre.formula(0.5 + ombre.distance_to(solids[2]).distance / (2 * self._half_width)).value
+        return ombre.morph(solids[0], solids[1], weight=weight)
 
 
 def mix(left: Any, right: Any, weight: Any = None, region: Any = None, half_width: float | None = None) -> Mix:

@@ -85,5 +85,5 @@ def spherical_cell_map(center: Any = (0, 0, 0), inner_radius: float = 8.0, outer
 
 
 warp_cell_map = CellMap.warp
-cell_map_from_cad_face = CellMap.from_cad_face
+cell_map_from_cad_face, cell_map_between_cad_faces = CellMap.from_cad_face, CellMap.between_cad_faces
 cell_map_from_surface, cell_map_between_surfaces = CellMap.from_surface, CellMap.between_surfaces

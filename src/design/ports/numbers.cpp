@@ -39,7 +39,7 @@ Interval Number::range(const Box& where, const std::map<std::string_view, Interv
 }
 
 std::string_view name_of(InSpace in_space) {
-  constexpr std::array<std::string_view, 6> names{"", "point", "profile", "direction", "offset", "radius"};
+  constexpr std::array<std::string_view, 7> names{"", "point", "profile", "direction", "offset", "radius", "surface"};
   return names[static_cast<size_t>(in_space)];
 }
 

@@ -107,6 +107,19 @@ class Studio {
     return true;
   }
 
+  std::optional<Vec3> point_at(int64_t column, int64_t row) {
+    if (!prepare()) return std::nullopt;
+    const auto shot = turned_solid(0);
+    if (!shot) return std::nullopt;
+    stages_of(loaded_.design)->prepare(loan_);
+    const auto band = shot->cast(row, row + 1);
+    if (stop_.requested()) throw Cancelled();
+    const render::RayHit& hit = band.at(column, row);
+    if (hit.surface == render::RayHit::none) return std::nullopt;
+    const Vec3 view{hit.surface, shot->film.right_of(column), shot->film.down_of(row)};
+    return shot->camera.design_from_view()(shot->camera.unprojected(view));
+  }
+
  private:
   bool prepare() {
     const auto whole = design_box(loaded_.design, diagnostics_);
@@ -367,6 +380,17 @@ void check_memory(const PictureRequest& request) {
 }
 
 }  // namespace
+
+std::optional<Vec3> point_at_pixel(const Loaded& loaded, const PictureRequest& request, int64_t column, int64_t row,
+                                   const StopFlag& stop, Diagnostics& diagnostics) {
+  check_memory(request);
+  const StageLoan loan{request.threads, request.memory_bytes, nullptr, &stop, request.memory, true};
+  PictureRequest effective = request;
+  effective.samples = 1;
+  effective.by.clear();
+  const Loaded own{loaded.path, loaded.source, with_stages(loaded.design, loan)};
+  return Studio(own, effective, loan, diagnostics).point_at(column, row);
+}
 
 bool take_pictures(const Loaded& loaded, const PictureRequest& request, const StopFlag& stop,
                    const std::function<void(int, const Picture&)>& take, Diagnostics& diagnostics, Progress* progress) {

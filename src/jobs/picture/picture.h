@@ -15,4 +15,9 @@ bool take_pictures(const Loaded& loaded, const PictureRequest& request, const St
                    const std::function<void(int frame, const Picture&)>& take, Diagnostics& diagnostics,
                    Progress* progress = nullptr);
 
+// Returns the point of the surface that the first frame of the picture shows at a pixel, or nothing if there is none or
+// diagnostics were added. Throws Cancelled.
+std::optional<Vec3> point_at_pixel(const Loaded& loaded, const PictureRequest& request, int64_t column, int64_t row,
+                                   const StopFlag& stop, Diagnostics& diagnostics);
+
 }  // namespace ombre::compile

@@ -24,6 +24,17 @@ bool is_one_material(const std::vector<Composition>& parts) {
 
 }  // namespace
 
+design::Domain attribute_rules() {
+  return design::one_of({design::overlap_names.begin(), design::overlap_names.end()});
+}
+
+design::AttributeDeclaration in_place_of(design::AttributeDeclaration declaration,
+                                         const std::vector<design::NamedWord>& rules) {
+  for (const design::NamedWord& rule : rules)
+    if (rule.name == declaration.name) declaration.overlap = design::overlap_called(rule.word);
+  return declaration;
+}
+
 Composition weighted(const Inputs& in, const Point& p, Demand demand, const std::vector<Field>& weights) {
   std::vector<Composition> parts;
   for (size_t i = 0; i < in.count(); ++i) parts.push_back(in.composition(i, p, demand));

@@ -7,6 +7,14 @@
 
 namespace ombre::nodes {
 
+// A parameter of nodes that combine attributes: rules that count in place of the attributes' own.
+inline constexpr std::string_view attribute_rules_doc =
+    "Rules for attributes where children overlap, in place of the attributes' own: [[\"modulus\", \"max\"]]";
+design::Domain attribute_rules();
+// Returns the declaration with the rule that a node gives for this attribute, if it gives one.
+design::AttributeDeclaration in_place_of(design::AttributeDeclaration declaration,
+                                         const std::vector<design::NamedWord>& rules);
+
 // Returns the weighted mean of the inputs' compositions. Weights must not be negative, nor all zero where the result
 // matters. An input with weight zero has no effect, whatever its composition.
 design::Composition weighted(const design::Inputs& in, const program::Point& p, design::Demand demand,

@@ -20,18 +20,6 @@ constexpr std::string_view blend_doc = "Radius of the fillet, or size of the cha
 constexpr std::string_view join_doc = "round: a fillet along seams; chamfer: a flat bevel";
 Domain join_choices() { return one_of({"round", "chamfer"}); }
 
-constexpr std::string_view attributes_doc =
-    "Rules for attributes where children overlap, in place of the attributes' own: [[\"modulus\", \"max\"]]";
-Domain attribute_rules() { return one_of({overlap_names.begin(), overlap_names.end()}); }
-
-// Returns the attribute's declaration with the overlap rule of this node.
-AttributeDeclaration declaration_here(const Inputs& in, std::string_view part, const std::vector<NamedWord>& rules) {
-  AttributeDeclaration declaration = in.declaration(part);
-  for (const NamedWord& rule : rules)
-    if (rule.name == declaration.name) declaration.overlap = overlap_called(rule.word);
-  return declaration;
-}
-
 // Returns weights of the inputs that contain the point, or of the nearest input where none does and it matters.
 std::vector<Field> overlap_weights(const Inputs& in, const Point& p, Demand demand, std::string_view rule) {
   std::vector<Field> flags = in.memberships(p, Border::included);
@@ -79,7 +67,7 @@ struct JoinedSolids : Seams {
     return {{"materials", &T::materials, about_materials, std::move(rules_of_materials)},
             {"blend", &T::blend_radius, blend_doc, unit::not_negative_mm},
             {"join", &T::join, join_doc, join_choices()},
-            {"attributes", &T::attribute_words, attributes_doc, attribute_rules()}};
+            {"attributes", &T::attribute_words, attribute_rules_doc, attribute_rules()}};
   }
 };
 
@@ -142,7 +130,7 @@ struct Union : JoinedSolids {
 
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     if (in.count() == 1) return in.attribute(0, name, p, demand);
-    const AttributeDeclaration here = declaration_here(in, name, attribute_words);
+    const AttributeDeclaration here = in_place_of(in.declaration(name), attribute_words);
     if (!blend().is_plain()) return blended_attribute(in, name, p, demand, blend().falloff(), here);
     return overlapping_attribute(in, name, p, demand, overlap_weights(in, p, demand, "mix"), here);
   }
@@ -250,7 +238,7 @@ struct Intersection : JoinedSolids {
   Field attribute(const Inputs& in, std::string_view name, const Point& p, Demand demand) const {
     const auto flags = demand == Demand::inside ? std::vector<Field>(in.count(), p.constant(1))
                                                 : overlap_weights(in, p, demand, "mix");
-    return overlapping_attribute(in, name, p, demand, flags, declaration_here(in, name, attribute_words));
+    return overlapping_attribute(in, name, p, demand, flags, in_place_of(in.declaration(name), attribute_words));
   }
 
  private:

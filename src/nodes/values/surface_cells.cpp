@@ -20,9 +20,12 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
   double height = 5, standoff = 0;
   Choice side = "outside", method = "lscm";
   std::string kind;
-  Choice trim = "border";
+  Choice trim = "border", pairing = "normal";
   double least_area = 0, most_area = 0;
   std::optional<Vec3> at, min, max, normal;
+  std::optional<Vec3> to_at, to_min, to_max, to_normal;
+  std::string to_kind;
+  double to_least_area = 0, to_most_area = 0;
   double angle = 180, within = 60, tolerance = 0.05;
   Vec3 toward{1, 0, 0};
   std::shared_ptr<const SurfaceSpace> space;  // made with the node
@@ -52,7 +55,7 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
           one_of({"border", "cells"})},
          {"at", &SurfaceCells::at,
           "Takes what is linked to the triangle nearest to this point, or the nearest face of a CAD file",
-          unit::points},
+          unit::on_surface},
          {"angle", &SurfaceCells::angle, "Greatest bend between triangles that are linked", from_to(0, 180, "deg")},
          {"min", &SurfaceCells::min, "Least corner of a box that the centres of triangles or faces lie in",
           unit::point},
@@ -73,7 +76,21 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
           one_of({"lscm", "arap", "authalic"})},
          {"tolerance", &SurfaceCells::tolerance,
           "Greatest distance of the highest cells from the other surface, and of triangles from a CAD file's faces",
-          unit::positive_mm}},
+          unit::positive_mm},
+         {"pairing", &SurfaceCells::pairing,
+          "How places are joined with those of the other surface: along the normals; or at equal shares of u and v, "
+          "which run "
+          "along its u and v (uv) or its v and u (vu), some of them flipped, or such that ways are short (nearest)",
+          one_of({pairings.begin(), pairings.end()})},
+         {"to_at", &SurfaceCells::to_at, "Takes a part of the other surface as `at` does", unit::on_surface},
+         {"to_min", &SurfaceCells::to_min, "Least corner of a box for parts of the other surface", unit::point},
+         {"to_max", &SurfaceCells::to_max, "Greatest corner of that box", unit::point},
+         {"to_normal", &SurfaceCells::to_normal, "Takes a part of the other surface as `normal` does", unit::direction},
+         {"to_kind", &SurfaceCells::to_kind, "Kind of the faces of the other file that are taken"},
+         {"to_least_area", &SurfaceCells::to_least_area, "Least area of the faces of the other file that are taken",
+          not_negative("mm^2")},
+         {"to_most_area", &SurfaceCells::to_most_area,
+          "Greatest area of the faces of the other file that are taken; 0: any", not_negative("mm^2")}},
         no_inputs,
         "tpms(\"gyroid\", map=surface_cells(\"models/insole.off\", (8, 8, 4), height=4, normal=(0, 0, 1)), "
         "thickness=0.6, material=\"red\");",
@@ -82,20 +99,18 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
 
   bool complete(const Reader& reader) {
     if (!reader.loader) return reader.refuse("meshes cannot be read here");
-    if (!is_box_or_none(reader, min, max)) return false;
-    if (normal && !(length(*normal) > 0))
-      return reader.refuse("normal of surface_cells has no length",
-                           "write for example " + spelled::parameter("normal", "(0, 0, 1)"));
+    if (!is_box_or_none(reader, min, max) || !is_box_or_none(reader, to_min, to_max)) return false;
+    for (const auto& [name, direction] : {std::pair("normal", normal), {"to_normal", to_normal}})
+      if (direction && !(length(*direction) > 0))
+        return reader.refuse(std::string(name) + " of surface_cells has no length",
+                             "write for example " + spelled::parameter(name, "(0, 0, 1)"));
+    if (!to && (!(pairing == "normal") || to_at || to_min || to_normal || !to_kind.empty()))
+      return reader.refuse("surface_cells has no other surface to pair with",
+                           "write its file, for example " + spelled::parameter("to", "\"part.step\""));
     SurfaceRequest request;
-    request.file = path;
-    if (to) request.to = *to;
-    request.at = at;
-    request.angle_deg = angle;
-    if (min) request.box = Box{*min, *max};
-    request.normal = normal;
-    request.within_deg = within;
-    request.kind = kind;
-    request.area_mm2 = {least_area, most_area > 0 ? most_area : std::numeric_limits<double>::infinity()};
+    request.part = choice(path, at, min, max, normal, kind, {least_area, most_area});
+    if (to) request.to = choice(*to, to_at, to_min, to_max, to_normal, to_kind, {to_least_area, to_most_area});
+    request.pairing = pairing;
     request.method = method;
     request.toward = toward;
     request.standoff_mm = standoff;
@@ -103,8 +118,8 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
     request.is_inward = side == "inside";
     request.tolerance_mm = tolerance;
     space = reader.loader->source(request, reader);
-    path = request.file;
-    if (to) to = request.to;
+    path = request.part.file;
+    if (to) to = request.to.file;
     if (!space) return false;
     return find_counts(reader, {space->lengths.x, space->lengths.y, space->thickness_mm}, size, count, counts) &&
            (trim == "border" || find_whole_cells(reader));
@@ -143,6 +158,22 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
   }
 
  private:
+  // `areas` are the least and the greatest; 0 for any.
+  SurfaceChoice choice(const FilePath& file, const std::optional<Vec3>& near, const std::optional<Vec3>& low,
+                       const std::optional<Vec3>& high, const std::optional<Vec3>& facing, const std::string& of_kind,
+                       Interval areas) const {
+    SurfaceChoice made;
+    made.file = file;
+    made.at = near;
+    made.angle_deg = angle;
+    if (low) made.box = Box{*low, *high};
+    made.normal = facing;
+    made.within_deg = within;
+    made.kind = of_kind;
+    made.area_mm2 = {areas.lo, areas.hi > 0 ? areas.hi : std::numeric_limits<double>::infinity()};
+    return made;
+  }
+
   Field is_kept(const Point& p) const {
     const Slope place = cells_at(p);
     return p.builder().source(whole, 0, place[0], place[1], p.constant(0));

@@ -279,7 +279,7 @@ export function SurfaceView() {
       <div class="stage">
         <canvas ref={canvas} tabIndex={0} role="img" aria-label={`The design from outside${design ? `, materials ${design.materials.map((m) => m.name).join(", ")}` : ""}. Arrows turn it, with Shift they move it, plus and minus zoom.`}
                 {...pointer} onKeyDown={moveByKeys} />
-        <Handles canvas={canvas} />
+        <Handles canvas={canvas} members={renderMembers} />
         <p class="viewproblem" role="status"></p>
         {by ? <ColourLegend /> : <Legend />}
         {camera && <ScaleBar pixelMm={camera.height / height} />}

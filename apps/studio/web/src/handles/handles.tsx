@@ -9,6 +9,7 @@ import { Camera, state, useStore } from "../store";
 import { frameOf } from "./frames";
 import { Handle, Key, Sight, cardAt, handlesOf, hasPlaces, valuesOf } from "./model";
 import { roundedTo, withNumbers } from "./numbers";
+import { Picking } from "./picking";
 import { Rows, Vec, inverseOf, lengthOf, mapDirection, mapPoint, mapRay, unit } from "./space";
 
 interface Chosen {
@@ -85,7 +86,7 @@ interface Drag {
   values: number[];
 }
 
-export function Handles({ canvas }: { canvas: RefObject<HTMLCanvasElement> }) {
+export function Handles({ canvas, members }: { canvas: RefObject<HTMLCanvasElement>; members: (camera: Camera) => Record<string, unknown> }) {
   const { camera, handles: isShown, design, file, isBusy } = useStore();
   const [, redraw] = useState({});
   const [drag, setDrag] = useState<Drag>();
@@ -172,6 +173,7 @@ export function Handles({ canvas }: { canvas: RefObject<HTMLCanvasElement> }) {
                 data-handle={handle.key} onPointerDown={grab(handle)} onKeyDown={press(handle)} />
       ))}
       <p class="handlestatus" role="status">{said.key === card.key ? said.text : ""}</p>
+      <Picking canvas={canvas} card={card} inverse={inverse} finest={sight.finest} members={members} />
     </div>
   );
 }

@@ -106,6 +106,7 @@ type Maker = (key: string, label: string, coordinates: Coordinate[], around: Sur
 // The handles by what a parameter says of the place of its numbers.
 const makers: Record<string, { counts: number[]; isList: boolean; make: Maker }> = {
   point: { counts: [2, 3], isList: true, make: (key, label, c) => placeHandle(key, label, c, c.length === 3 ? [0, 1, 2] : [0, 1]) },
+  surface: { counts: [3], isList: false, make: (key, label, c) => placeHandle(key, label, c, [0, 1, 2]) },
   profile: { counts: [2], isList: true, make: (key, label, c) => placeHandle(key, label, c, [0, 2]) },
   direction: { counts: [3], isList: false, make: directionHandle },
   offset: { counts: [1], isList: false, make: (key, label, c, around) => lengthHandle(key, label, c, origin, unit(around.axis ?? [0, 0, 1]), true) },
@@ -120,7 +121,7 @@ const textOf = (value: unknown) => (value === null || value === undefined ? "" :
 const isPlainVariable = (item: GraphItem) => item.kind === "variable" && item.callee === "" && item.locked_by === "" && !(item.variable in state.values);
 
 // Returns where the numbers of an input stand: in the call, in the variable that it names, or in the default.
-function whereOf(graph: ScriptGraph, card: Card, input: Input): Where | undefined {
+export function whereOf(graph: ScriptGraph, card: Card, input: Input): Where | undefined {
   if (input.index === undefined) {
     const text = textOf(input.parameter?.default) || (input.parameter?.written_default ?? "");
     return text ? { item: card.item, name: input.name, text } : undefined;
@@ -181,6 +182,16 @@ export function handlesOf(graph: ScriptGraph, card: Card): Handle[] {
       return maker.make(`${input.name} ${n}`, label, coordinates, around) ?? [];
     });
   });
+}
+
+// The inputs of a card that are places on surfaces, which a click in the view chooses.
+export const pickedInputs = (card: Card): Input[] => (card.isLocked ? [] : card.inputs.filter((input) => kindOf(input) === "surface"));
+
+// The greatest bend of linked triangles that a card has or may be given; none if it takes faces of a CAD file.
+export function bendOf(card: Card): { input: Input; text: string } | undefined {
+  const input = card.inputs.find((one) => one.name === "angle" && one.parameter?.unit === "deg");
+  const readsCad = card.inputs.some((one) => /\.(step|stp|iges|igs)"\s*$/i.test(one.text));
+  return input && !readsCad ? { input, text: input.index === undefined ? "" : input.text } : undefined;
 }
 
 export const hasPlaces = (card: Card) => !card.isLocked && card.inputs.some((input) => kindOf(input) in makers);
