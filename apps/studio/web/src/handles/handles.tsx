@@ -86,7 +86,8 @@ interface Drag {
   values: number[];
 }
 
-export function Handles({ canvas, members }: { canvas: RefObject<HTMLCanvasElement>; members: (camera: Camera) => Record<string, unknown> }) {
+// `members` are those of the request for the picture that is seen; a view without them has no surface to click.
+export function Handles({ canvas, members }: { canvas: RefObject<HTMLCanvasElement>; members?: (camera: Camera) => Record<string, unknown> }) {
   const { camera, handles: isShown, design, file, isBusy } = useStore();
   const [, redraw] = useState({});
   const [drag, setDrag] = useState<Drag>();
@@ -173,7 +174,7 @@ export function Handles({ canvas, members }: { canvas: RefObject<HTMLCanvasEleme
                 data-handle={handle.key} onPointerDown={grab(handle)} onKeyDown={press(handle)} />
       ))}
       <p class="handlestatus" role="status">{said.key === card.key ? said.text : ""}</p>
-      <Picking canvas={canvas} card={card} inverse={inverse} finest={sight.finest} members={members} />
+      {members && <Picking canvas={canvas} card={card} inverse={inverse} finest={sight.finest} members={members} />}
     </div>
   );
 }
