@@ -202,7 +202,7 @@ def unfinished_meshes(folder):
     gather_mesh(folder)
     folder.write("part.3mf", "not ours")
     wrong = folder.run("run", "plan.json", "--shard", 1, status=2).stderr
-    expect("part.3mf exists already" in wrong, wrong)
+    expect("part.3mf exists already; remove it, or plan a job with another -o" in wrong, wrong)
 
 
 def meshes_without_shares(folder):

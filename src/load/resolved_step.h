@@ -37,7 +37,9 @@ struct ResolvedStep {
   std::optional<std::pair<calibration::MixtureLaw, calibration::MixtureLaw>> joint = {};
 
   // True if the place in reach, not the attribute's own reach, says whether a value of the attribute is reached.
-  bool is_placed(const std::string& name) const { return !place_in_reach.empty() && (joint || name == attribute); }
+  bool is_placed(const std::string& name) const {
+    return !place_in_reach.empty() && (name == attribute || (joint && name == others[0].attribute));
+  }
 };
 
 }  // namespace ombre::compile

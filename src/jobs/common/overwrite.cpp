@@ -34,4 +34,10 @@ void refuse_to_overwrite(const std::string& path, bool force) {
                 {{"file", path}});
 }
 
+void refuse_joined(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths)
+    if (fs::exists(path))
+      throw Error(Code::exists, path + " exists already; remove it, or plan a job with another -o", {{"file", path}});
+}
+
 }  // namespace ombre::jobs

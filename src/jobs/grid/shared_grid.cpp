@@ -8,6 +8,7 @@
 #include "base/text/error.h"
 #include "formats/containers/file.h"
 #include "jobs/common/events.h"
+#include "jobs/common/overwrite.h"
 #include "stores/folder_store.h"
 #include "stores/numbered_files.h"
 #include "stores/open_store.h"
@@ -64,7 +65,7 @@ class SharedGrid final : public SharedJob {
   PieceCosts costs(Session&) const override { return {std::vector<double>(static_cast<size_t>(slabs_.count())), 0}; }
 
   int make(PieceRange range, const stores::Shard& shard, Session& session) const override {
-    if (!fs::exists(folder())) refuse_existing();
+    if (!fs::exists(folder())) refuse_joined(grid_.paths);
     JobProgress progress(session.events);
     const auto store = stores::open_shard(folder(), stored_, shard, {choices_.work.threads, &progress, &session.stop});
     add_slabs(*store, range, progress, session);
@@ -74,7 +75,7 @@ class SharedGrid final : public SharedJob {
   }
 
   int join(Session& session) const override {
-    refuse_existing();
+    refuse_joined(grid_.paths);
     const Stopwatch watch;
     JobProgress progress(session.events);
     stores::FolderStore store(folder(), stored_, stores::FolderUse::resume,
@@ -97,12 +98,6 @@ class SharedGrid final : public SharedJob {
   }
 
  private:
-  void refuse_existing() const {
-    for (const std::string& path : grid_.paths)
-      if (fs::exists(path))
-        throw Error(Code::exists, path + " exists already; remove it, or plan a job with another -o", {{"file", path}});
-  }
-
   // Makes the slabs of the range that the store lacks.
   void add_slabs(stores::Store& store, PieceRange range, JobProgress& progress, Session& session) const {
     const auto is_missing = [&](int64_t slab) { return slab < range.end && !store.finished().contains(slab); };

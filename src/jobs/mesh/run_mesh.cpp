@@ -200,10 +200,11 @@ void check_project(const MeshChoices& a, const MeshOutput& output) {
                         " both choose filaments; leave one of the two out");
 }
 
-void refuse_written(const MeshChoices& a, const MeshOutput& output) {
-  const formats::MeshFormat& format = *output.format;
-  refuse_to_overwrite(output.path, a.force);
-  if (format.companion_bytes) refuse_to_overwrite(exporting::companion_path(output.path, format), a.force);
+// Returns the paths of the files that the job writes.
+std::vector<std::string> written_by(const MeshOutput& output) {
+  std::vector<std::string> paths{output.path};
+  if (output.format->companion_bytes) paths.push_back(exporting::companion_path(output.path, *output.format));
+  return paths;
 }
 
 void refuse_options(const MeshChoices& a, const compile::MeshRequest& request, const MeshOutput& output) {
@@ -335,7 +336,7 @@ int mesh(const MeshChoices& a, Session& session) {
   const Stopwatch watch;
   JobSteps<compile::LoadedPtr> steps;
   steps.refuse = [&] {
-    refuse_written(a, output);
+    for (const std::string& path : written_by(output)) refuse_to_overwrite(path, a.force);
     refuse_options(a, request, output);
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
@@ -383,8 +384,8 @@ SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) 
   auto planned = compile::plan_mesh(*loaded, request, diagnostics, nullptr, &session.stop);
   if (!planned || diagnostics.has_errors()) return nullptr;
   MeshToShare shared{output.path + ".slabs", std::move(*planned),
-                     settings_key(a.design.design, loaded->design, a.given, session.program), nullptr, nullptr};
-  shared.refuse_written = [a, output] { refuse_written(a, output); };
+                     settings_key(a.design.design, loaded->design, a.given, session.program), written_by(output),
+                     nullptr};
   shared.write = [a, output, loaded](const compile::PlannedMesh& mesh, const surface::GridBorders& known,
                                      Session& here) {
     const MakeMesh make = [&](PrintedDiagnostics& printed, Progress& progress) {

@@ -8,6 +8,7 @@
 #include "base/text/error.h"
 #include "formats/containers/file.h"
 #include "jobs/common/events.h"
+#include "jobs/common/overwrite.h"
 #include "jobs/mesh/slab_bytes.h"
 #include "stores/folder_store.h"
 #include "stores/numbered_files.h"
@@ -46,7 +47,7 @@ class SharedMesh final : public SharedJob {
   PieceCosts costs(Session&) const override { return {std::vector<double>(static_cast<size_t>(pieces().end)), 0}; }
 
   int make(PieceRange range, const stores::Shard& shard, Session& session) const override {
-    if (!fs::exists(folder())) mesh_.refuse_written();
+    if (!fs::exists(folder())) refuse_joined(mesh_.written);
     JobProgress progress(session.events);
     const auto store = stores::open_shard(folder(), stored_, shard, {threads(), &progress, &session.stop});
     add_slabs(*store, range, progress, session);
@@ -56,7 +57,7 @@ class SharedMesh final : public SharedJob {
   }
 
   int join(Session& session) const override {
-    mesh_.refuse_written();
+    refuse_joined(mesh_.written);
     JobProgress progress(session.events);
     stores::FolderStore store(folder(), stored_, stores::FolderUse::resume, {threads(), &progress, &session.stop});
     add_slabs(store, pieces(), progress, session);

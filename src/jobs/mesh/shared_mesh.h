@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "jobs/common/shared_job.h"
 #include "jobs/mesh/planned_mesh.h"
@@ -14,8 +15,8 @@ namespace ombre::jobs {
 struct MeshToShare {
   std::string folder;  // of the slabs, until they are joined
   compile::PlannedMesh planned;
-  stores::JobKey key;                    // all that decides the mesh
-  std::function<void()> refuse_written;  // throws Error if the file to write exists
+  stores::JobKey key;                // all that decides the mesh
+  std::vector<std::string> written;  // paths of the files to write
   // Makes the mesh of what is known of its borders, and writes it; returns an exit code.
   std::function<int(const compile::PlannedMesh& planned, const surface::GridBorders& known, Session& session)> write;
 };

@@ -217,16 +217,11 @@ class IntentSurvey {
     }
   }
 
-  static bool reads(const ResolvedStep& step, const std::string& attribute) {
-    return step.attribute == attribute ||
-           std::ranges::find(step.others, attribute, &ReadAttribute::attribute) != step.others.end();
-  }
-
   // Adds what steps reach of an attribute.
   void add_reaches(Sum& sum, const std::vector<ResolvedStep>& steps) const {
     for (const ResolvedStep& step : steps) {
       const size_t place = column(Kind::attribute, step.place_in_reach);
-      if (step.is_placed(sum.intent.attribute) && place != no_column && reads(step, sum.intent.attribute))
+      if (step.is_placed(sum.intent.attribute) && place != no_column)
         sum.places.emplace_back(place, Interval(1, 2));
       else if (step.attribute == sum.intent.attribute && !step.inks)
         sum.reach = step.reach;
