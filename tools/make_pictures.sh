@@ -21,6 +21,7 @@ declare -A options=(
   [beam_lattice]="--from -30,25"
   [helmet_liner]="--from 120,25"
   [changing_cells]="--from -25,25"
+  [joined_lattices]="--from -25,25"
   [calibration_sheet]="--from -20,55"
   [graded_wing]="--from -20,35"
   [ink_target]="--from -15,60"

@@ -83,7 +83,9 @@ struct Morph {
   }
 
   Composition composition(const Inputs& in, const Point& p, Demand) const {
-    return weighted(in, p, Demand::everywhere, materials_by(in, p));
+    Composition made = weighted(in, p, Demand::everywhere, materials_by(in, p));
+    if (const auto check = check_of_weights(in, p)) made.checks.push_back(*check);
+    return made;
   }
 
   // Numbers are mixed as materials are, unless a rule says otherwise.
@@ -110,6 +112,17 @@ struct Morph {
     const auto is_none = [](const Number& w) { return w.constant() && *w.constant() <= 0; };
     return !std::ranges::all_of(weight.items(), is_none) ||
            reader.refuse("all weights of morph are 0", "give one above 0");
+  }
+
+  // Returns a check of weights that are not finite, such as 0/0. Numbers of the script are known to be finite.
+  std::optional<std::pair<uint32_t, Field>> check_of_weights(const Inputs& in, const Point& p) const {
+    std::vector<Field> bad;
+    for (const Number& w : weight)
+      if (!w.constant()) bad.push_back(logical_not(is_finite(w(p))));
+    if (bad.empty()) return std::nullopt;
+    const Field any = program::fold(bad, program::logical_or);
+    if (p.builder().constant_value(any) == 0.0) return std::nullopt;
+    return in.check(any, "a weight of morph is not finite, so that its children are not mixed as they should be");
   }
 
   bool is_single() const { return weight.size() == 1; }
