@@ -7,6 +7,7 @@
 #include "formats/packages/mesh_formats.h"
 #include "formats/results/result_formats.h"
 #include "formats/volumes/volume_formats.h"
+#include "jpeg/jpeg_image.h"
 #include "sources/layer_images.h"
 #include "tiff/pages.h"
 #include "vdb/dense_grid.h"
@@ -25,6 +26,7 @@ std::vector<FileFormat> make_table() {
   add({dicom::file_format()});
   add(vdb::file_formats());
   add(image_file_formats());
+  add({jpeg::file_format()});
   FileFormat pages = tiff::file_format();
   pages.name = "TIFF of many pages";
   pages.content = Content::volume;

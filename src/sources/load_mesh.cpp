@@ -140,18 +140,19 @@ MadeParts parts_of(const std::string& path, formats::Mesh mesh, const Hash& all,
   return {};
 }
 
-// The contents of a requested file; for grids also the other files.
+// The contents of a requested file, and of the others that belong to it.
 struct MeshFiles {
   std::string_view bytes;
-  formats::ResultsBeside beside;
-  Hash content;  // hash of all
+  formats::ResultsBeside beside;  // of grids
+  formats::FilesBeside parts;     // of meshes
+  Hash content;                   // hash of all
 };
 
 MadeParts read_parts(const MeshRequest& request, const MeshFiles& files, const Reader& reader) {
   const std::string& path = request.file.path;
   auto mesh = sources::has_elements(path)
                   ? sources::result_border(path, files.bytes, files.beside, request.deform, reader.diagnostics)
-                  : formats::read_mesh(path, files.bytes, reader.diagnostics);
+                  : formats::read_mesh(path, files.bytes, reader.diagnostics, files.parts);
   const bool is_plain = request.deform == 0 && request.step == 0;
   const Hash content = is_plain
                            ? files.content
@@ -218,6 +219,8 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   FilePath numbers{sources::numbers_beside(file.path), {}};
   const bool has_numbers = !numbers.path.empty();
   if (!loading.read_content(file) || (has_numbers && !loading.read_content(numbers))) return nullptr;
+  const auto parts = loading.read_beside(file, "parts", formats::files_of_mesh(file.path));
+  if (!parts) return nullptr;
   const sources::ResultFiles named = sources::result_files(file, static_cast<uint64_t>(step), loading);
   if (has_numbers) file.content = sources::Key("mesh and numbers").add(file.content).add(numbers.content).hash();
   sources::Key key("mesh");
@@ -226,7 +229,7 @@ std::shared_ptr<const std::vector<MeshPart>> MeshRequest::load(sources::Loading&
   return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
     const auto bytes = loading.bytes(file);
     const auto beside = has_numbers ? loading.bytes(numbers) : nullptr;
-    MeshFiles files{*bytes, {{}, named.files(), static_cast<uint64_t>(step)}, file.content};
+    MeshFiles files{*bytes, {{}, named.files(), static_cast<uint64_t>(step)}, *parts, file.content};
     if (beside) files.beside.values = formats::ResultsFile{numbers.path, *beside};
     return read_parts(*this, files, reader);
   });

@@ -4,7 +4,7 @@
 
 #include "base/text/error.h"
 #include "base/text/file_ending.h"
-#include "formats/images/png.h"
+#include "formats/images/read_picture.h"
 #include "formats/mesh/mtl.h"
 #include "formats/packages/read_mesh.h"
 #include "import/fields/surface_colours.h"
@@ -12,19 +12,6 @@
 
 namespace ombre::design {
 namespace {
-
-constexpr uint64_t most_texture_pixels = uint64_t{1} << 27;  // 0.5 GB
-
-ImagePixels pixels_of(const formats::PngImage& png) {
-  ImagePixels pixels{png.width, png.height, {}};
-  pixels.rgba.reserve(4 * pixels.columns * pixels.rows);
-  for (uint32_t row = 0; row < png.height; ++row)
-    for (uint32_t column = 0; column < png.width; ++column) {
-      const formats::Rgba colour = png.colour(column, row);
-      pixels.rgba.insert(pixels.rgba.end(), colour.begin(), colour.end());
-    }
-  return pixels;
-}
 
 void add_places(formats::Mesh& mesh) {
   for (size_t n = 0; n < mesh.shadings.size(); ++n) {
@@ -72,15 +59,10 @@ void add_shadings(const std::string& path, bool has_image, formats::Mesh& mesh) 
               {{"file", path}});
 }
 
-// A file that a mesh file names, beside it.
-FilePath beside(const FilePath& file, const std::string& name) {
-  return {(std::filesystem::path(file.path).parent_path() / name).string(), {}};
-}
-
-// The materials of an OBJ file, and the files that they lie in.
+// The materials of an OBJ file, and the images beside a mesh file.
 struct MaterialFiles {
   std::vector<formats::ObjMaterial> materials;
-  std::vector<FilePath> images;  // of the materials, in their order; without a path: none
+  std::vector<FilePath> images;  // of OBJ's materials, in their order; without a path: none
 };
 
 // Reads the materials that an OBJ file names. Files of materials that are missing are left out with a warning, and
@@ -89,7 +71,7 @@ std::optional<MaterialFiles> material_files(const FilePath& file, std::string_vi
                                             sources::Key& key) {
   MaterialFiles found;
   for (const std::string& name : formats::material_libraries(obj)) {
-    FilePath library = beside(file, name);
+    FilePath library = sources::beside(file, name);
     if (!std::filesystem::exists(library.path)) {
       loading.reader().diagnostics.warning(
           loading.reader().where,
@@ -103,7 +85,7 @@ std::optional<MaterialFiles> material_files(const FilePath& file, std::string_vi
     for (const formats::ObjMaterial& material : *read) {
       FilePath image;
       if (!material.image.name.empty()) {
-        image = beside(library, material.image.name);
+        image = sources::beside(library, material.image.name);
         if (!loading.read_content(image)) return std::nullopt;
         key.add(image.content);
       }
@@ -114,14 +96,22 @@ std::optional<MaterialFiles> material_files(const FilePath& file, std::string_vi
   return found;
 }
 
+// Reads the images that a glTF file names. Returns nothing, with a diagnostic, if one cannot be read.
+std::optional<MaterialFiles> image_files(const FilePath& file, sources::Loading& loading, sources::Key& key) {
+  MaterialFiles found;
+  if (!formats::files_of_mesh(file.path)) return found;
+  FilePath whole = file;
+  const auto images = loading.read_beside(whole, "images", formats::gltf_image_files);
+  if (!images) return std::nullopt;
+  key.add(whole.content);
+  for (const auto& [name, bytes] : *images) found.images.push_back(sources::beside(file, name));
+  return found;
+}
+
 importing::SurfaceImage surface_image(const std::string& bytes, const std::string& name,
                                       const formats::MeshImage& how) {
-  if (!bytes.starts_with("\x89PNG"))
-    throw Error(Code::file_content,
-                "the image \"" + name + "\" is no PNG file; convert it to PNG, and save the mesh with it",
-                {{"file", name}});
-  ImagePixels read = pixels_of(formats::decode_png(bytes, name, most_texture_pixels));
-  return {read.columns, read.rows, std::move(read.rgba), how.wrap_u, how.wrap_v};
+  formats::Picture read = formats::read_picture(name, bytes, formats::Turning::as_stored);
+  return {read.width, read.height, std::move(read.rgba), how.wrap_u, how.wrap_v};
 }
 
 }  // namespace
@@ -131,15 +121,21 @@ std::shared_ptr<const program::FieldSource> SurfaceColoursRequest::load(sources:
   const bool has_image = !image.path.empty();
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   if (has_image && (!loading.find(image) || !loading.read_content(image))) return nullptr;
+  const auto parts = loading.read_beside(file, "parts", formats::files_of_mesh(file.path));
+  if (!parts) return nullptr;
   sources::Key key("surface colours");
   key.add(file.content).add(has_image ? image.content.hex() : "");
   std::optional<MaterialFiles> beside_it = MaterialFiles();
   if (!has_image && ending_of(file.path) == ".obj")
     beside_it = material_files(file, *loading.bytes(file), loading, key);
+  else if (!has_image)
+    beside_it = image_files(file, loading, key);
   if (!beside_it) return nullptr;
   return loading.cached<Result>(key.hash(), file.path, [&](const Reader& reader) {
-    auto mesh = formats::read_mesh(file.path, *loading.bytes(file), reader.diagnostics);
+    auto mesh = formats::read_mesh(file.path, *loading.bytes(file), reader.diagnostics, *parts);
     if (!mesh) return Made{};
+    for (formats::MeshImage& one : mesh->images)
+      if (one.bytes.empty()) one.name = sources::beside(file, one.name).path;
     std::vector<importing::SurfaceImage> images;
     if (has_image) {
       images.push_back(surface_image(*loading.bytes(image), image.path, {}));
@@ -152,7 +148,8 @@ std::shared_ptr<const program::FieldSource> SurfaceColoursRequest::load(sources:
     for (const formats::MeshImage& one : mesh->images) {
       if (has_image) break;
       const auto of = std::ranges::find(beside_it->images, one.name, &FilePath::path);
-      images.push_back(surface_image(of == beside_it->images.end() ? one.bytes : *loading.bytes(*of), one.name, one));
+      const bool is_inside = !one.bytes.empty() || of == beside_it->images.end();
+      images.push_back(surface_image(is_inside ? one.bytes : *loading.bytes(*of), one.name, one));
     }
     size_t bytes = sizeof(formats::TriangleShading) * mesh->triangles.size();
     constexpr size_t bytes_of_triangle = 200;
@@ -166,10 +163,9 @@ std::shared_ptr<const ImagePixels> PixelsRequest::load(sources::Loading& loading
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   using Made = sources::Loading::Made<ImagePixels>;
   return loading.cached<ImagePixels>(sources::Key("pixels").add(file.content).hash(), file.path, [&](const Reader&) {
-    auto pixels = std::make_shared<ImagePixels>(
-        pixels_of(formats::decode_png(*loading.bytes(file), file.path, most_texture_pixels)));
-    const size_t bytes = pixels->rgba.size();
-    return Made{std::move(pixels), bytes};
+    formats::Picture read = formats::read_picture(file.path, *loading.bytes(file), formats::Turning::as_seen);
+    const size_t bytes = read.rgba.size();
+    return Made{std::make_shared<ImagePixels>(ImagePixels{read.width, read.height, std::move(read.rgba)}), bytes};
   });
 }
 

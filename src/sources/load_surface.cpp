@@ -66,7 +66,10 @@ class SpaceMaker {
       return all;
     }
     const auto bytes = loading_.bytes(file);
-    auto mesh = formats::read_mesh(file.path, *bytes, reader_.diagnostics);
+    FilePath whole = file;  // it gets a content that the key has already
+    const auto parts = loading_.read_beside(whole, "parts", formats::files_of_mesh(whole.path));
+    if (!parts) return std::nullopt;
+    auto mesh = formats::read_mesh(file.path, *bytes, reader_.diagnostics, *parts);
     if (!mesh) {
       reader_.diagnostics.note(reader_.where, "the file is used here");
       return std::nullopt;
@@ -365,13 +368,15 @@ void add(sources::Key& key, const SurfaceChoice& choice) {
 
 std::shared_ptr<const program::FieldSource> GeodesicRequest::load(sources::Loading& loading) {
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;
+  const auto parts = loading.read_beside(file, "parts", formats::files_of_mesh(file.path));
+  if (!parts) return nullptr;
   sources::Key key("shortest ways");
   key.add(file.content).add(ending_of(file.path));
   for (const Vec3& p : from) key.add(p.x).add(p.y).add(p.z);
   const Hash hash = key.hash();
   return loading.cached<Result>(hash, file.path, [&](const Reader& reader) {
     using Made = sources::Loading::Made<Result>;
-    auto mesh = formats::read_mesh(file.path, *loading.bytes(file), reader.diagnostics);
+    auto mesh = formats::read_mesh(file.path, *loading.bytes(file), reader.diagnostics, *parts);
     if (!mesh) return Made{};
     std::erase_if(mesh->triangles, [&](const importing::Corners& t) {
       const Vec3 a = mesh->vertices[t[0]];
@@ -391,9 +396,12 @@ std::shared_ptr<const program::FieldSource> GeodesicRequest::load(sources::Loadi
 }
 
 std::shared_ptr<const SurfaceSpace> SurfaceRequest::load(sources::Loading& loading) {
-  if (!loading.find(part.file) || !loading.read_content(part.file)) return nullptr;
+  const auto finds = [&](FilePath& file) {
+    return loading.find(file) && loading.read_content(file) &&
+           loading.read_beside(file, "parts", formats::files_of_mesh(file.path));
+  };
   const bool is_between = !to.file.path.empty();
-  if (is_between && (!loading.find(to.file) || !loading.read_content(to.file))) return nullptr;
+  if (!finds(part.file) || (is_between && !finds(to.file))) return nullptr;
   sources::Key key("surface");
   add(key, part);
   key.add(is_between ? 1.0 : 0.0).add(pairing.text());

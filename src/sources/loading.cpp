@@ -1,5 +1,7 @@
 #include "sources/loading.h"
 
+#include <filesystem>
+
 #include "base/system/assert.h"
 #include "base/text/error.h"
 #include "base/text/text.h"
@@ -70,6 +72,31 @@ bool Loading::read_content(design::FilePath& file) {
                               {{"file", file.path}});
     return false;
   }
+}
+
+design::FilePath beside(const design::FilePath& file, const std::string& name) {
+  return {(std::filesystem::path(file.path).parent_path() / name).string(), {}};
+}
+
+std::optional<FilesBeside> Loading::read_beside(design::FilePath& file, std::string_view kind, NamesOfFiles names) {
+  FilesBeside files;
+  if (!names) return files;
+  using Names = std::vector<std::string>;
+  const Hash key = Key("names of files").add(kind).add(file.content).hash();
+  const auto named = cached<Names>(key, file.path, [&](const design::Reader&) {
+    return Made<Names>{std::make_shared<const Names>(names(file.path, *bytes(file))), 0};
+  });
+  if (!named) return std::nullopt;
+  Key content("file and files beside it");
+  content.add(file.content);
+  for (const std::string& name : *named) {
+    design::FilePath other = beside(file, name);
+    if (!read_content(other)) return std::nullopt;
+    content.add(name).add(other.content);
+    files[name] = bytes(other);
+  }
+  if (!files.empty()) file.content = content.hash();
+  return files;
 }
 
 std::shared_ptr<const std::string> Loading::bytes(const design::FilePath& file) {

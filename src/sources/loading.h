@@ -61,6 +61,12 @@ class Key {
   std::string text_;
 };
 
+// Returns the path of a file that another one names, relative to its folder.
+design::FilePath beside(const design::FilePath& file, const std::string& name);
+
+// The contents of files beside another one, by the names that it has for them.
+using FilesBeside = std::map<std::string, std::shared_ptr<const std::string>>;
+
 // The loading of one request.
 class Loading {
  public:
@@ -78,6 +84,11 @@ class Loading {
   bool find(design::FilePath& file);
   // Sets the content of a file. Returns false, with a diagnostic, if it cannot be read.
   bool read_content(design::FilePath& file);
+  // Reads the files beside a file that hold parts of it, of a kind such as "images": those that `names` returns, as
+  // paths relative to its folder, or none if it is null. The content of the file is then that of all. Returns nothing,
+  // with a diagnostic, if one of them cannot be read.
+  using NamesOfFiles = std::vector<std::string> (*)(const std::string& name, std::string_view bytes);
+  std::optional<FilesBeside> read_beside(design::FilePath& file, std::string_view kind, NamesOfFiles names);
   // Returns the bytes of a file whose content is set. Throws Error.
   std::shared_ptr<const std::string> bytes(const design::FilePath& file);
   // Returns a view of the bytes of a file whose content is set; large files are mapped. Throws Error.

@@ -10,6 +10,7 @@
 #include "formats/containers/base64.h"
 #include "formats/containers/counted_warnings.h"
 #include "formats/containers/text_scanner.h"
+#include "formats/mesh/files_beside.h"
 #include "formats/mesh/glb_format.h"
 #include "formats/mesh/mesh.h"
 
@@ -66,8 +67,8 @@ Colour4 colour_of_light(const std::array<double, 4>& linear) {
 
 class GltfReader {
  public:
-  GltfReader(const std::string& name, std::string_view bytes, Diagnostics& diagnostics)
-      : name_(name), diagnostics_(diagnostics) {
+  GltfReader(const std::string& name, std::string_view bytes, const FilesBeside& beside, Diagnostics& diagnostics)
+      : name_(name), beside_(beside), diagnostics_(diagnostics) {
     is_glb(bytes) ? read_chunks(bytes) : read_json(bytes);
   }
 
@@ -82,6 +83,26 @@ class GltfReader {
       p = Vec3{p.x * mm_per_metre, -p.z * mm_per_metre, p.y * mm_per_metre} + Vec3{0, 0, 0};
     if (!has_shadings_) mesh_.shadings.clear();
     return std::move(mesh_);
+  }
+
+  // Returns what lies in files beside it, without names that read() refuses.
+  GltfFiles files() const {
+    GltfFiles files;
+    const auto add = [&](std::vector<std::string>& to, const Data& owner) {
+      const Data* const uri = owner.find("uri");
+      if (!uri || !uri->string() || is_data(*uri)) return;
+      const auto path = path_of_uri(*uri->string());
+      if (path && std::ranges::find(to, *path) == to.end()) to.push_back(*path);
+    };
+    for (const Data& buffer : list(root_, "buffers")) add(files.buffers, buffer);
+    for (const Data& material : list(root_, "materials")) {
+      const Data* const pbr = material.find("pbrMetallicRoughness");
+      const Data* const texture = pbr ? pbr->find("baseColorTexture") : nullptr;
+      const auto which = texture ? index(*texture, "index", "textures") : std::nullopt;
+      const auto image = which ? index(entry("textures", *which), "source", "images") : std::nullopt;
+      if (image) add(files.images, entry("images", *image));
+    }
+    return files;
   }
 
  private:
@@ -172,13 +193,31 @@ class GltfReader {
     }
   }
 
-  // Returns the bytes of a data URI.
-  std::string bytes_of(const Data& uri, const std::string& what) const {
+  static bool is_data(const Data& uri) { return uri.string() && uri.string()->starts_with("data:"); }
+
+  // Returns the path of a file beside this one.
+  std::string path_of(const Data& uri, const std::string& what) const {
     const std::string text = uri.string() ? *uri.string() : "";
+    auto path = path_of_uri(text);
+    if (!path)
+      fail_here("its " + what + " lie at " + quoted(text) + ", which is no path relative to it",
+                "put the files beside it, or save it as one .glb file");
+    return std::move(*path);
+  }
+
+  // Returns the bytes of a data URI, or of a file beside this one.
+  std::string bytes_of(const Data& uri, const std::string& what) const {
+    if (!is_data(uri)) {
+      const std::string path = path_of(uri, what);
+      const auto file = beside_.find(path);
+      if (file == beside_.end())
+        fail_here("its " + what + " lie in another file, " + quoted(path) + ", which is not read here",
+                  "save it as one .glb file");
+      return *file->second;
+    }
+    const std::string& text = *uri.string();
     const size_t comma = text.find(";base64,");
-    if (!text.starts_with("data:") || comma == std::string::npos)
-      fail_here("its " + what + " lie in other files, such as " + quoted(text.substr(0, 60)),
-                "save it as one .glb file");
+    if (comma == std::string::npos) fail_here("its " + what + " are no base64");
     auto bytes = from_base64(std::string_view(text).substr(comma + 8));
     if (!bytes) fail_here("its " + what + " are no base64");
     return std::move(*bytes);
@@ -435,7 +474,11 @@ class GltfReader {
     const auto at = index(image, "bufferView", "bufferViews");
     const Data* const uri = image.find("uri");
     if (!at && !uri) fail_here("an image has no content");
-    made.bytes = at ? std::string(view(*at)) : bytes_of(*uri, "images");
+    const bool is_file = !at && !is_data(*uri);
+    if (is_file)
+      made.name = path_of(*uri, "images");
+    else
+      made.bytes = at ? std::string(view(*at)) : bytes_of(*uri, "images");
     if (const auto sampler = index(data, "sampler", "samplers")) {
       made.wrap_u = wrap_of(whole(entry("samplers", *sampler), "wrapS", 10497));
       made.wrap_v = wrap_of(whole(entry("samplers", *sampler), "wrapT", 10497));
@@ -447,6 +490,7 @@ class GltfReader {
   }
 
   const std::string& name_;
+  const FilesBeside& beside_;
   Diagnostics& diagnostics_;
   CountedWarnings warnings_;
   Data root_;
@@ -461,8 +505,28 @@ class GltfReader {
 
 bool is_glb(std::string_view bytes) { return bytes.size() >= 4 && u32_at(bytes, 0) == glb_magic; }
 
+std::optional<Mesh> read_gltf(const std::string& name, std::string_view bytes, const FilesBeside& files,
+                              Diagnostics& diagnostics) {
+  return read_or_null(name, bytes, diagnostics, [&] { return GltfReader(name, bytes, files, diagnostics).read(); });
+}
+
 std::optional<Mesh> read_gltf(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) {
-  return read_or_null(name, bytes, diagnostics, [&] { return GltfReader(name, bytes, diagnostics).read(); });
+  return read_gltf(name, bytes, {}, diagnostics);
+}
+
+GltfFiles gltf_files(const std::string& name, std::string_view bytes) {
+  if (bytes.find("\"uri\"") == std::string_view::npos) return {};
+  Diagnostics ignored;
+  return read_or_null(name, bytes, ignored, [&] { return GltfReader(name, bytes, {}, ignored).files(); })
+      .value_or(GltfFiles());
+}
+
+std::vector<std::string> gltf_buffer_files(const std::string& name, std::string_view bytes) {
+  return gltf_files(name, bytes).buffers;
+}
+
+std::vector<std::string> gltf_image_files(const std::string& name, std::string_view bytes) {
+  return gltf_files(name, bytes).images;
 }
 
 }  // namespace ombre::formats

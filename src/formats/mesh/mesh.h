@@ -41,7 +41,7 @@ enum class ImageWrap : uint8_t { repeat, mirror, clamp };
 // An image that colours a surface.
 struct MeshImage {
   std::string name;        // in the file, or of a file beside it, for messages
-  std::string bytes = {};  // a PNG file; empty if `name` is a file
+  std::string bytes = {};  // a PNG or JPEG file; empty if `name` is a file
   ImageWrap wrap_u = ImageWrap::repeat, wrap_v = ImageWrap::repeat;
   bool operator==(const MeshImage&) const = default;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/system/file_format.h"
+#include "formats/mesh/files_beside.h"
 #include "formats/mesh/mesh.h"
 #include "formats/packages/package_writers.h"
 
@@ -25,6 +26,11 @@ struct MeshFormat {
   // True if the content shows for certain that a file has this format; null where only the ending tells.
   bool (*recognises)(std::string_view bytes, const std::string& ending) = nullptr;
   std::optional<Mesh> (*read)(const std::string& name, std::string_view bytes, Diagnostics& diagnostics) = nullptr;
+  // A format may keep what its meshes need in files beside them. Then these return the files' relative paths, and read
+  // with them.
+  std::vector<std::string> (*files_beside)(const std::string& name, std::string_view bytes) = nullptr;
+  std::optional<Mesh> (*read_with)(const std::string& name, std::string_view bytes, const FilesBeside& files,
+                                   Diagnostics& diagnostics) = nullptr;
   // The path is the file's own, for formats whose content names other files.
   LazyBytes (*bytes)(const MeshDocument& document, const std::string& path) = nullptr;
   // A second file, which lies beside the first where the document has materials: its ending and its content.

@@ -15,6 +15,7 @@
 #include "formats/containers/file.h"
 #include "formats/containers/xml_text.h"
 #include "formats/drawings/dxf_measures.h"
+#include "formats/images/read_picture.h"
 #include "formats/mesh/mesh_objects.h"
 #include "formats/packages/read_mesh.h"
 #include "import/surfaces/mesh_report.h"
@@ -173,9 +174,16 @@ std::optional<FileSummary> table_summary(const std::string& path, Session& sessi
   return summary;
 }
 
-std::optional<FileSummary> image_summary(const std::string& path, Session& session, Diagnostics&) {
+// Returns the pages of an image; a photograph has one.
+std::vector<sources::LayerColours> pages_of(const std::string& path, const Session& session) {
   const std::string bytes = formats::read_file(path);
-  const std::vector<sources::LayerColours> pages = sources::read_layer_colours(path, bytes, &session.stop);
+  if (sources::is_image(bytes)) return sources::read_layer_colours(path, bytes, &session.stop);
+  formats::Picture picture = formats::read_picture(path, bytes, formats::Turning::as_seen);
+  return {{picture.width, picture.height, std::move(picture.rgba)}};
+}
+
+std::optional<FileSummary> image_summary(const std::string& path, Session& session, Diagnostics&) {
+  const std::vector<sources::LayerColours> pages = pages_of(path, session);
   std::map<uint32_t, size_t> counts;
   constexpr size_t most_counted = 256, most_shown = 16;
   for (const sources::LayerColours& page : pages)

@@ -23,7 +23,8 @@ struct Relief {
         "relief",
         "A plate that is higher where an image is brighter, centred on the z axis, with its foot on z = 0.",
         {{"path", &Relief::path,
-          "A PNG file, gray or in colours; only its brightness counts; relative to the script, then to the working "
+          "A PNG or JPEG file, gray or in colours; only its brightness counts; relative to the script, then to the "
+          "working "
           "directory",
           required()},
          {"width", &Relief::width, "Length along x", unit::positive_mm},

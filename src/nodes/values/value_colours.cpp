@@ -169,7 +169,8 @@ struct Texture {
     return {
         "texture",
         "An image over space, centred on the origin.",
-        {{"path", &Texture::path, "A PNG file; relative to the script, then to the working directory", required()},
+        {{"path", &Texture::path, "A PNG or JPEG file; relative to the script, then to the working directory",
+          required()},
          {"width", &Texture::width, "Width of the image; around a cylinder, along its circumference",
           unit::positive_mm},
          {"projection", &Texture::projection,
@@ -253,7 +254,7 @@ struct SurfaceColour {
           "then to the working directory",
           required()},
          {"texture", &SurfaceColour::image,
-          "A PNG file for the texture coordinates; none: the file's own textures, or its colours"}},
+          "A PNG or JPEG file for the texture coordinates; none: the file's own textures, or its colours"}},
         no_inputs,
         "cube(20, colour_mixture(surface_colour(\"models/painted_ball.ply\").colour, [\"red\", \"green\", "
         "\"blue\", \"white\", \"black\"]));",
