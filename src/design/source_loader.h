@@ -325,12 +325,10 @@ struct SurfaceSpace {
   std::vector<std::array<Vec2, 2>> border;  // lines around the part in u and v, mm
 };
 
-// A part of the surface of a mesh or CAD file. Conditions are combined; without any, all of the surface is taken. A
-// single face of a CAD file keeps its own u and v; several are joined and laid out as a mesh is.
-struct SurfaceRequest {
-  using Result = SurfaceSpace;
+// A part of the surface of a mesh or CAD file, with coordinates. Conditions are combined; without any, all of the
+// surface is taken. A single face of a CAD file keeps its own u and v; several are joined and laid out as a mesh is.
+struct SurfacePart {
   FilePath file;
-  FilePath to;                 // another mesh, up to which the space reaches; an empty path if there is none
   std::optional<Vec3> at;      // triangles linked to the one nearest to this point ...
   double angle_deg = 180;      // ... over edges that bend by at most this angle
   std::optional<Box> box;      // triangles whose centres lie in it
@@ -340,9 +338,27 @@ struct SurfaceRequest {
   Interval area_mm2 = Interval::everything();  // of CAD files: the area of a face
   Choice method = "lscm";                      // the way to lay the surface out: "lscm", "arap" or "authalic"
   Vec3 toward{1, 0, 0};                        // direction of u, as far as possible
+  double tolerance_mm = 0.05;  // greatest distance of triangles from a CAD file's faces, and of a space's upper side
+};
+
+struct SurfaceRequest : SurfacePart {
+  using Result = SurfaceSpace;
+  FilePath to;                            // another mesh, up to which the space reaches; an empty path for none
   double standoff_mm = 0, height_mm = 5;  // without another mesh: the space's distance from the surface, and its height
   bool is_inward = false;                 // the space lies on the inner side
-  double tolerance_mm = 0.05;             // greatest distance of the upper side from the other mesh
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// Coordinates on a part of a surface: of its point that is nearest to a place. The source has the channels "u" and "v"
+// in mm from 0 on, and "distance" in mm, positive on the outer side. "x", "y" and "z" are the nearest point, "normal_x"
+// to "normal_z" the smooth normal there, and "border" is its distance from the border in mm.
+struct SurfacePlaces {
+  program::SourceField source;
+  Vec2 lengths;        // greatest u and v
+  Interval stretches;  // of lengths along the surface: mm there for a mm of u and v
+};
+struct SurfacePlacesRequest : SurfacePart {
+  using Result = SurfacePlaces;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -350,7 +366,7 @@ struct SurfaceRequest {
 using SourceRequest =
     std::variant<MeshRequest*, SolidsRequest*, ScadRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
                  PixelsRequest*, TableRequest*, InkRequest*, SurfaceColoursRequest*, GeodesicRequest*, TextRequest*,
-                 VolumeRequest*, ImageStackRequest*, ResultsRequest*, SurfaceRequest*>;
+                 VolumeRequest*, ImageStackRequest*, ResultsRequest*, SurfaceRequest*, SurfacePlacesRequest*>;
 
 // The selection of surfaces that need support, and the grid on which supports are computed.
 struct SupportUse {

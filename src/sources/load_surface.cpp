@@ -1,4 +1,4 @@
-// Lays out parts of meshes, and makes the space above them.
+// Lays out parts of meshes; makes the space above them, and the places on them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +9,7 @@
 #include "base/text/text.h"
 #include "formats/packages/read_mesh.h"
 #include "import/charts/flat_surface.h"
+#include "import/charts/place_source.h"
 #include "import/charts/shell.h"
 #include "import/charts/shortest_ways.h"
 #include "import/charts/surface_rays.h"
@@ -25,38 +26,30 @@ importing::Flattening method_called(const Choice& name) {
   return name == "authalic" ? importing::Flattening::authalic : importing::Flattening::lscm;
 }
 
-class SpaceMaker {
+// Triangles of a file, without their groups.
+struct Surface {
+  std::vector<Vec3> points;
+  std::vector<importing::Corners> triangles;
+};
+
+// Takes a part of a surface, and lays it out.
+class PatchMaker {
  public:
-  SpaceMaker(const SurfaceRequest& request, sources::Loading& loading, const Reader& reader, const Hash& key)
-      : request_(request), loading_(loading), reader_(reader), key_(key) {}
+  PatchMaker(const SurfacePart& part, sources::Loading& loading, const Reader& reader)
+      : part_(part), loading_(loading), reader_(reader) {}
 
-  sources::Loading::Made<SurfaceSpace> run() {
-    Shell shell;
-    if (!(cad::is_cad_file(request_.file.path) ? take_faces(shell.patch) : take_triangles(shell.patch))) return {};
-    if (request_.is_inward)
-      for (auto& [a, b, c] : shell.patch.triangles) std::swap(b, c);
-    if (!add_ways(shell)) return {};
-    return is_sound(shell) ? made(std::move(shell)) : sources::Loading::Made<SurfaceSpace>();
+  // Returns false after a message.
+  bool make(SurfacePatch& patch) {
+    return cad::is_cad_file(part_.file.path) ? take_faces(patch) : take_triangles(patch);
   }
-
- private:
-  sources::Loading::Made<SurfaceSpace> refuse(const std::string& problem, const Phrase& hint) const {
-    reader_.diagnostics.error(reader_.where, "surface_cells of \"" + request_.file.path + "\": " + problem, hint);
-    return {};
-  }
-
-  // Triangles of a file, without their groups.
-  struct Surface {
-    std::vector<Vec3> points;
-    std::vector<importing::Corners> triangles;
-  };
+  Vec2 lengths() const { return lengths_; }  // greatest u and v of that patch
 
   std::optional<Surface> surface_of(const FilePath& file) const {
     if (cad::is_cad_file(file.path)) {
       const auto read = sources::read_cad(file, loading_);
       if (!read) return std::nullopt;
       Surface all;
-      for (const cad::SolidPtr& solid : read->solids) append(solid->triangulate(request_.tolerance_mm), all);
+      for (const cad::SolidPtr& solid : read->solids) append(solid->triangulate(part_.tolerance_mm), all);
       return all;
     }
     const auto bytes = loading_.bytes(file);
@@ -67,6 +60,19 @@ class SpaceMaker {
     }
     return Surface{std::move(mesh->vertices), std::move(mesh->triangles)};
   }
+  void refuse(const std::string& problem, const Phrase& hint) const {
+    reader_.diagnostics.error(reader_.where, of_file() + ": " + problem, hint);
+  }
+  void warn_of(double aspect) const {
+    constexpr double most_aspect = 8;
+    if (aspect > most_aspect)
+      reader_.diagnostics.warning(reader_.where,
+                                  of_file() + " stretches lengths up to " + format_rounded(aspect) +
+                                      " times as much in one direction as in the other",
+                                  "choose a flatter part, without tips and poles, or another method");
+  }
+
+ private:
   static void append(const cad::Triangles& mesh, Surface& all) {
     const auto first = static_cast<uint32_t>(all.points.size());
     all.points.insert(all.points.end(), mesh.vertices.begin(), mesh.vertices.end());
@@ -74,10 +80,9 @@ class SpaceMaker {
   }
 
   bool take_triangles(SurfacePatch& patch) {
-    const auto surface = surface_of(request_.file);
+    const auto surface = surface_of(part_.file);
     if (!surface) return false;
-    const importing::PatchChoice choice{request_.at, request_.angle_deg, request_.box, request_.normal,
-                                        request_.within_deg};
+    const importing::PatchChoice choice{part_.at, part_.angle_deg, part_.box, part_.normal, part_.within_deg};
     return take(importing::choose_patch(surface->points, surface->triangles, choice), patch) && lay_out(patch);
   }
   bool take(importing::ChosenPatch chosen, SurfacePatch& patch) const {
@@ -94,17 +99,17 @@ class SpaceMaker {
   };
 
   bool take_faces(SurfacePatch& patch) {
-    if (!request_.kind.empty() && std::ranges::find(cad::face_kinds, request_.kind) == cad::face_kinds.end()) {
-      refuse("there is no kind of faces called \"" + request_.kind + '"',
-             sources::hint_of_names(request_.kind, {cad::face_kinds.begin(), cad::face_kinds.end()}, ""));
+    if (!part_.kind.empty() && std::ranges::find(cad::face_kinds, part_.kind) == cad::face_kinds.end()) {
+      refuse("there is no kind of faces called \"" + part_.kind + '"',
+             sources::hint_of_names(part_.kind, {cad::face_kinds.begin(), cad::face_kinds.end()}, ""));
       return false;
     }
-    const auto read = sources::read_cad(request_.file, loading_);
+    const auto read = sources::read_cad(part_.file, loading_);
     if (!read) return false;
     std::vector<Face> chosen;
     std::string all;
     for (const cad::SolidPtr& solid : read->solids) {
-      std::vector<cad::FaceMesh> faces = solid->face_meshes(request_.tolerance_mm);
+      std::vector<cad::FaceMesh> faces = solid->face_meshes(part_.tolerance_mm);
       for (uint32_t n = 0; n < faces.size(); ++n) {
         all += (all.empty() ? "" : "; ") + described(faces[n]);
         if (fits(faces[n])) chosen.push_back({solid.get(), n, std::move(faces[n])});
@@ -114,7 +119,7 @@ class SpaceMaker {
       refuse("no face of the CAD file is chosen", "its faces are: " + shortened(all));
       return false;
     }
-    if (request_.at) keep_nearest(chosen);
+    if (part_.at) keep_nearest(chosen);
     if (chosen.size() > 1) return join(chosen, patch);
     cad::FaceMesh& face = chosen.front().mesh;
     patch = {std::move(face.points), std::move(face.triangles), std::move(face.normals), std::move(face.places)};
@@ -122,7 +127,7 @@ class SpaceMaker {
     if (const auto turned = importing::turned_over(patch)) {
       refuse("u and v of the face have no area at " + place_text(patch.points[patch.triangles[*turned][0]]),
              "choose a face without such a point, or several faces, which are laid out by " +
-                 std::string(request_.method.text()));
+                 std::string(part_.method.text()));
       return false;
     }
     lengths_ = importing::moved_to_zero(patch);
@@ -136,18 +141,18 @@ class SpaceMaker {
     return text.size() > most ? text.substr(0, text.rfind(';', most)) + "; ..." : text;
   }
   bool fits(const cad::FaceMesh& face) const {
-    if (face.triangles.empty() || (!request_.kind.empty() && face.kind != request_.kind)) return false;
-    if (!request_.area_mm2.contains(face.area_mm2)) return false;
-    if (request_.box && !request_.box->contains(face.center)) return false;
-    if (!request_.normal) return true;
-    const double cosine = math::cos(request_.within_deg * math::degree);
-    return length(face.normal) > 0 && dot(face.normal, *request_.normal) >= cosine * length(*request_.normal);
+    if (face.triangles.empty() || (!part_.kind.empty() && face.kind != part_.kind)) return false;
+    if (!part_.area_mm2.contains(face.area_mm2)) return false;
+    if (part_.box && !part_.box->contains(face.center)) return false;
+    if (!part_.normal) return true;
+    const double cosine = math::cos(part_.within_deg * math::degree);
+    return length(face.normal) > 0 && dot(face.normal, *part_.normal) >= cosine * length(*part_.normal);
   }
   void keep_nearest(std::vector<Face>& faces) const {
     size_t nearest = 0;
     double least = Box::inf;
     for (size_t n = 0; n < faces.size(); ++n) {
-      const double here = importing::SurfaceRays(faces[n].mesh.points, faces[n].mesh.triangles).distance(*request_.at);
+      const double here = importing::SurfaceRays(faces[n].mesh.points, faces[n].mesh.triangles).distance(*part_.at);
       if (here >= least) continue;
       least = here;
       nearest = n;
@@ -162,7 +167,7 @@ class SpaceMaker {
     for (const Face& face : faces) {
       const auto own = numbers.extract(face.solid);
       if (own.empty()) continue;
-      cad::Triangles mesh = face.solid->triangulate(request_.tolerance_mm);
+      cad::Triangles mesh = face.solid->triangulate(part_.tolerance_mm);
       std::vector<importing::Corners> kept;
       for (size_t n = 0; n < mesh.triangles.size(); ++n)
         if (own.mapped().contains(mesh.faces[n])) kept.push_back(mesh.triangles[n]);
@@ -170,7 +175,7 @@ class SpaceMaker {
       append(mesh, all);
     }
     importing::PatchChoice choice;
-    choice.angle_deg = request_.angle_deg;
+    choice.angle_deg = part_.angle_deg;
     return take(importing::choose_patch(all.points, all.triangles, choice), patch) && lay_out(patch);
   }
   // Gives points without a normal, such as a tip, the mean normal of their triangles.
@@ -182,17 +187,40 @@ class SpaceMaker {
   }
 
   bool lay_out(SurfacePatch& patch) {
-    patch.places = importing::flatten(patch.points, patch.triangles, method_called(request_.method));
+    patch.places = importing::flatten(patch.points, patch.triangles, method_called(part_.method));
     if (const auto turned = importing::turned_over(patch)) {
       refuse("the surface folds at " + place_text(patch.points[patch.triangles[*turned][0]]) +
-                 " where it is laid out by " + std::string(request_.method.text()),
+                 " where it is laid out by " + std::string(part_.method.text()),
              "choose a smaller or flatter part of it, or another method: lscm, arap or authalic");
       return false;
     }
-    lengths_ = importing::align_places(patch, request_.toward);
+    lengths_ = importing::align_places(patch, part_.toward);
     return true;
   }
 
+  std::string of_file() const { return std::string(reader_.node) + " of \"" + part_.file.path + '"'; }
+
+  const SurfacePart& part_;
+  sources::Loading& loading_;
+  const Reader& reader_;
+  Vec2 lengths_;
+};
+
+class SpaceMaker {
+ public:
+  SpaceMaker(const SurfaceRequest& request, sources::Loading& loading, const Reader& reader, const Hash& key)
+      : request_(request), reader_(reader), key_(key), patches_(request, loading, reader) {}
+
+  sources::Loading::Made<SurfaceSpace> run() {
+    Shell shell;
+    if (!patches_.make(shell.patch)) return {};
+    if (request_.is_inward)
+      for (auto& [a, b, c] : shell.patch.triangles) std::swap(b, c);
+    if (!add_ways(shell)) return {};
+    return is_sound(shell) ? made(std::move(shell)) : sources::Loading::Made<SurfaceSpace>();
+  }
+
+ private:
   bool add_ways(Shell& shell) {
     const double sign = request_.is_inward ? -1 : 1;
     if (request_.to.path.empty()) {
@@ -200,7 +228,7 @@ class SpaceMaker {
       shell.heights = {request_.standoff_mm, request_.standoff_mm + request_.height_mm};
       return true;
     }
-    const auto other = surface_of(request_.to);
+    const auto other = patches_.surface_of(request_.to);
     if (!other) return false;
     shell.heights = {0, 1};
     reach_to(importing::SurfaceRays(other->points, other->triangles), sign, shell);
@@ -236,31 +264,26 @@ class SpaceMaker {
       std::string hint = is_between ? "choose a smaller part, or smooth the surface"
                                     : "the surface bends there so that cells may be at most " + format_rounded(most) +
                                           " mm high; make standoff and height smaller, or smooth the surface";
-      refuse("cells are folded at " + place_text(fold->at), hint);
+      patches_.refuse("cells are folded at " + place_text(fold->at), hint);
       return false;
     }
     const auto overlap = importing::find_overlap(shell);
     if (overlap)
-      refuse("cells overlap at " + place_text(*overlap),
-             "two parts of the surface face each other there; make height "
-             "smaller, or choose one of the parts");
+      patches_.refuse("cells overlap at " + place_text(*overlap),
+                      "two parts of the surface face each other there; make height "
+                      "smaller, or choose one of the parts");
     return !overlap;
   }
 
   sources::Loading::Made<SurfaceSpace> made(Shell shell) const {
     constexpr size_t bytes_per_triangle = 900;
     const importing::ShellReport report = importing::report_of(shell);
-    constexpr double most_aspect = 8;
-    if (report.aspect > most_aspect)
-      reader_.diagnostics.warning(reader_.where,
-                                  "surface_cells of \"" + request_.file.path + "\" stretches lengths up to " +
-                                      format_rounded(report.aspect) + " times as much in one direction as in the other",
-                                  "choose a flatter part, without tips and poles, or another method");
+    patches_.warn_of(report.aspect);
     double way = 0;
     for (const Vec3& v : shell.ways) way += length(v) / static_cast<double>(shell.ways.size());
     auto space = std::make_shared<SurfaceSpace>();
-    *space = {nullptr,        lengths_,         shell.heights, way * (shell.heights.hi - shell.heights.lo),
-              report.volumes, report.stretches, report.aspect, {}};
+    *space = {nullptr,        patches_.lengths(), shell.heights, way * (shell.heights.hi - shell.heights.lo),
+              report.volumes, report.stretches,   report.aspect, {}};
     for (const auto& [a, b] : importing::border_of(shell.patch.triangles))
       space->border.push_back({shell.patch.places[a], shell.patch.places[b]});
     const size_t bytes = bytes_per_triangle * shell.patch.triangles.size();
@@ -269,15 +292,40 @@ class SpaceMaker {
   }
 
   const SurfaceRequest& request_;
-  sources::Loading& loading_;
   const Reader& reader_;
   Hash key_;
-  Vec2 lengths_;
+  PatchMaker patches_;
 };
+
+sources::Loading::Made<SurfacePlaces> make_places(const SurfacePlacesRequest& request, sources::Loading& loading,
+                                                  const Reader& reader, const Hash& key) {
+  constexpr size_t bytes_per_triangle = 500;
+  PatchMaker patches(request, loading, reader);
+  SurfacePatch patch;
+  if (!patches.make(patch)) return {};
+  const importing::ShellReport report = importing::report_of({patch, patch.normals, {0, 0}});
+  patches.warn_of(report.aspect);
+  const size_t bytes = bytes_per_triangle * patch.triangles.size();
+  auto places = std::make_shared<SurfacePlaces>();
+  *places = {importing::make_place_source(request.file.path, std::move(patch), key), patches.lengths(),
+             report.stretches};
+  return {std::move(places), bytes};
+}
 
 void add(sources::Key& key, const std::optional<Vec3>& point) {
   key.add(point ? 1.0 : 0.0);
   if (point) key.add(point->x).add(point->y).add(point->z);
+}
+
+void add(sources::Key& key, const SurfacePart& part) {
+  key.add(part.file.content).add(ending_of(part.file.path));
+  add(key, part.at);
+  add(key, part.box ? std::optional(part.box->lo) : std::nullopt);
+  add(key, part.box ? std::optional(part.box->hi) : std::nullopt);
+  add(key, part.normal);
+  add(key, part.toward);
+  key.add(part.kind).add(part.area_mm2.lo).add(part.area_mm2.hi).add(part.tolerance_mm);
+  key.add(part.angle_deg).add(part.within_deg).add(part.method.text());
 }
 
 }  // namespace
@@ -313,18 +361,22 @@ std::shared_ptr<const SurfaceSpace> SurfaceRequest::load(sources::Loading& loadi
   if (!loading.find(file) || !loading.read_content(file)) return nullptr;
   if (!to.path.empty() && (!loading.find(to) || !loading.read_content(to))) return nullptr;
   sources::Key key("surface");
-  key.add(file.content).add(ending_of(file.path)).add(to.path.empty() ? 0.0 : 1.0);
+  add(key, *this);
+  key.add(to.path.empty() ? 0.0 : 1.0);
   if (!to.path.empty()) key.add(to.content).add(ending_of(to.path));
-  add(key, at);
-  add(key, box ? std::optional(box->lo) : std::nullopt);
-  add(key, box ? std::optional(box->hi) : std::nullopt);
-  add(key, normal);
-  add(key, toward);
-  key.add(kind).add(area_mm2.lo).add(area_mm2.hi).add(tolerance_mm);
-  key.add(angle_deg).add(within_deg).add(method.text()).add(standoff_mm).add(height_mm).add(is_inward ? 1.0 : 0.0);
+  key.add(standoff_mm).add(height_mm).add(is_inward ? 1.0 : 0.0);
   const Hash hash = key.hash();
   return loading.cached<Result>(hash, file.path,
                                 [&](const Reader& reader) { return SpaceMaker(*this, loading, reader, hash).run(); });
+}
+
+std::shared_ptr<const SurfacePlaces> SurfacePlacesRequest::load(sources::Loading& loading) {
+  if (!loading.find(file) || !loading.read_content(file)) return nullptr;
+  sources::Key key("places on a surface");
+  add(key, *this);
+  const Hash hash = key.hash();
+  return loading.cached<Result>(hash, file.path,
+                                [&](const Reader& reader) { return make_places(*this, loading, reader, hash); });
 }
 
 }  // namespace ombre::design

@@ -1,10 +1,9 @@
 // Maps of cells on surfaces.
 #include "base/system/assert.h"
 #include "base/text/text.h"
-#include "design/source_loader.h"
-#include "nodes/common/parameter_checks.h"
 #include "nodes/values/cell_counts.h"
 #include "nodes/values/cell_outputs.h"
+#include "nodes/values/surface_part.h"
 #include "nodes/values/whole_cells.h"
 
 namespace ombre::nodes {
@@ -12,19 +11,13 @@ namespace {
 
 using namespace design;
 
-struct SurfaceCells : CellOutputs<SurfaceCells> {
-  FilePath path;
+struct SurfaceCells : CellOutputs<SurfaceCells>, OnSurfacePart<SurfaceCells> {
   std::optional<FilePath> to;
   std::optional<Vec3> size;
   std::optional<Counts3> count;
   double height = 5, standoff = 0;
-  Choice side = "outside", method = "lscm";
-  std::string kind;
+  Choice side = "outside";
   Choice trim = "border";
-  double least_area = 0, most_area = 0;
-  std::optional<Vec3> at, min, max, normal;
-  double angle = 180, within = 60, tolerance = 0.05;
-  Vec3 toward{1, 0, 0};
   std::shared_ptr<const SurfaceSpace> space;  // made with the node
   program::SourceField whole;                 // made with the node; null unless only whole cells are kept
 
@@ -38,70 +31,36 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
         "A map of cells on a part of a mesh, which is laid out in a plane, or on a face of a CAD file: u and v run "
         "along "
         "the surface, w away from it, or to another surface.",
-        {{"path", &SurfaceCells::path, "A file with a mesh, or a CAD file", required()},
-         {"size", &SurfaceCells::size, cell_size_doc, unit::positive_mm},
-         {"count", &SurfaceCells::count, cell_count_doc, whole_from_one()},
-         {"height", &SurfaceCells::height, "Height of all cells above one another", unit::positive_mm},
-         {"standoff", &SurfaceCells::standoff, "Distance of the lowest cells from the surface", unit::not_negative_mm},
-         {"side", &SurfaceCells::side, "Side of the surface", one_of({"outside", "inside"})},
-         {"to", &SurfaceCells::to,
-          "Another mesh or CAD file: cells reach from the surface up to it, along the normal; height and standoff do "
-          "not "
-          "count"},
-         {"trim", &SurfaceCells::trim, "border: the border of the part cuts cells; cells: only whole cells are kept",
-          one_of({"border", "cells"})},
-         {"at", &SurfaceCells::at,
-          "Takes what is linked to the triangle nearest to this point, or the nearest face of a CAD file",
-          unit::points},
-         {"angle", &SurfaceCells::angle, "Greatest bend between triangles that are linked", from_to(0, 180, "deg")},
-         {"min", &SurfaceCells::min, "Least corner of a box that the centres of triangles or faces lie in",
-          unit::point},
-         {"max", &SurfaceCells::max, "Greatest corner of that box", unit::point},
-         {"normal", &SurfaceCells::normal, "Takes triangles or faces that face this direction", unit::direction},
-         {"within", &SurfaceCells::within, "Greatest angle from that direction", from_to(0, 180, "deg")},
-         {"kind", &SurfaceCells::kind,
-          "Kind of the faces of a CAD file that are taken: plane, cylinder, cone, sphere, torus, bspline, ..."},
-         {"least_area", &SurfaceCells::least_area, "Least area of the faces of a CAD file that are taken",
-          not_negative("mm^2")},
-         {"most_area", &SurfaceCells::most_area, "Greatest area of the faces of a CAD file that are taken; 0: any",
-          not_negative("mm^2")},
-         {"toward", &SurfaceCells::toward,
-          "Direction in which u runs, as far as possible; a single face of a CAD file keeps its own u",
-          unit::direction},
-         {"method", &SurfaceCells::method,
-          "lscm keeps angles as far as possible, arap lengths; authalic fills a circle",
-          one_of({"lscm", "arap", "authalic"})},
-         {"tolerance", &SurfaceCells::tolerance,
-          "Greatest distance of the highest cells from the other surface, and of triangles from a CAD file's faces",
-          unit::positive_mm}},
+        joined(joined(path_parameter(), layer_parameters()),
+               part_parameters("Greatest distance of the highest cells from the other surface, and of triangles from a "
+                               "CAD file's faces")),
         no_inputs,
         "tpms(\"gyroid\", map=surface_cells(\"models/insole.off\", (8, 8, 4), height=4, normal=(0, 0, 1)), "
         "thickness=0.6, material=\"red\");",
         std::move(all)};
   }
 
+  static std::vector<Parameter<SurfaceCells>> layer_parameters() {
+    return {
+        {"size", &SurfaceCells::size, cell_size_doc, unit::positive_mm},
+        {"count", &SurfaceCells::count, cell_count_doc, whole_from_one()},
+        {"height", &SurfaceCells::height, "Height of all cells above one another", unit::positive_mm},
+        {"standoff", &SurfaceCells::standoff, "Distance of the lowest cells from the surface", unit::not_negative_mm},
+        {"side", &SurfaceCells::side, "Side of the surface", one_of({"outside", "inside"})},
+        {"to", &SurfaceCells::to,
+         "Another mesh or CAD file: cells reach from the surface up to it, along the normal; height and standoff do "
+         "not count"},
+        {"trim", &SurfaceCells::trim, "border: the border of the part cuts cells; cells: only whole cells are kept",
+         one_of({"border", "cells"})}};
+  }
+
   bool complete(const Reader& reader) {
-    if (!reader.loader) return reader.refuse("meshes cannot be read here");
-    if (!is_box_or_none(reader, min, max)) return false;
-    if (normal && !(length(*normal) > 0))
-      return reader.refuse("normal of surface_cells has no length",
-                           "write for example " + spelled::parameter("normal", "(0, 0, 1)"));
     SurfaceRequest request;
-    request.file = path;
+    if (!choose(reader, request)) return false;
     if (to) request.to = *to;
-    request.at = at;
-    request.angle_deg = angle;
-    if (min) request.box = Box{*min, *max};
-    request.normal = normal;
-    request.within_deg = within;
-    request.kind = kind;
-    request.area_mm2 = {least_area, most_area > 0 ? most_area : std::numeric_limits<double>::infinity()};
-    request.method = method;
-    request.toward = toward;
     request.standoff_mm = standoff;
     request.height_mm = height;
     request.is_inward = side == "inside";
-    request.tolerance_mm = tolerance;
     space = reader.loader->source(request, reader);
     path = request.file;
     if (to) to = request.to;
