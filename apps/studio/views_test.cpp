@@ -47,6 +47,38 @@ TEST_F(StudioTest, PicturesAreCutByWedgesAndBoxes) {
   EXPECT_EQ(text(ask("render", wrong).first, "error"), "request");
 }
 
+// A face in the middle of a cube of 10 x 10 x 10 voxels, of which each has 4 x 4 pixels.
+TEST_F(StudioTest, FacesOfCutsShowTheVoxelsOfTheJob) {
+  const std::string design = R"("design": ")" + load("cube(4, mix(red, blue, 0.5));") + '"';
+  const std::string job = R"("voxel": [0.4, 0.4, 0.4])";
+  const std::string view = design + R"(, "width": 40, "height": 40, "azimuth": 0, "elevation": 0, "target": [0, 0, 0])";
+  const auto is_red = [](const auto& colour) { return colour[0] > colour[2]; };
+  for (const std::string cut : {R"("cuts": ["y<0"])", R"("cuts": ["y<0,x<9"])", R"("box": [-3, 0, -3, 3, 3, 3])"}) {
+    const auto seen = formats::decode_png(
+        ask("render", view + R"(, "height_mm": 4, )" + cut + R"(, "voxels": {)" + job + "}").second, "face");
+    size_t reds = 0;
+    for (uint32_t k = 0; k < 10; ++k) {
+      const std::string tile =
+          design + ", " + job + R"(, "layer": )" + std::to_string(k) + R"(, "x": 0, "y": 5, "width": 10, "height": 1)";
+      const auto row = formats::decode_png(ask("tile", tile).second, "row");
+      for (uint32_t i = 0; i < 10; ++i) {
+        reds += is_red(row.colour(i, 0)) ? 1 : 0;
+        for (const uint32_t pixel : {0U, 3U})
+          EXPECT_EQ(is_red(seen.colour(4 * i + pixel, 39 - 4 * k - pixel)), is_red(row.colour(i, 0))) << i << ' ' << k;
+      }
+    }
+    EXPECT_GT(reds, 20);
+    EXPECT_LT(reds, 80);
+  }
+  // With a pixel as long as 5 voxels, voxels are 4 times as long along x.
+  const auto far = formats::decode_png(
+      ask("render", view + R"(, "height_mm": 80, "cuts": ["y<0"], "voxels": {)" + job + "}").second, "far");
+  EXPECT_EQ(far.colour(20, 20)[3], 255);
+  for (const std::string wrong :
+       {R"("voxels": 1, "height_mm": 4)", R"("voxels": {"voxal": 1}, "height_mm": 4)", R"("voxels": {})"})
+    EXPECT_EQ(text(ask("render", view + ", " + wrong).first, "error"), "request") << wrong;
+}
+
 TEST_F(StudioTest, SaysWhichCallsMadeAPoint) {
   const std::string script =
       "translate(10, 0, 0) union() {\n"

@@ -263,6 +263,7 @@ export interface State {
   cut?: Cut;
   perspective: boolean;
   handles: boolean; // the view shows handles of the call at the caret
+  showsVoxels: boolean; // on the faces of cuts
   by: string;
   palette: string;
   range?: [number, number]; // range of the values that colours span; undefined: that of the design
@@ -330,6 +331,7 @@ export let state: State = {
   presetsProblem: "",
   perspective: false,
   handles: true,
+  showsVoxels: false,
   by: "",
   palette: "",
   opacity: {},
