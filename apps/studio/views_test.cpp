@@ -249,6 +249,42 @@ TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
   EXPECT_EQ(text(thumbnail(design, 9).first, "error"), "request");
 }
 
+TEST_F(StudioTest, StatementsThatAreNoNodesShowWhatTheyMake) {
+  const std::string script =
+      "module pair(r) { sphere(r, red); translate(9, 0, 0) sphere(r, blue); }\n"
+      "pair(3);\n"
+      "for (i = [0 : 2]) translate(0, 20 * i, 0) pair(2);\n"
+      "if (true) cube(1);\n"
+      "translate(0, 0, 30) cube(2);\n";
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
+  ASSERT_TRUE(loaded.find("made")) << print_json(loaded);
+  const DataList& nodes = *loaded.find("nodes")->list();
+  std::map<size_t, std::string> made, numbers;  // by places in the script
+  for (const Data& one : *loaded.find("made")->list()) {
+    const auto from = static_cast<size_t>(number_in(one, "from"));
+    for (const Data& node : *one.find("nodes")->list())
+      made[from] += " " + text(nodes[static_cast<size_t>(*node.number())], "type");
+    numbers[from] = print_json_line(*one.find("nodes"));
+  }
+  EXPECT_EQ(made[script.find("pair(3)")], " sphere translate");
+  EXPECT_EQ(made[script.find("for")], " translate translate translate");
+  EXPECT_EQ(made[script.find("pair(2)")], " sphere translate");  // in the first turn
+  EXPECT_EQ(made[script.find("if")], " cube");
+  EXPECT_EQ(made.count(script.find("translate(0, 0, 30)")), 0);
+  const auto thumbnail = [&](const Data& design, const std::string& of) {
+    return ask("thumbnail", R"("width": 24, "height": 18, "design": ")" + text(design, "design") + R"(", )" + of);
+  };
+  const Data joined =
+      ask("load", R"("file": "b.vcad", "text": )" +
+                      print_json_line(std::string("union() { sphere(3, red); translate(9, 0, 0) sphere(3, blue); }")))
+          .first;
+  const std::string pair = thumbnail(loaded, R"("nodes": )" + numbers[script.find("pair(3)")]).second;
+  EXPECT_FALSE(pair.empty());
+  EXPECT_EQ(pair, thumbnail(joined, R"("node": 0)").second);
+  for (const std::string wrong : {"[]", "1", "[-1]", "[100000]", "[\"x\"]"})
+    EXPECT_EQ(text(thumbnail(loaded, R"("nodes": )" + wrong).first, "error"), "request") << wrong;
+}
+
 TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
   const Data loaded =
       ask("load", R"("file": "a.vcad", "text": )" +

@@ -72,6 +72,7 @@ export interface Design {
   part_nodes: number[];
   attributes: { name: string; type: string; unit: string }[];
   nodes: GraphNode[];
+  made: { from: number; nodes: number[] }[]; // the solids that statements make which are no calls of nodes
   scans: string[]; // files of the folder that the design reads
 }
 
