@@ -4,6 +4,7 @@
     python3 tests/run_operators.py build/release/apps/ombre/ombre [NUMBER...]
     python3 tests/run_operators.py build/release/apps/ombre/ombre --evaluators    # the same voxels, however they are computed
 """
+import math
 import pathlib
 import re
 import struct
@@ -49,8 +50,19 @@ def png_of(rows):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
 
 
+def quarter_turn(radius, height, columns):
+    """A quarter of a cylinder around z, from the plane z = 0, as an OFF file whose faces look outward."""
+    angles = [math.pi / 2 * n / columns for n in range(columns + 1)]
+    points = [(radius * math.cos(a), radius * math.sin(a), z) for z in (0, height) for a in angles]
+    up = columns + 1
+    triangles = [t for n in range(columns) for t in ((n, n + 1, up + n + 1), (n, up + n + 1, up + n))]
+    return "\n".join([f"OFF\n{len(points)} {len(triangles)} 0", *(" ".join(map(repr, p)) for p in points),
+                      *(f"3 {a} {b} {c}" for a, b, c in triangles), ""])
+
+
 def write_design(folder, lines):
     (folder / "checks.png").write_bytes(png_of([[255, 0], [0, 255]]))
+    (folder / "quarter.off").write_text(quarter_turn(6, 10, 64), encoding="utf-8")
     design = folder / "operator.vcad"
     design.write_text(design_of(lines), encoding="utf-8")
     return design

@@ -40,6 +40,14 @@ class NodeLister {
     return list;
   }
   DataList numbers(const std::vector<design::NodePtr>& nodes) const { return numbers(std::span(nodes)); }
+  // Returns what statements make that are no calls of nodes: where they begin, and the numbers of their solids.
+  DataList made(const StatementSolids& statements) const {
+    DataList list;
+    for (const auto& [begin, solids] : statements.all())
+      if (DataList found = numbers(solids); found.size() == solids.size())
+        list.emplace_back(DataMembers{{"from", offsets_.at(begin)}, {"nodes", std::move(found)}});
+    return list;
+  }
 
  private:
   DataList numbers(std::span<const design::NodePtr> nodes) const {
@@ -230,7 +238,8 @@ DataMembers describe_design(const OpenDesign& open, const SourcePtr& page_text) 
           {"parts", std::move(parts)},
           {"attributes", std::move(attributes)},
           {"part_nodes", lister.numbers(design.roots())},
-          {"nodes", lister.list()}};
+          {"nodes", lister.list()},
+          {"made", lister.made(open.statements)}};
 }
 
 }  // namespace ombre::studio

@@ -64,11 +64,18 @@ CutDesignPtr OpenDesign::make(const JobChoices& choices) const {
   return made;
 }
 
-OpenDesignPtr Designs::add(const DesignOrigin& origin, const compile::LoadedPtr& loaded, const Box& bounds,
-                           const std::string& program) {
+void StatementSolids::add(const SourceRange& statement, std::vector<design::NodePtr> solids) {
+  constexpr size_t most_statements = 3000, most_solids = 1000;
+  const bool is_one_node = solids.size() == 1 && solids.front()->where().begin == statement.begin &&
+                           solids.front()->where().source == statement.source;
+  if (is_one_node || solids.size() > most_solids || all_.size() >= most_statements) return;
+  all_.try_emplace(statement.begin, std::move(solids));
+}
+
+OpenDesignPtr Designs::add(const DesignOrigin& origin, ReadDesign design, const std::string& program) {
   const std::lock_guard lock(mutex_);
   const std::string handle = "d" + std::to_string(++count_);
-  kept_.push_front(std::make_shared<OpenDesign>(handle, origin, loaded, bounds, program, memory_));
+  kept_.push_front(std::make_shared<OpenDesign>(handle, origin, std::move(design), program, memory_));
   if (kept_.size() > most) kept_.pop_back();
   return kept_.front();
 }

@@ -30,16 +30,33 @@ struct DesignOrigin {
   std::array<double, 3> rotate{};        // degrees about x, then y, then z
 };
 
+// The solids that statements of a script made when they ran first, by where the statements begin in the text.
+class StatementSolids {
+ public:
+  void add(const SourceRange& statement, std::vector<design::NodePtr> solids);
+  const std::map<uint32_t, std::vector<design::NodePtr>>& all() const { return all_; }
+
+ private:
+  std::map<uint32_t, std::vector<design::NodePtr>> all_;
+};
+
+// A design that was read, with what the studio knows of it.
+struct ReadDesign {
+  compile::LoadedPtr loaded;
+  Box bounds;
+  StatementSolids statements;
+};
+
 // A loaded design. Thread-safe.
 class OpenDesign {
  public:
   // Constructs an open design; the memory must outlive it.
-  OpenDesign(std::string name, DesignOrigin from, compile::LoadedPtr design, const Box& box, std::string program,
-             design::SubDesignMemory& kept)
+  OpenDesign(std::string name, DesignOrigin from, ReadDesign design, std::string program, design::SubDesignMemory& kept)
       : handle(std::move(name)),
         origin(std::move(from)),
-        loaded(std::move(design)),
-        bounds(box),
+        loaded(std::move(design.loaded)),
+        bounds(design.bounds),
+        statements(std::move(design.statements)),
         memory(kept),
         program_(std::move(program)) {}
 
@@ -47,6 +64,7 @@ class OpenDesign {
   const DesignOrigin origin;
   const compile::LoadedPtr loaded;
   const Box bounds;
+  const StatementSolids statements;
   design::SubDesignMemory& memory;  // holds what was made of parts of this and other designs
 
   // Returns the plan for these choices, made on first use and cached. Throws RequestError with the reason if the design
@@ -73,8 +91,7 @@ class Designs {
 
   // Constructs an empty collection; the memory must outlive all added designs.
   explicit Designs(design::SubDesignMemory& memory) : memory_(memory) {}
-  OpenDesignPtr add(const DesignOrigin& origin, const compile::LoadedPtr& loaded, const Box& bounds,
-                    const std::string& program);
+  OpenDesignPtr add(const DesignOrigin& origin, ReadDesign design, const std::string& program);
   // Returns the design of a handle. Throws RequestError "gone" if it is no longer kept and has to be loaded again.
   OpenDesignPtr find(const std::string& handle);
 

@@ -8,8 +8,6 @@
 namespace ombre::studio {
 namespace {
 
-constexpr int coarsest_level = 12;
-
 // Returns true for members of a request that are not options of its job.
 bool is_of_request(const std::string& name, std::initializer_list<std::string_view> others) {
   constexpr std::string_view usual[] = {"id", "do", "lane", "design", "level"};

@@ -11,6 +11,8 @@
 
 namespace ombre::studio {
 
+inline constexpr int coarsest_level = 12;
+
 struct JobChoices {
   compile::SamplingOptions sampling;
   compile::ImageOptions images;

@@ -16,6 +16,7 @@
 #include "load/load.h"
 #include "load/node_data.h"
 #include "load/node_registry.h"
+#include "load/statement_solids.h"
 #include "load/turned.h"
 #include "questions/build.h"
 #include "questions/colour_map.h"
@@ -394,10 +395,15 @@ Answer Studio::presets_answer(const std::string& file, DataList presets) {
 // Reads a design. A Python script, which may do anything, is run only when the user requests it, not while it is
 // edited.
 compile::LoadedPtr Studio::read(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
-                                const compile::LoadOptions& options, Diagnostics& diagnostics) {
+                                const compile::LoadOptions& options, StatementSolids& statements,
+                                Diagnostics& diagnostics) {
   if (has_ending(origin.file, ".scad")) return load_scad(text, options, diagnostics);
-  if (!has_ending(origin.file, ".py"))
-    return compile::load_text(std::string(text->text()), text->name(), options, diagnostics);
+  if (!has_ending(origin.file, ".py")) {
+    const auto note = [&](const SourceRange& statement, std::vector<design::NodePtr> solids) {
+      statements.add(statement, std::move(solids));
+    };
+    return compile::load_noting(std::string(text->text()), text->name(), options, note, diagnostics);
+  }
   if (options_.command.empty()) throw RequestError("unsupported", "this studio cannot run designs in Python");
   if (!may_run) throw RequestError("unsupported", "Python scripts are shown when they are run: press Run");
   return load_python(text->name(), options_.command, options, diagnostics);
@@ -407,12 +413,15 @@ OpenDesignPtr Studio::load_design(const DesignOrigin& origin, bool may_run, cons
                                   compile::LoadOptions options, Diagnostics& diagnostics) {
   options.definitions = origin.definitions;
   options.cache = &cache_;
-  compile::LoadedPtr loaded = read(origin, may_run, text, options, diagnostics);
+  ReadDesign design;
+  design.loaded = read(origin, may_run, text, options, design.statements, diagnostics);
   const auto& [x, y, z] = origin.rotate;
-  if (loaded && (x != 0 || y != 0 || z != 0)) loaded = compile::turned(loaded, {x, y, z}, diagnostics);
-  const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
-  if (!loaded || !bounds || diagnostics.has_errors()) return nullptr;
-  return designs_.add(origin, loaded, *bounds, options_.program);
+  if (design.loaded && (x != 0 || y != 0 || z != 0))
+    design.loaded = compile::turned(design.loaded, {x, y, z}, diagnostics);
+  const auto bounds = design.loaded ? compile::design_box(design.loaded->design, diagnostics) : std::nullopt;
+  if (!design.loaded || !bounds || diagnostics.has_errors()) return nullptr;
+  design.bounds = *bounds;
+  return designs_.add(origin, std::move(design), options_.program);
 }
 
 // Loads the design of a kept job from the disk. The job was started by the user, so its script may run again.
@@ -474,7 +483,7 @@ Answer Studio::node_picture(const Request& request, const StopFlag& stop) {
   const compile::LoadedPtr loaded = compile::load_text(script, name + ".vcad", options, diagnostics);
   const auto bounds = loaded ? compile::design_box(loaded->design, diagnostics) : std::nullopt;
   if (!bounds || diagnostics.has_errors()) throw design_error(diagnostics);
-  OpenDesign design("", {}, loaded, *bounds, options_.program, memory_);
+  OpenDesign design("", {}, {loaded, *bounds, {}}, options_.program, memory_);
   return thumbnail_answer(design, request, stop);
 }
 

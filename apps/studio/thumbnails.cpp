@@ -50,24 +50,42 @@ design::NodePtr block_of(const OpenDesign& open, const design::NodePtr& value) {
   return is_mixture ? block : make("attribute", design, {{"name", shown_value}, {"value", output}}, {block});
 }
 
-// Returns the design for the thumbnail; it must not outlive the nodes of the whole design.
-compile::Loaded shown(const OpenDesign& open, const design::Node& node, compile::PictureRequest& picture) {
-  const design::NodePtr not_held(design::NodePtr(), &node);
+design::NodePtr not_held(const design::Node& node) { return {design::NodePtr(), &node}; }
+
+// Returns the design for the thumbnail of several solids together, or of one node. It must not outlive the nodes of
+// the whole design.
+compile::Loaded shown(const OpenDesign& open, const std::vector<const design::Node*>& nodes,
+                      compile::PictureRequest& picture) {
+  const design::Node& node = *nodes.front();
   if (node.type().is_solid()) {
     picture.view = *render::named_view(view);
-    return alone(*open.loaded, not_held);
+    std::vector<design::NodePtr> solids;
+    for (const design::Node* one : nodes) solids.push_back(not_held(*one));
+    return alone(*open.loaded, solids.size() == 1 ? solids.front() : make("union", open.loaded->design, {}, solids));
   }
   picture.slice = compile::SliceView{2, open.bounds.center().z};
   if (!node.is_mixture()) picture.by = shown_value;
-  return alone(*open.loaded, block_of(open, not_held));
+  return alone(*open.loaded, block_of(open, not_held(node)));
 }
 
-const design::Node& node_of(const OpenDesign& design, const Request& request) {
-  const std::vector<const design::Node*> nodes = listed_nodes(design.loaded->design);
-  const design::Node& node =
-      *nodes[static_cast<size_t>(request.whole("node", 0, static_cast<int64_t>(nodes.size()) - 1))];
-  if (node.uses_cell()) throw RequestError("unsupported", node.type().name + " depends on the cell that repeats it");
-  return node;
+// Returns the node of a request, or its nodes, which are solids then.
+std::vector<const design::Node*> nodes_of(const OpenDesign& design, const Request& request) {
+  const std::vector<const design::Node*> known = listed_nodes(design.loaded->design);
+  const auto node_of = [&](const Request& one) {
+    const design::Node& node =
+        *known[static_cast<size_t>(one.whole("node", 0, static_cast<int64_t>(known.size()) - 1))];
+    if (node.uses_cell()) throw RequestError("unsupported", node.type().name + " depends on the cell that repeats it");
+    return &node;
+  };
+  if (!request.body.find("nodes")) return {node_of(request)};
+  std::vector<const design::Node*> nodes;
+  const DataList* list = request.body.find("nodes")->list();
+  if (!list || list->empty()) throw RequestError("request", "\"nodes\" is a list of numbers of solids");
+  for (const Data& one : *list) {
+    nodes.push_back(node_of({request.id, request.what, request.lane, Data(DataMembers{{"node", one}})}));
+    if (!nodes.back()->type().is_solid()) throw RequestError("request", "\"nodes\" are solids");
+  }
+  return nodes;
 }
 
 std::string made_now(const compile::Loaded& loaded, const compile::PictureRequest& picture, const StopFlag& stop) {
@@ -85,7 +103,7 @@ std::string made_now(const compile::Loaded& loaded, const compile::PictureReques
 
 Answer thumbnail_answer(OpenDesign& design, const Request& request, const StopFlag& cancelled) {
   compile::PictureRequest picture;
-  const compile::Loaded loaded = shown(design, node_of(design, request), picture);
+  const compile::Loaded loaded = shown(design, nodes_of(design, request), picture);
   picture.width = request.whole("width", 1, most_thumbnail);
   picture.height = request.whole("height", 1, most_thumbnail);
   picture.samples = 1;

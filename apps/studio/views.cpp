@@ -126,9 +126,32 @@ DataMembers voxel_at(OpenDesign& design, const Request& request, Vec3 point, con
 
 }  // namespace
 
+namespace {
+
+// Returns the job whose voxels are shown on faces, with voxels as long along x and y as pixels, or shorter.
+CutDesignPtr job_for_faces(OpenDesign& design, const Request& request, double pixel_mm) {
+  Request of_job = request;
+  of_job.body = *request.body.find("voxels");
+  if (!of_job.body.members()) throw RequestError("request", "\"voxels\" is an object with options of the job");
+  JobChoices choices = read_job_choices(of_job, {});
+  choices.level = 0;
+  CutDesignPtr cut = design.cut(choices);
+  const auto& pitch = cut->plan.request.lattice.pitch;
+  const double in_voxels = pixel_mm / std::min(pitch[0].mm(), pitch[1].mm());
+  choices.level = in_voxels >= 2 ? std::min(coarsest_level, std::ilogb(in_voxels)) : 0;
+  return choices.level > 0 ? design.cut(choices) : cut;
+}
+
+}  // namespace
+
 Answer picture_answer(OpenDesign& design, const Request& request, const StopFlag& stop) {
   compile::PictureRequest picture = picture_request(request);
   picture.memory = &design.memory;
+  if (request.body.find("voxels")) {
+    if (!picture.view.height_mm) throw RequestError("request", "\"voxels\" of a picture need its \"height_mm\"");
+    CutDesignPtr cut = job_for_faces(design, request, *picture.view.height_mm / static_cast<double>(picture.height));
+    if (cut->plan.request.has_materials()) picture.face_colours = voxels_on_faces(std::move(cut), design.memory, stop);
+  }
   Answer answer;
   Diagnostics diagnostics;
   const auto take = [&](int, const compile::Picture& made) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/system/progress.h"
+#include "jobs/picture/cut_faces.h"
 #include "studio/designs.h"
 #include "studio/workspace/studio_messages.h"
 
@@ -32,5 +33,9 @@ Answer estimate_answer(OpenDesign& design, const Request& request, const StopFla
 
 // Answers "compare": the volumes in mm3 that `after` has gained, lost and changed in material against `before`.
 Answer compare_answer(const OpenDesign& before, const OpenDesign& after, const StopFlag& stop);
+
+// Returns the colours of the materials of a job's voxels at places on faces: of the voxel behind the face. Void has
+// none. Tiles of voxels are kept in the memory, which must outlive the function, as must `stop`.
+compile::FaceColours voxels_on_faces(CutDesignPtr cut, design::SubDesignMemory& memory, const StopFlag& stop);
 
 }  // namespace ombre::studio

@@ -63,6 +63,38 @@ TEST_F(StudioTest, FindsThePointUnderAPixel) {
   EXPECT_EQ(text(ask("seen_at", view).first, "error"), "request");
 }
 
+// A face in the middle of a cube of 10 x 10 x 10 voxels, of which each has 4 x 4 pixels.
+TEST_F(StudioTest, FacesOfCutsShowTheVoxelsOfTheJob) {
+  const std::string design = R"("design": ")" + load("cube(4, mix(red, blue, 0.5));") + '"';
+  const std::string job = R"("voxel": [0.4, 0.4, 0.4])";
+  const std::string view = design + R"(, "width": 40, "height": 40, "azimuth": 0, "elevation": 0, "target": [0, 0, 0])";
+  const auto is_red = [](const auto& colour) { return colour[0] > colour[2]; };
+  for (const std::string cut : {R"("cuts": ["y<0"])", R"("cuts": ["y<0,x<9"])", R"("box": [-3, 0, -3, 3, 3, 3])"}) {
+    const auto seen = formats::decode_png(
+        ask("render", view + R"(, "height_mm": 4, )" + cut + R"(, "voxels": {)" + job + "}").second, "face");
+    size_t reds = 0;
+    for (uint32_t k = 0; k < 10; ++k) {
+      const std::string tile =
+          design + ", " + job + R"(, "layer": )" + std::to_string(k) + R"(, "x": 0, "y": 5, "width": 10, "height": 1)";
+      const auto row = formats::decode_png(ask("tile", tile).second, "row");
+      for (uint32_t i = 0; i < 10; ++i) {
+        reds += is_red(row.colour(i, 0)) ? 1 : 0;
+        for (const uint32_t pixel : {0U, 3U})
+          EXPECT_EQ(is_red(seen.colour(4 * i + pixel, 39 - 4 * k - pixel)), is_red(row.colour(i, 0))) << i << ' ' << k;
+      }
+    }
+    EXPECT_GT(reds, 20);
+    EXPECT_LT(reds, 80);
+  }
+  // With a pixel as long as 5 voxels, voxels are 4 times as long along x.
+  const auto far = formats::decode_png(
+      ask("render", view + R"(, "height_mm": 80, "cuts": ["y<0"], "voxels": {)" + job + "}").second, "far");
+  EXPECT_EQ(far.colour(20, 20)[3], 255);
+  for (const std::string wrong :
+       {R"("voxels": 1, "height_mm": 4)", R"("voxels": {"voxal": 1}, "height_mm": 4)", R"("voxels": {})"})
+    EXPECT_EQ(text(ask("render", view + ", " + wrong).first, "error"), "request") << wrong;
+}
+
 TEST_F(StudioTest, SaysWhichCallsMadeAPoint) {
   const std::string script =
       "translate(10, 0, 0) union() {\n"
@@ -231,6 +263,42 @@ TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
   EXPECT_NE(thumbnail(edited, 2).second, thumbnail(design, 2).second);
   EXPECT_GT(studio.counts().made, made);
   EXPECT_EQ(text(thumbnail(design, 9).first, "error"), "request");
+}
+
+TEST_F(StudioTest, StatementsThatAreNoNodesShowWhatTheyMake) {
+  const std::string script =
+      "module pair(r) { sphere(r, red); translate(9, 0, 0) sphere(r, blue); }\n"
+      "pair(3);\n"
+      "for (i = [0 : 2]) translate(0, 20 * i, 0) pair(2);\n"
+      "if (true) cube(1);\n"
+      "translate(0, 0, 30) cube(2);\n";
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
+  ASSERT_TRUE(loaded.find("made")) << print_json(loaded);
+  const DataList& nodes = *loaded.find("nodes")->list();
+  std::map<size_t, std::string> made, numbers;  // by places in the script
+  for (const Data& one : *loaded.find("made")->list()) {
+    const auto from = static_cast<size_t>(number_in(one, "from"));
+    for (const Data& node : *one.find("nodes")->list())
+      made[from] += " " + text(nodes[static_cast<size_t>(*node.number())], "type");
+    numbers[from] = print_json_line(*one.find("nodes"));
+  }
+  EXPECT_EQ(made[script.find("pair(3)")], " sphere translate");
+  EXPECT_EQ(made[script.find("for")], " translate translate translate");
+  EXPECT_EQ(made[script.find("pair(2)")], " sphere translate");  // in the first turn
+  EXPECT_EQ(made[script.find("if")], " cube");
+  EXPECT_EQ(made.count(script.find("translate(0, 0, 30)")), 0);
+  const auto thumbnail = [&](const Data& design, const std::string& of) {
+    return ask("thumbnail", R"("width": 24, "height": 18, "design": ")" + text(design, "design") + R"(", )" + of);
+  };
+  const Data joined =
+      ask("load", R"("file": "b.vcad", "text": )" +
+                      print_json_line(std::string("union() { sphere(3, red); translate(9, 0, 0) sphere(3, blue); }")))
+          .first;
+  const std::string pair = thumbnail(loaded, R"("nodes": )" + numbers[script.find("pair(3)")]).second;
+  EXPECT_FALSE(pair.empty());
+  EXPECT_EQ(pair, thumbnail(joined, R"("node": 0)").second);
+  for (const std::string wrong : {"[]", "1", "[-1]", "[100000]", "[\"x\"]"})
+    EXPECT_EQ(text(thumbnail(loaded, R"("nodes": )" + wrong).first, "error"), "request") << wrong;
 }
 
 TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {

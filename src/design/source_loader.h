@@ -351,16 +351,34 @@ inline constexpr std::array<std::string_view, 10> pairings{"normal",    "nearest
                                                            "uv_flip_v", "uv_flip_both", "vu", "vu_flip_u",
                                                            "vu_flip_v", "vu_flip_both"};
 
-struct SurfaceRequest {
+// How parts of surfaces are laid out in a plane.
+struct SurfaceLayout {
+  Choice method = "lscm";      // "lscm", "arap" or "authalic"
+  Vec3 toward{1, 0, 0};        // direction of u, as far as possible
+  double tolerance_mm = 0.05;  // greatest distance of triangles from a CAD file's faces, and of a space's upper side
+};
+
+struct SurfaceRequest : SurfaceLayout {
   using Result = SurfaceSpace;
   SurfaceChoice part;
-  SurfaceChoice to;           // another surface, up to which the space reaches; an empty path if there is none
+  SurfaceChoice to = {};      // another surface, up to which the space reaches; an empty path if there is none
   Choice pairing = "normal";  // one of `pairings`
-  Choice method = "lscm";     // the way to lay surfaces out: "lscm", "arap" or "authalic"
-  Vec3 toward{1, 0, 0};       // direction of u, as far as possible
   double standoff_mm = 0, height_mm = 5;  // without another surface: the space's distance from it, and its height
   bool is_inward = false;                 // the space lies on the inner side
-  double tolerance_mm = 0.05;             // greatest distance of the upper side from the other surface
+  std::shared_ptr<const Result> load(sources::Loading& loading);
+};
+
+// Coordinates on a part of a surface: of its point that is nearest to a place. The source has the channels "u" and "v"
+// in mm from 0 on, and "distance" in mm, positive on the outer side. "x", "y" and "z" are the nearest point, "normal_x"
+// to "normal_z" the smooth normal there, and "border" is its distance from the border in mm.
+struct SurfacePlaces {
+  program::SourceField source;
+  Vec2 lengths;        // greatest u and v
+  Interval stretches;  // of lengths along the surface: mm there for a mm of u and v
+};
+struct SurfacePlacesRequest : SurfaceLayout {
+  using Result = SurfacePlaces;
+  SurfaceChoice part;
   std::shared_ptr<const Result> load(sources::Loading& loading);
 };
 
@@ -368,7 +386,7 @@ struct SurfaceRequest {
 using SourceRequest =
     std::variant<MeshRequest*, SolidsRequest*, ScadRequest*, CadRequest*, PolygonsRequest*, PathRequest*, ImageRequest*,
                  PixelsRequest*, TableRequest*, InkRequest*, SurfaceColoursRequest*, GeodesicRequest*, TextRequest*,
-                 VolumeRequest*, ImageStackRequest*, ResultsRequest*, SurfaceRequest*>;
+                 VolumeRequest*, ImageStackRequest*, ResultsRequest*, SurfaceRequest*, SurfacePlacesRequest*>;
 
 // The selection of surfaces that need support, and the grid on which supports are computed.
 struct SupportUse {

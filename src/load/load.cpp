@@ -18,6 +18,7 @@
 #include "load/library_folders.h"
 #include "load/material_map.h"
 #include "load/scad_words_design.h"
+#include "load/statement_solids.h"
 #include "nodes/all_nodes.h"
 
 namespace ombre::compile {
@@ -61,12 +62,20 @@ std::optional<design::MaterialTable> read_materials(const std::string& path, sou
   return materials;
 }
 
-std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options,
+std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options, const NoteSolids& note,
                                          sources::SourceCache& cache, Diagnostics& diagnostics) {
   const auto materials = read_materials(options.materials, cache, diagnostics);
   lang::Options run;
   run.echo = options.echo;
   run.stop = options.stop;
+  if (note)
+    run.made = [&](const SourceRange& statement, std::span<const lang::Product> products) {
+      if (statement.source != source) return;
+      std::vector<NodePtr> solids;
+      for (const lang::Product& product : products)
+        solids.push_back(std::static_pointer_cast<const design::Node>(product));
+      note(statement, std::move(solids));
+    };
   run.read_file = [&](const std::string& name) { return sources::read_included(name, cache); };
   run.threads = options.threads > 0 ? options.threads : core_count();
   run.needed = options.needed;
@@ -197,13 +206,13 @@ std::optional<design::Design> read_json_design(const SourcePtr& source, const Lo
   return design;
 }
 
-LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, sources::SourceCache& cache,
-                      Diagnostics& diagnostics) {
-  const auto read = ends_with(source->name(), ".json")   ? read_json_design
-                    : ends_with(source->name(), ".scad") ? run_scad_script
-                                                         : run_script;
-  if (read != run_scad_script && !check_no_map(source, options, diagnostics)) return nullptr;
-  auto design = read(source, options, cache, diagnostics);
+LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, const NoteSolids& note,
+                      sources::SourceCache& cache, Diagnostics& diagnostics) {
+  const bool is_scad = ends_with(source->name(), ".scad");
+  if (!is_scad && !check_no_map(source, options, diagnostics)) return nullptr;
+  auto design = is_scad                              ? run_scad_script(source, options, cache, diagnostics)
+                : ends_with(source->name(), ".json") ? read_json_design(source, options, cache, diagnostics)
+                                                     : run_script(source, options, note, cache, diagnostics);
   if (!design || diagnostics.has_errors() || !design::check_design(*design, diagnostics)) return nullptr;
   return std::make_shared<const Loaded>(Loaded{source->name(), source, std::move(*design)});
 }
@@ -223,12 +232,18 @@ LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagn
                 {{"file", path}});
   sources::SourceCache own;
   sources::SourceCache& cache = options.cache ? *options.cache : own;
-  return read_design(read_source(path, cache), options, cache, diagnostics);
+  return read_design(read_source(path, cache), options, nullptr, cache, diagnostics);
 }
 
 LoadedPtr load_text(std::string text, const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  return load_noting(std::move(text), path, options, nullptr, diagnostics);
+}
+
+LoadedPtr load_noting(std::string text, const std::string& path, const LoadOptions& options, const NoteSolids& note,
+                      Diagnostics& diagnostics) {
   sources::SourceCache own;
-  return read_design(make_source(path, std::move(text)), options, options.cache ? *options.cache : own, diagnostics);
+  return read_design(make_source(path, std::move(text)), options, note, options.cache ? *options.cache : own,
+                     diagnostics);
 }
 
 }  // namespace ombre::compile

@@ -9,7 +9,7 @@
   row(booleans) row(sums) row(morphs) row(offsets) row(maps) row(material_gradients) row(attributes)          \
   row(parts) row(solid_of) row(supports) row(noise) row(value_nodes) row(value_places) row(random_points)         \
   row(value_cells) row(cell_maps) row(tpms_values) row(formula_cells) row(curve_cells) row(surface_cells) row(between_cells) \
-  row(value_curves) row(value_colours) row(geodesic_distance) row(attribute_of) row(output_of)                                           \
+  row(value_curves) row(value_colours) row(geodesic_distance) row(surface_coordinates) row(attribute_of) row(output_of)                                           \
   row(convolutions) row(whole_solids)
 // clang-format on
 

@@ -200,6 +200,26 @@ class SlabSource : public program::FieldSource {
   }
 };
 
+// Places on the side z = 0 of a square of 20 mm from the origin on.
+class SquarePlaces : public program::FieldSource {
+ public:
+  std::string name() const override { return "square"; }
+  Hash content() const override { return {15, 16}; }
+  Box bounds() const override { return Box::everything(); }
+  int channel(std::string_view channel_name) const override {
+    constexpr std::array<std::string_view, 10> names{"u", "v",        "distance", "x",        "y",
+                                                     "z", "normal_x", "normal_y", "normal_z", "border"};
+    const auto found = std::find(names.begin(), names.end(), channel_name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+  }
+  double sample(int channel, Vec3 p) const override {
+    const Vec3 q{std::clamp(p.x, 0.0, 20.0), std::clamp(p.y, 0.0, 20.0), 0};
+    const double numbers[] = {q.x, q.y, p.z < 0 ? -length(p - q) : length(p - q), q.x, q.y, 0, 0,
+                              0,   1,   std::min({q.x, 20 - q.x, q.y, 20 - q.y})};
+    return numbers[channel];
+  }
+};
+
 // A stage of a ball, which is empty without a host of stages.
 class BallStage : public design::SweepStage {
  public:
@@ -317,6 +337,10 @@ class BallLoader : public design::SourceLoader {
   static std::shared_ptr<const design::SurfaceSpace> make(const design::SurfaceRequest&) {
     return std::make_shared<design::SurfaceSpace>(
         design::SurfaceSpace{std::make_shared<SlabSource>(), {20, 20}, {0, 5}, 5, {1, 1}, {1, 1}, 1, slab_border()});
+  }
+  static std::shared_ptr<const design::SurfacePlaces> make(const design::SurfacePlacesRequest&) {
+    return std::make_shared<design::SurfacePlaces>(
+        design::SurfacePlaces{std::make_shared<SquarePlaces>(), {20, 20}, {1, 1}});
   }
   static program::SourceField make(const design::TextRequest& request) {
     const double h = request.height_mm;

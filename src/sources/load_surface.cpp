@@ -1,4 +1,4 @@
-// Lays out parts of meshes, and makes the space above them.
+// Lays out parts of meshes; makes the space above them, and the places on them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +10,7 @@
 #include "formats/packages/read_mesh.h"
 #include "import/charts/flat_surface.h"
 #include "import/charts/paired_places.h"
+#include "import/charts/place_source.h"
 #include "import/charts/shell.h"
 #include "import/charts/shortest_ways.h"
 #include "import/charts/surface_rays.h"
@@ -26,43 +27,34 @@ importing::Flattening method_called(const Choice& name) {
   return name == "authalic" ? importing::Flattening::authalic : importing::Flattening::lscm;
 }
 
-class SpaceMaker {
+// Triangles of a file, without their groups.
+struct Surface {
+  std::vector<Vec3> points;
+  std::vector<importing::Corners> triangles;
+};
+
+// A part of a surface with places, and their extents.
+struct Part {
+  SurfacePatch patch;
+  Vec2 lengths;
+};
+
+// Takes parts of surfaces, and lays them out. What is missing has a message.
+class PartMaker {
  public:
-  SpaceMaker(const SurfaceRequest& request, sources::Loading& loading, const Reader& reader, const Hash& key)
-      : request_(request), loading_(loading), reader_(reader), key_(key) {}
+  PartMaker(const SurfaceLayout& layout, sources::Loading& loading, const Reader& reader)
+      : layout_(layout), loading_(loading), reader_(reader) {}
 
-  sources::Loading::Made<SurfaceSpace> run() {
-    Shell shell;
-    auto part = part_of(request_.part);
-    if (!part) return {};
-    shell.patch = std::move(part->patch);
-    lengths_ = part->lengths;
-    if (!add_ways(shell)) return {};
-    return is_sound(shell) ? made(std::move(shell)) : sources::Loading::Made<SurfaceSpace>();
+  std::optional<Part> part_of(const SurfaceChoice& choice) const {
+    return cad::is_cad_file(choice.file.path) ? faces_of(choice) : triangles_of(choice);
   }
-
- private:
-  sources::Loading::Made<SurfaceSpace> refuse(const std::string& problem, const Phrase& hint) const {
-    return refuse(request_.part, problem, hint);
-  }
-  sources::Loading::Made<SurfaceSpace> refuse(const SurfaceChoice& choice, const std::string& problem,
-                                              const Phrase& hint) const {
-    reader_.diagnostics.error(reader_.where, "surface_cells of \"" + choice.file.path + "\": " + problem, hint);
-    return {};
-  }
-
-  // Triangles of a file, without their groups.
-  struct Surface {
-    std::vector<Vec3> points;
-    std::vector<importing::Corners> triangles;
-  };
 
   std::optional<Surface> surface_of(const FilePath& file) const {
     if (cad::is_cad_file(file.path)) {
       const auto read = sources::read_cad(file, loading_);
       if (!read) return std::nullopt;
       Surface all;
-      for (const cad::SolidPtr& solid : read->solids) append(solid->triangulate(request_.tolerance_mm), all);
+      for (const cad::SolidPtr& solid : read->solids) append(solid->triangulate(layout_.tolerance_mm), all);
       return all;
     }
     const auto bytes = loading_.bytes(file);
@@ -76,20 +68,27 @@ class SpaceMaker {
     }
     return Surface{std::move(mesh->vertices), std::move(mesh->triangles)};
   }
+
+  void refuse(const SurfaceChoice& choice, const std::string& problem, const Phrase& hint) const {
+    reader_.diagnostics.error(reader_.where, named(choice) + ": " + problem, hint);
+  }
+  void warn_of(const SurfaceChoice& choice, double aspect) const {
+    constexpr double most_aspect = 8;
+    if (aspect > most_aspect)
+      reader_.diagnostics.warning(reader_.where,
+                                  named(choice) + " stretches lengths up to " + format_rounded(aspect) +
+                                      " times as much in one direction as in the other",
+                                  "choose a flatter part, without tips and poles, or another method");
+  }
+
+ private:
+  std::string named(const SurfaceChoice& choice) const {
+    return std::string(reader_.node) + " of \"" + choice.file.path + '"';
+  }
   static void append(const cad::Triangles& mesh, Surface& all) {
     const auto first = static_cast<uint32_t>(all.points.size());
     all.points.insert(all.points.end(), mesh.vertices.begin(), mesh.vertices.end());
     for (const auto& [a, b, c] : mesh.triangles) all.triangles.push_back({first + a, first + b, first + c});
-  }
-
-  // A part of a surface with places, and their extents.
-  struct Part {
-    SurfacePatch patch;
-    Vec2 lengths;
-  };
-
-  std::optional<Part> part_of(const SurfaceChoice& choice) const {
-    return cad::is_cad_file(choice.file.path) ? faces_of(choice) : triangles_of(choice);
   }
 
   std::optional<Part> triangles_of(const SurfaceChoice& choice) const {
@@ -117,7 +116,7 @@ class SpaceMaker {
     std::vector<Face> chosen;
     std::string all;
     for (const cad::SolidPtr& solid : read->solids) {
-      std::vector<cad::FaceMesh> faces = solid->face_meshes(request_.tolerance_mm);
+      std::vector<cad::FaceMesh> faces = solid->face_meshes(layout_.tolerance_mm);
       for (uint32_t n = 0; n < faces.size(); ++n) {
         all += (all.empty() ? "" : "; ") + described(faces[n]);
         if (fits(choice, faces[n])) chosen.push_back({solid.get(), n, std::move(faces[n])});
@@ -137,7 +136,7 @@ class SpaceMaker {
     if (const auto turned = importing::turned_over(part.patch)) {
       refuse(choice, "u and v of the face have no area at " + place_of(part.patch, *turned),
              "choose a face without such a point, or several faces, which are laid out by " +
-                 std::string(request_.method.text()));
+                 std::string(layout_.method.text()));
       return std::nullopt;
     }
     part.lengths = importing::moved_to_zero(part.patch);
@@ -180,7 +179,7 @@ class SpaceMaker {
     for (const Face& face : faces) {
       const auto own = numbers.extract(face.solid);
       if (own.empty()) continue;
-      cad::Triangles mesh = face.solid->triangulate(request_.tolerance_mm);
+      cad::Triangles mesh = face.solid->triangulate(layout_.tolerance_mm);
       std::vector<importing::Corners> kept;
       for (size_t n = 0; n < mesh.triangles.size(); ++n)
         if (own.mapped().contains(mesh.faces[n])) kept.push_back(mesh.triangles[n]);
@@ -205,18 +204,39 @@ class SpaceMaker {
       return std::nullopt;
     }
     Part part{std::move(chosen.patch), {}};
-    part.patch.places = importing::flatten(part.patch.points, part.patch.triangles, method_called(request_.method));
+    part.patch.places = importing::flatten(part.patch.points, part.patch.triangles, method_called(layout_.method));
     if (const auto turned = importing::turned_over(part.patch)) {
       refuse(choice,
              "the surface folds at " + place_of(part.patch, *turned) + " where it is laid out by " +
-                 std::string(request_.method.text()),
+                 std::string(layout_.method.text()),
              "choose a smaller or flatter part of it, or another method: lscm, arap or authalic");
       return std::nullopt;
     }
-    part.lengths = importing::align_places(part.patch, request_.toward);
+    part.lengths = importing::align_places(part.patch, layout_.toward);
     return part;
   }
 
+  const SurfaceLayout& layout_;
+  sources::Loading& loading_;
+  const Reader& reader_;
+};
+
+class SpaceMaker {
+ public:
+  SpaceMaker(const SurfaceRequest& request, sources::Loading& loading, const Reader& reader, const Hash& key)
+      : request_(request), reader_(reader), key_(key), parts_(request, loading, reader) {}
+
+  sources::Loading::Made<SurfaceSpace> run() {
+    Shell shell;
+    auto part = parts_.part_of(request_.part);
+    if (!part) return {};
+    shell.patch = std::move(part->patch);
+    lengths_ = part->lengths;
+    if (!add_ways(shell)) return {};
+    return is_sound(shell) ? made(std::move(shell)) : sources::Loading::Made<SurfaceSpace>();
+  }
+
+ private:
   bool add_ways(Shell& shell) {
     if (is_between()) return request_.pairing == "normal" ? add_ways_along_normals(shell) : add_ways_of_pairs(shell);
     turn_inward(shell);
@@ -234,7 +254,7 @@ class SpaceMaker {
   }
 
   bool add_ways_along_normals(Shell& shell) {
-    const auto other = request_.to.is_whole() ? surface_of(request_.to.file) : surface_of_part(request_.to);
+    const auto other = request_.to.is_whole() ? parts_.surface_of(request_.to.file) : surface_of_part(request_.to);
     if (!other) return false;
     turn_inward(shell);
     const importing::SurfaceRays rays(other->points, other->triangles);
@@ -244,7 +264,7 @@ class SpaceMaker {
     return true;
   }
   std::optional<Surface> surface_of_part(const SurfaceChoice& choice) const {
-    auto part = part_of(choice);
+    auto part = parts_.part_of(choice);
     if (!part) return std::nullopt;
     return Surface{std::move(part->patch.points), std::move(part->patch.triangles)};
   }
@@ -256,12 +276,12 @@ class SpaceMaker {
 
   // Joins places of both surfaces at equal shares of u and v.
   bool add_ways_of_pairs(Shell& shell) {
-    const auto other = part_of(request_.to);
+    const auto other = parts_.part_of(request_.to);
     if (!other) return false;
     const importing::PairedPlaces pairs(other->patch, lengths_, other->lengths, request_.pairing.text(), shell.patch);
     if (const auto lonely = pairs.without_partner()) {
-      refuse("no place of \"" + request_.to.file.path + "\" pairs with " + place_text(*lonely),
-             "choose parts of both surfaces that have the same outline");
+      parts_.refuse(request_.part, "no place of \"" + request_.to.file.path + "\" pairs with " + place_text(*lonely),
+                    "choose parts of both surfaces that have the same outline");
       return false;
     }
     reach_to(
@@ -312,26 +332,21 @@ class SpaceMaker {
       std::string hint = is_between() ? "choose a smaller part, smooth the surface, or choose another pairing"
                                       : "the surface bends there so that cells may be at most " + format_rounded(most) +
                                             " mm high; make standoff and height smaller, or smooth the surface";
-      refuse("cells are folded at " + place_text(fold->at), hint);
+      parts_.refuse(request_.part, "cells are folded at " + place_text(fold->at), hint);
       return false;
     }
     const auto overlap = importing::find_overlap(shell);
     if (overlap)
-      refuse("cells overlap at " + place_text(*overlap),
-             "two parts of the surface face each other there; make height "
-             "smaller, or choose one of the parts");
+      parts_.refuse(request_.part, "cells overlap at " + place_text(*overlap),
+                    "two parts of the surface face each other there; make height "
+                    "smaller, or choose one of the parts");
     return !overlap;
   }
 
   sources::Loading::Made<SurfaceSpace> made(Shell shell) const {
     constexpr size_t bytes_per_triangle = 900;
     const importing::ShellReport report = importing::report_of(shell);
-    constexpr double most_aspect = 8;
-    if (report.aspect > most_aspect)
-      reader_.diagnostics.warning(reader_.where,
-                                  "surface_cells of \"" + request_.part.file.path + "\" stretches lengths up to " +
-                                      format_rounded(report.aspect) + " times as much in one direction as in the other",
-                                  "choose a flatter part, without tips and poles, or another method");
+    parts_.warn_of(request_.part, report.aspect);
     double way = 0;
     for (const Vec3& v : shell.ways) way += length(v) / static_cast<double>(shell.ways.size());
     auto space = std::make_shared<SurfaceSpace>();
@@ -345,11 +360,27 @@ class SpaceMaker {
   }
 
   const SurfaceRequest& request_;
-  sources::Loading& loading_;
   const Reader& reader_;
   Hash key_;
+  PartMaker parts_;
   Vec2 lengths_;
 };
+
+sources::Loading::Made<SurfacePlaces> make_places(const SurfacePlacesRequest& request, sources::Loading& loading,
+                                                  const Reader& reader, const Hash& key) {
+  constexpr size_t bytes_per_triangle = 500;
+  const PartMaker parts(request, loading, reader);
+  auto part = parts.part_of(request.part);
+  if (!part) return {};
+  SurfacePatch& patch = part->patch;
+  const importing::ShellReport report = importing::report_of({patch, patch.normals, {0, 0}});
+  parts.warn_of(request.part, report.aspect);
+  const size_t bytes = bytes_per_triangle * patch.triangles.size();
+  auto places = std::make_shared<SurfacePlaces>();
+  *places = {importing::make_place_source(request.part.file.path, std::move(patch), key), part->lengths,
+             report.stretches};
+  return {std::move(places), bytes};
+}
 
 void add(sources::Key& key, const std::optional<Vec3>& point) {
   key.add(point ? 1.0 : 0.0);
@@ -362,6 +393,10 @@ void add(sources::Key& key, const SurfaceChoice& choice) {
   add(key, choice.box ? std::optional(choice.box->hi) : std::nullopt);
   add(key, choice.normal);
   key.add(choice.kind).add(choice.area_mm2.lo).add(choice.area_mm2.hi).add(choice.angle_deg).add(choice.within_deg);
+}
+void add(sources::Key& key, const SurfaceLayout& layout) {
+  add(key, layout.toward);
+  key.add(layout.tolerance_mm).add(layout.method.text());
 }
 
 }  // namespace
@@ -406,11 +441,21 @@ std::shared_ptr<const SurfaceSpace> SurfaceRequest::load(sources::Loading& loadi
   add(key, part);
   key.add(is_between ? 1.0 : 0.0).add(pairing.text());
   if (is_between) add(key, to);
-  add(key, toward);
-  key.add(tolerance_mm).add(method.text()).add(standoff_mm).add(height_mm).add(is_inward ? 1.0 : 0.0);
+  add(key, static_cast<const SurfaceLayout&>(*this));
+  key.add(standoff_mm).add(height_mm).add(is_inward ? 1.0 : 0.0);
   const Hash hash = key.hash();
   return loading.cached<Result>(hash, part.file.path,
                                 [&](const Reader& reader) { return SpaceMaker(*this, loading, reader, hash).run(); });
+}
+
+std::shared_ptr<const SurfacePlaces> SurfacePlacesRequest::load(sources::Loading& loading) {
+  if (!loading.find(part.file) || !loading.read_content(part.file)) return nullptr;
+  sources::Key key("places on a surface");
+  add(key, part);
+  add(key, static_cast<const SurfaceLayout&>(*this));
+  const Hash hash = key.hash();
+  return loading.cached<Result>(hash, part.file.path,
+                                [&](const Reader& reader) { return make_places(*this, loading, reader, hash); });
 }
 
 }  // namespace ombre::design

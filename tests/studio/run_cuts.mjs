@@ -58,6 +58,43 @@ await test({ viewport: small }, {
     await areSeen("1111");
   },
 
+  async "faces of cuts show the voxels of the job"() {
+    await page.click("#tab-surface");
+    assert.equal(await page.locator("text=Voxels").count(), 0); // nothing is cut
+    await page.selectOption(".surface .viewbar select >> nth=0", "front");
+    await page.selectOption(".surface .cut", "y<");
+    await isReady();
+    const canvas = page.locator(".surface canvas"), box = await canvas.boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    for (let n = 0; n < 5; ++n) await page.mouse.wheel(0, -300); // voxels become larger than pixels
+    await isReady();
+    // The shares of pixels around the middle that have hardly any of the other material's colour: red, and blue.
+    const pure = () =>
+      page.evaluate(() => {
+        const canvas = document.querySelector(".surface canvas"), side = 120;
+        const { data } = canvas.getContext("2d").getImageData((canvas.width - side) / 2, (canvas.height - side) / 2, side, side);
+        let [red, blue] = [0, 0];
+        for (let n = 0; n < data.length; n += 4) {
+          if (data[n] > 4 * data[n + 2]) ++red;
+          if (data[n + 2] > 4 * data[n]) ++blue;
+        }
+        return [red / side / side, blue / side / side];
+      });
+    const share = (await pure()).reduce((a, b) => a + b);
+    assert.ok(share < 0.1, `mixtures are mixed: ${share}`);
+    await page.check("text=Voxels");
+    await isReady();
+    const [red, blue] = await pure();
+    assert.ok(red > 0.25 && blue > 0.25, `as much red as blue: ${red}, ${blue}`);
+    await picture("face_voxels");
+    await page.selectOption(".surface .cut", "wedge");
+    await isReady();
+    await picture("face_voxels_wedge");
+    await page.uncheck("text=Voxels");
+    await page.selectOption(".surface .cut", "");
+    await isReady();
+  },
+
   async "shows the inside by rays"() {
     await page.click("#tab-volume");
     await isReady("volume");

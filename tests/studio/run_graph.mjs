@@ -56,6 +56,8 @@ await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": war
   async "a module becomes a library beside the script"() {
     await open("discs.vcad");
     await page.click("#tab-graph");
+    for (const name of ["module", "disc"]) await page.waitForSelector(`.card img[alt='What ${name} makes']`);
+    await picture("graph_module");
     await page.locator(".card:has-text('module disc')").locator(".title").click();
     await page.click("text=Save as library…");
     await until(async () => (await page.inputValue("dialog input")) === "disc.vcad", "the name of the module");
@@ -87,6 +89,8 @@ await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": war
   async "what a loop makes is a group, which leads to its line"() {
     await open("loop.vcad");
     const group = page.locator(".card:has-text('for')");
+    await page.waitForSelector(".card img[alt='What for makes']");
+    await picture("graph_loop");
     await page.waitForSelector(".card:has-text('1 inside')");
     await group.locator(".fold").click();
     const cube = page.locator(".card:has-text('cube')");

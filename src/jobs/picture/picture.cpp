@@ -326,8 +326,12 @@ class Studio {
     pixels.reserve(static_cast<size_t>(width_ * height_ * 4));
     for (int64_t begin = 0; begin < height_; begin += rows) {
       const int64_t end = std::min(begin + rows, height_);
-      const auto band = shot.cast(begin * samples, end * samples);
+      auto band = shot.cast(begin * samples, end * samples);
       if (stop_.requested()) throw Cancelled();
+      // With lighting, the rows around count, too.
+      if (request_.face_colours && !request_.slice)
+        colour_faces(band, begin * samples - 1, end * samples + 1, shot.film, shot.camera, cut_faces(options_),
+                     request_.face_colours);
       is_empty_ = is_empty_ && std::ranges::none_of(band.all(), [](const render::RayHit& ray) {
                     return ray.surface != render::RayHit::none;
                   });

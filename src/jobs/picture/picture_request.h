@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "design/sub_design_memory.h"
+#include "jobs/picture/cut_faces.h"
 #include "jobs/picture/design_scene.h"
 #include "render/shade.h"
 
@@ -58,6 +59,7 @@ struct PictureRequest {
   std::string palette;  // one of palettes(); empty: the default one
   // Range of the colours; nothing: from the least to the greatest value inside, for a fraction 0 to 1.
   std::optional<Interval> range;
+  FaceColours face_colours = nullptr;  // of the faces of cuts, instead of the design's own; null: these
   render::Background background;
   AnnotationRequest annotations;
   OverlayRequest overlays;

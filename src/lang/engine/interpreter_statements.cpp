@@ -58,10 +58,12 @@ void Interpreter::run_action(const Statement& statement, const ScopePtr& scope, 
 
 void Interpreter::execute(const Statement& statement, const ScopePtr& scope, Nodes& out) {
   const auto level = deeper(statement.span, heavy);
+  const size_t before = out.size();
   if (statement.modifiers.empty())
     dispatch(statement, scope, out);
   else
     execute_modified(statement, scope, out);
+  if (options_.made && out.size() > before) options_.made(statement.span.range(), std::span(out).subspan(before));
 }
 
 void Interpreter::execute_modified(const Statement& statement, const ScopePtr& scope, Nodes& out) {

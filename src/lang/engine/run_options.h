@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,8 @@ struct Options {
   Limits limits;
   int threads = 1;                 // with more than one thread, long lists are read ahead of their evaluation
   const StopFlag* stop = nullptr;  // checked regularly; Cancelled is thrown if it is set
+  // Is told what a statement has made, each time that it has run; may be empty.
+  std::function<void(const SourceRange& statement, std::span<const std::shared_ptr<const void>> products)> made;
   std::function<void(const std::string&)> echo;  // receives one line without its line ending; may be empty
   // Returns the content of a file for `include` and `use`, or nothing if there is no such file. If empty, the file
   // system is used.

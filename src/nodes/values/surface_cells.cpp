@@ -1,10 +1,9 @@
 // Maps of cells on surfaces.
 #include "base/system/assert.h"
 #include "base/text/text.h"
-#include "design/source_loader.h"
-#include "nodes/common/parameter_checks.h"
 #include "nodes/values/cell_counts.h"
 #include "nodes/values/cell_outputs.h"
+#include "nodes/values/surface_part.h"
 #include "nodes/values/whole_cells.h"
 
 namespace ombre::nodes {
@@ -12,22 +11,15 @@ namespace {
 
 using namespace design;
 
-struct SurfaceCells : CellOutputs<SurfaceCells> {
-  FilePath path;
+struct SurfaceCells : CellOutputs<SurfaceCells>, OnSurfacePart {
   std::optional<FilePath> to;
   std::optional<Vec3> size;
   std::optional<Counts3> count;
   double height = 5, standoff = 0;
-  Choice side = "outside", method = "lscm";
-  std::string kind;
-  Choice trim = "border", pairing = "normal";
-  double least_area = 0, most_area = 0;
-  std::optional<Vec3> at, min, max, normal;
+  Choice side = "outside", trim = "border", pairing = "normal";
   std::optional<Vec3> to_at, to_min, to_max, to_normal;
   std::string to_kind;
   double to_least_area = 0, to_most_area = 0;
-  double angle = 180, within = 60, tolerance = 0.05;
-  Vec3 toward{1, 0, 0};
   std::shared_ptr<const SurfaceSpace> space;  // made with the node
   program::SourceField whole;                 // made with the node; null unless only whole cells are kept
 
@@ -41,82 +33,60 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
         "A map of cells on a part of a mesh, which is laid out in a plane, or on a face of a CAD file: u and v run "
         "along "
         "the surface, w away from it, or to another surface.",
-        {{"path", &SurfaceCells::path, "A file with a mesh, or a CAD file", required()},
-         {"size", &SurfaceCells::size, cell_size_doc, unit::positive_mm},
-         {"count", &SurfaceCells::count, cell_count_doc, whole_from_one()},
-         {"height", &SurfaceCells::height, "Height of all cells above one another", unit::positive_mm},
-         {"standoff", &SurfaceCells::standoff, "Distance of the lowest cells from the surface", unit::not_negative_mm},
-         {"side", &SurfaceCells::side, "Side of the surface", one_of({"outside", "inside"})},
-         {"to", &SurfaceCells::to,
-          "Another mesh or CAD file: cells reach from the surface up to it, along the normal; height and standoff do "
-          "not "
-          "count"},
-         {"trim", &SurfaceCells::trim, "border: the border of the part cuts cells; cells: only whole cells are kept",
-          one_of({"border", "cells"})},
-         {"at", &SurfaceCells::at,
-          "Takes what is linked to the triangle nearest to this point, or the nearest face of a CAD file",
-          unit::on_surface},
-         {"angle", &SurfaceCells::angle, "Greatest bend between triangles that are linked", from_to(0, 180, "deg")},
-         {"min", &SurfaceCells::min, "Least corner of a box that the centres of triangles or faces lie in",
-          unit::point},
-         {"max", &SurfaceCells::max, "Greatest corner of that box", unit::point},
-         {"normal", &SurfaceCells::normal, "Takes triangles or faces that face this direction", unit::direction},
-         {"within", &SurfaceCells::within, "Greatest angle from that direction", from_to(0, 180, "deg")},
-         {"kind", &SurfaceCells::kind,
-          "Kind of the faces of a CAD file that are taken: plane, cylinder, cone, sphere, torus, bspline, ..."},
-         {"least_area", &SurfaceCells::least_area, "Least area of the faces of a CAD file that are taken",
-          not_negative("mm^2")},
-         {"most_area", &SurfaceCells::most_area, "Greatest area of the faces of a CAD file that are taken; 0: any",
-          not_negative("mm^2")},
-         {"toward", &SurfaceCells::toward,
-          "Direction in which u runs, as far as possible; a single face of a CAD file keeps its own u",
-          unit::direction},
-         {"method", &SurfaceCells::method,
-          "lscm keeps angles as far as possible, arap lengths; authalic fills a circle",
-          one_of({"lscm", "arap", "authalic"})},
-         {"tolerance", &SurfaceCells::tolerance,
-          "Greatest distance of the highest cells from the other surface, and of triangles from a CAD file's faces",
-          unit::positive_mm},
-         {"pairing", &SurfaceCells::pairing,
-          "How places are joined with those of the other surface: along the normals; or at equal shares of u and v, "
-          "which run "
-          "along its u and v (uv) or its v and u (vu), some of them flipped, or such that ways are short (nearest)",
-          one_of({pairings.begin(), pairings.end()})},
-         {"to_at", &SurfaceCells::to_at, "Takes a part of the other surface as `at` does", unit::on_surface},
-         {"to_min", &SurfaceCells::to_min, "Least corner of a box for parts of the other surface", unit::point},
-         {"to_max", &SurfaceCells::to_max, "Greatest corner of that box", unit::point},
-         {"to_normal", &SurfaceCells::to_normal, "Takes a part of the other surface as `normal` does", unit::direction},
-         {"to_kind", &SurfaceCells::to_kind, "Kind of the faces of the other file that are taken"},
-         {"to_least_area", &SurfaceCells::to_least_area, "Least area of the faces of the other file that are taken",
-          not_negative("mm^2")},
-         {"to_most_area", &SurfaceCells::to_most_area,
-          "Greatest area of the faces of the other file that are taken; 0: any", not_negative("mm^2")}},
+        joined(joined(joined(path_parameter<SurfaceCells>(), layer_parameters()),
+                      part_parameters<SurfaceCells>("Greatest distance of the highest cells from the other surface, "
+                                                    "and of triangles from a CAD file's faces")),
+               pair_parameters()),
         no_inputs,
         "tpms(\"gyroid\", map=surface_cells(\"models/insole.off\", (8, 8, 4), height=4, normal=(0, 0, 1)), "
         "thickness=0.6, material=\"red\");",
         std::move(all)};
   }
 
+  static std::vector<Parameter<SurfaceCells>> layer_parameters() {
+    return {
+        {"size", &SurfaceCells::size, cell_size_doc, unit::positive_mm},
+        {"count", &SurfaceCells::count, cell_count_doc, whole_from_one()},
+        {"height", &SurfaceCells::height, "Height of all cells above one another", unit::positive_mm},
+        {"standoff", &SurfaceCells::standoff, "Distance of the lowest cells from the surface", unit::not_negative_mm},
+        {"side", &SurfaceCells::side, "Side of the surface", one_of({"outside", "inside"})},
+        {"to", &SurfaceCells::to,
+         "Another mesh or CAD file: cells reach from the surface up to it, along the normal; height and standoff do "
+         "not count"},
+        {"trim", &SurfaceCells::trim, "border: the border of the part cuts cells; cells: only whole cells are kept",
+         one_of({"border", "cells"})}};
+  }
+
+  static std::vector<Parameter<SurfaceCells>> pair_parameters() {
+    return {
+        {"pairing", &SurfaceCells::pairing,
+         "How places are joined with those of the other surface: along the normals; or at equal shares of u and v, "
+         "which run "
+         "along its u and v (uv) or its v and u (vu), some of them flipped, or such that ways are short (nearest)",
+         one_of({pairings.begin(), pairings.end()})},
+        {"to_at", &SurfaceCells::to_at, "Takes a part of the other surface as `at` does", unit::on_surface},
+        {"to_min", &SurfaceCells::to_min, "Least corner of a box for parts of the other surface", unit::point},
+        {"to_max", &SurfaceCells::to_max, "Greatest corner of that box", unit::point},
+        {"to_normal", &SurfaceCells::to_normal, "Takes a part of the other surface as `normal` does", unit::direction},
+        {"to_kind", &SurfaceCells::to_kind, "Kind of the faces of the other file that are taken"},
+        {"to_least_area", &SurfaceCells::to_least_area, "Least area of the faces of the other file that are taken",
+         not_negative("mm^2")},
+        {"to_most_area", &SurfaceCells::to_most_area,
+         "Greatest area of the faces of the other file that are taken; 0: any", not_negative("mm^2")}};
+  }
+
   bool complete(const Reader& reader) {
-    if (!reader.loader) return reader.refuse("meshes cannot be read here");
-    if (!is_box_or_none(reader, min, max) || !is_box_or_none(reader, to_min, to_max)) return false;
-    for (const auto& [name, direction] : {std::pair("normal", normal), {"to_normal", to_normal}})
-      if (direction && !(length(*direction) > 0))
-        return reader.refuse(std::string(name) + " of surface_cells has no length",
-                             "write for example " + spelled::parameter(name, "(0, 0, 1)"));
+    if (!are_sound(reader) || !is_box_or_none(reader, to_min, to_max) || !has_length(reader, "to_normal", to_normal))
+      return false;
     if (!to && (!(pairing == "normal") || to_at || to_min || to_normal || !to_kind.empty()))
       return reader.refuse("surface_cells has no other surface to pair with",
                            "write its file, for example " + spelled::parameter("to", "\"part.step\""));
-    SurfaceRequest request;
-    request.part = choice(path, at, min, max, normal, kind, {least_area, most_area});
+    SurfaceRequest request{layout(), part()};
     if (to) request.to = choice(*to, to_at, to_min, to_max, to_normal, to_kind, {to_least_area, to_most_area});
     request.pairing = pairing;
-    request.method = method;
-    request.toward = toward;
     request.standoff_mm = standoff;
     request.height_mm = height;
     request.is_inward = side == "inside";
-    request.tolerance_mm = tolerance;
     space = reader.loader->source(request, reader);
     path = request.part.file;
     if (to) to = request.to.file;
@@ -158,22 +128,6 @@ struct SurfaceCells : CellOutputs<SurfaceCells> {
   }
 
  private:
-  // `areas` are the least and the greatest; 0 for any.
-  SurfaceChoice choice(const FilePath& file, const std::optional<Vec3>& near, const std::optional<Vec3>& low,
-                       const std::optional<Vec3>& high, const std::optional<Vec3>& facing, const std::string& of_kind,
-                       Interval areas) const {
-    SurfaceChoice made;
-    made.file = file;
-    made.at = near;
-    made.angle_deg = angle;
-    if (low) made.box = Box{*low, *high};
-    made.normal = facing;
-    made.within_deg = within;
-    made.kind = of_kind;
-    made.area_mm2 = {areas.lo, areas.hi > 0 ? areas.hi : std::numeric_limits<double>::infinity()};
-    return made;
-  }
-
   Field is_kept(const Point& p) const {
     const Slope place = cells_at(p);
     return p.builder().source(whole, 0, place[0], place[1], p.constant(0));

@@ -72,6 +72,7 @@ export interface Design {
   part_nodes: number[];
   attributes: { name: string; type: string; unit: string }[];
   nodes: GraphNode[];
+  made: { from: number; nodes: number[] }[]; // the solids that statements make which are no calls of nodes
   scans: string[]; // files of the folder that the design reads
 }
 
@@ -263,6 +264,7 @@ export interface State {
   cut?: Cut;
   perspective: boolean;
   handles: boolean; // the view shows handles of the call at the caret
+  showsVoxels: boolean; // on the faces of cuts
   by: string;
   palette: string;
   range?: [number, number]; // range of the values that colours span; undefined: that of the design
@@ -330,6 +332,7 @@ export let state: State = {
   presetsProblem: "",
   perspective: false,
   handles: true,
+  showsVoxels: false,
   by: "",
   palette: "",
   opacity: {},

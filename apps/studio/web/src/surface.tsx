@@ -22,7 +22,7 @@ const longMilliseconds = 120; // limit for the second step
 // Returns a key; pictures of equal keys differ only in size.
 function pictureKey(): string {
   const { design, camera, cut, perspective, by, palette, range, opacity } = state;
-  return JSON.stringify([design?.design, camera, cut, perspective, by, palette, range, opacity]);
+  return JSON.stringify([design?.design, camera, cut, perspective, by, palette, range, opacity, voxelMembers()]);
 }
 
 // Returns the key of a range of values.
@@ -35,6 +35,9 @@ function colourMembers(): Record<string, unknown> {
   const known = range ?? (shownRange?.of === coloursKey() ? shownRange.range : undefined);
   return { by, palette, ...(known ? { range: known } : {}) };
 }
+
+// Returns the job whose voxels the faces of the cut show, if they do.
+const voxelMembers = (): Record<string, unknown> => (state.cut && state.showsVoxels && !state.by ? { voxels: state.options } : {});
 
 function noteRange(of: string, range: [number, number] | undefined) {
   if (range && !state.range && (state.shownRange?.of !== of || state.shownRange.range.join() !== range.join())) set({ shownRange: { of, range } });
@@ -50,6 +53,7 @@ export function renderMembers(camera: Camera): Record<string, unknown> {
     perspective: fieldOfView(),
     ...cutMembers(state.cut),
     ...colourMembers(),
+    ...voxelMembers(),
     opacity: state.opacity,
   };
 }
@@ -246,7 +250,7 @@ export function ViewBar({ others, children }: { others: ComponentChildren; child
 export const attributeOptions = (attributes: { name: string }[] = []) => attributes.map((a) => <option value={a.name}>{a.name}</option>);
 
 export function SurfaceView() {
-  const { design, camera, by, palette, hello, file } = useStore();
+  const { design, camera, cut, by, palette, hello, file, showsVoxels } = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const drawer = useRef<Drawer>();
   const [height, setHeight] = useState(1);
@@ -273,6 +277,12 @@ export function SurfaceView() {
             <select value={palette} onChange={(e) => set({ palette: e.currentTarget.value })}>
               {hello?.palettes.map((p, n) => <option value={n === 0 ? "" : p.name}>{p.name}</option>)}
             </select>
+          </label>
+        )}
+        {cut && !by && (
+          <label title="The faces of the cut show the voxels that the printer gets">
+            <input type="checkbox" checked={showsVoxels} onChange={(e) => set({ showsVoxels: e.currentTarget.checked })} />
+            Voxels
           </label>
         )}
       </ViewBar>

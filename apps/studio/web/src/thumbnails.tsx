@@ -10,7 +10,7 @@ const ratio = Math.min(Math.ceil(devicePixelRatio), 2);
 
 interface Wanted {
   design: string;
-  node: number;
+  nodes: number[]; // solids together, or one node
   show: (url: string) => void;
 }
 
@@ -22,8 +22,8 @@ async function work() {
   isAtWork = true;
   for (let next = waiting.shift(); next; next = waiting.shift()) {
     if (next.design !== state.design?.design) continue;
-    const { design, node, show } = next;
-    const ask = { design, node, width: ratio * size.width, height: ratio * size.height };
+    const { design, nodes, show } = next;
+    const ask = { design, ...(nodes.length === 1 ? { node: nodes[0] } : { nodes }), width: ratio * size.width, height: ratio * size.height };
     const reply = await connection.ask("thumbnail", ask).answer.catch(() => undefined); // fails for example for a formula without bounds
     show(reply ? URL.createObjectURL(new Blob([reply.bytes as BlobPart], { type: "image/png" })) : "");
   }
@@ -31,12 +31,12 @@ async function work() {
 }
 
 // Shows the previous picture until there is a new one.
-export function Thumbnail({ node, type }: { node: number; type: string }) {
+export function Thumbnail({ nodes, type }: { nodes: number[]; type: string }) {
   const design = state.design!.design;
   const [url, setUrl] = useState("");
   const known = useRef("");
   const place = useWhenSeen<HTMLSpanElement>(() => {
-    const wanted: Wanted = { design, node, show: (made) => {
+    const wanted: Wanted = { design, nodes, show: (made) => {
       URL.revokeObjectURL(known.current);
       known.current = made;
       setUrl(made);
@@ -44,7 +44,7 @@ export function Thumbnail({ node, type }: { node: number; type: string }) {
     waiting.push(wanted);
     work();
     return () => (waiting = waiting.filter((other) => other !== wanted));
-  }, [design, node]);
+  }, [design, nodes.join()]);
   useEffect(() => () => URL.revokeObjectURL(known.current), []);
   return <span ref={place} class="thumbnail" style={size}>{url && <img src={url} alt={`What ${type} makes`} {...size} />}</span>;
 }

@@ -16,7 +16,7 @@ interface Props {
   card: Card;
   place: Place;
   rows: Row[];
-  node?: number; // its number in the design, for its picture
+  nodes: number[]; // what it makes: numbers in the design, for its picture
   isOpen: boolean;
   isSelected: boolean;
   isFocus: boolean; // the one card that Tab reaches
@@ -119,7 +119,7 @@ function summary(card: Card): string {
 }
 
 function Head({ props }: { props: Props }) {
-  const { card, node } = props;
+  const { card, nodes } = props;
   const { of } = card;
   const isGroup = of.kind === "group";
   return (
@@ -137,7 +137,7 @@ function Head({ props }: { props: Props }) {
           {of.locked_by ? " · read-only" : ""}
         </small>
       </span>
-      {node !== undefined && <Thumbnail node={node} type={card.title} />}
+      {nodes.length > 0 && <Thumbnail nodes={nodes} type={card.title} />}
     </div>
   );
 }

@@ -1,7 +1,7 @@
 // The cards of a graph: what each shows of a call, its inputs and its outputs.
 import { nodeCalled } from "../language";
 import { GraphItem, ScriptGraph, keysOf } from "../session/graph";
-import { NodeType, Variable, state } from "../store";
+import { Design, NodeType, Variable, state } from "../store";
 
 export type PortType = "solid" | "number" | "vector" | "mixture" | "text" | "truth" | "other";
 type Parameter = NodeType["parameters"][0];
@@ -155,6 +155,17 @@ function connect(graph: ScriptGraph, card: Card, cards: Map<number, Card>) {
   const holder = holderOf(graph, of);
   const input = cards.get(holder.item)?.inputs.find((i) => i.index === holder.argument);
   input?.from.push({ item: card.item, output: "" });
+}
+
+// Returns the numbers of the nodes that a card stands for: its own, or those that its statement makes; of the definition
+// of a module those that its first call makes.
+export function nodesOf(design: Design, graph: ScriptGraph, card: Card): number[] {
+  const { of } = card;
+  if (of.kind === "part") return design.part_nodes.filter((_, n) => design.parts[n] === of.variable);
+  const own = of.kind === "group" ? undefined : design.nodes.find((node) => node.from === of.at);
+  if (own) return [own.id];
+  const at = of.callee === "module" ? graph.items.find((item) => item.kind === "call" && item.callee === of.variable)?.at : of.at;
+  return design.made.find((one) => one.from === at)?.nodes ?? [];
 }
 
 // Returns the inputs that a card shows when it is not opened: those that are given, or have to be.
