@@ -20,8 +20,9 @@ from program import expect
 EXAMPLES = sorted((program.SOURCE / "examples").glob("*.vcad"))
 # Pairs of facets that lie in a line, and cross once files round their corners to floats.
 MOST_CROSSING = 20
-# Its waves along x shrink to 0.006 mm, finer than any cells: among them facets cross, and ombre mesh says so.
-CROSSING_WHERE_TOO_FINE = {"graded_wing": 2000}
+# Waves along x of the wing shrink to 0.006 mm, finer than any cells: among them facets cross, and ombre mesh says so. Struts of
+# joined lattices graze one another along many lines.
+MORE_CROSSING = {"graded_wing": 2000, "joined_lattices": 60}
 # Without large faces along the layers: their voxels are right within 0.05 %, and meshes are to be within 0.1 %.
 CURVED = {"bcc_ball", "conformal_ring", "graded_wing", "tetrahedron", "unit_cells", "voronoi_foam"}
 # Too many facets for CGAL at the tolerance that is usual for their sizes; mm.
@@ -101,7 +102,7 @@ def is_closed_and_as_large_as_its_voxels(whole, meshes):
         found = meshes.judged("part.off")
         expect(found["manifold"] and found["closed"], str(found))
         near(found["volume"], body["volume_mm3"], 1e-5, "CGAL's volume")
-        expect(found["intersections"] <= CROSSING_WHERE_TOO_FINE.get(design.stem, MOST_CROSSING), str(found))
+        expect(found["intersections"] <= MORE_CROSSING.get(design.stem, MOST_CROSSING), str(found))
     if meshes.comparer and design.stem not in WITH_VOID:
         is_as_near_as_requested(design, meshes, bodies["tolerance_mm"])
     pitch = (body["volume_mm3"] / 3e7) ** (1 / 3)
