@@ -19,7 +19,7 @@ using FilesBeside = std::map<std::string, std::shared_ptr<const std::string>>;
 // no such path: absolute, with a scheme such as http:, empty, with a wrong code, or with control characters.
 std::optional<std::string> path_of_uri(std::string_view uri);
 
-// What a glTF file keeps in files beside it, as relative paths; each once.
+// The files beside a glTF file that it needs, as relative paths; each once.
 struct GltfFiles {
   std::vector<std::string> buffers;  // numbers, without which it cannot be read
   std::vector<std::string> images;   // of its base colours
