@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { appendFileSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { alphaInMiddle, ball, design, isReady, open, page, pathOf, picture, small, test, untilOtherDesign } from "./studio_page.mjs";
+import { alphaInMiddle, ball, design, isReady, open, opened, page, pathOf, picture, small, test, untilOtherDesign } from "./studio_page.mjs";
 import { source } from "./studio_server.mjs";
 
 const models = join(source, "examples/models");
@@ -56,5 +56,21 @@ await test({ viewport: small, files }, {
     await open("ball.vcad");
     await page.click("#tab-surface");
     await isReady();
+  },
+
+  async "of two files that are asked for, the last one is shown"() {
+    await page.evaluate(() => {
+      const send = WebSocket.prototype.send, late = [];
+      WebSocket.prototype.send = function (text) {
+        if (text.includes('"do":"open"') && text.includes("box.scad")) late.push(() => send.call(this, text));
+        else send.call(this, text);
+      };
+      window.sendLate = () => late.forEach((go) => go());
+    });
+    await page.selectOption("select.file", "box.scad");
+    await open("history.csv");
+    await page.evaluate(() => window.sendLate());
+    await page.waitForTimeout(500); // the answer comes, and counts no longer
+    assert.equal(await opened(), "history.csv");
   },
 });

@@ -32,10 +32,15 @@ async function readFile(file: string): Promise<Reply> {
   }
 }
 
+let opens = 0;
+
+// Opens a file. Of several that are asked for one after another the last one counts, whichever is read first.
 export async function openFile(file: string) {
+  const number = ++opens;
   if (isDirty()) await save();
   try {
     const disk = await readFile(file);
+    if (number !== opens) return;
     const kind = disk.kind as State["kind"];
     beginWith(disk, kind === "");
     forgetLoads();
@@ -59,7 +64,7 @@ export async function openFile(file: string) {
     evaluate();
     if ((text !== savedText || (isNew && draft)) && !state.conflict) save();
   } catch (error) {
-    set({ problem: String((error as Error).message) });
+    if (number === opens) set({ problem: String((error as Error).message) });
   }
 }
 
