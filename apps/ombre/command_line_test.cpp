@@ -83,7 +83,7 @@ TEST(CommandLine, ValuesThatDoNotFitAreReportedWithThoseThatDo) {
     slice part.vcad --threads 1e3 => --threads: "1e3" is not a whole number
     render part.vcad --perspective 121 => --perspective: "121" is not a number from 0 to 120
     render part.vcad --zoom nan => --zoom: "nan" is not a number from 0.01 to 1000
-    mesh part.vcad --flavor cura => there is no "cura"; there are generic, prusa, bambu, orca; see
+    mesh part.vcad --flavor cura => there is no "cura"; there are generic, prusa, bambu, orca, snapmaker; see
   )");
   expect_wrong({"slice", "part.vcad", "--dither", "blu-noise"}, "did you mean \"blue-noise\"?\n");
 }
