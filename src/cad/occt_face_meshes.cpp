@@ -2,10 +2,14 @@
 #ifdef OMBRE_CAD
 
 #include <BRepAdaptor_Surface.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 #include <cmath>
 
@@ -74,6 +78,21 @@ void add_triangles(const Poly_Triangulation& mesh, bool is_turned, const std::ve
 }
 
 }  // namespace
+
+TopoDS_Shape whole_faces_of(const TopoDS_Shape& shape) {
+  constexpr double same_place = 1e-7;  // mm, the library's usual tolerance
+  const BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) {
+    const TopoDS_Face& face = TopoDS::Face(e.Current());
+    Standard_Real u_least = 0, u_most = 0, v_least = 0, v_most = 0;
+    BRepTools::UVBounds(face, u_least, u_most, v_least, v_most);
+    const BRepBuilderAPI_MakeFace whole(BRep_Tool::Surface(face), u_least, u_most, v_least, v_most, same_place);
+    builder.Add(all, whole.Face().Oriented(face.Orientation()));
+  }
+  return all;
+}
 
 std::vector<FaceMesh> face_meshes_of(const TopoDS_Shape& shape, const std::string& what) {
   std::vector<FaceMesh> all;

@@ -125,7 +125,8 @@ class OcctSolid final : public Solid {
   }
 
   Triangles triangulate(double deflection_mm) const override {
-    const std::string bytes = meshed(deflection_mm, facet_angle, [&](const TopoDS_Shape& shape) {
+    const auto copy = [&] { return copy_of(shape_, false); };
+    const std::string bytes = meshed(deflection_mm, facet_angle, copy, [&](const TopoDS_Shape& shape) {
       const Triangles made = triangles_of(shape, what());
       BytePacker packer;
       packer.add_list(made.vertices);
@@ -141,8 +142,12 @@ class OcctSolid final : public Solid {
     return triangles;
   }
 
-  std::vector<FaceMesh> face_meshes(double deflection_mm) const override {
-    const std::string bytes = meshed(deflection_mm, fine_facet_angle, [&](const TopoDS_Shape& shape) {
+  std::vector<FaceMesh> face_meshes(double deflection_mm, FaceExtent extent) const override {
+    const auto faces_of_copy = [&] {
+      const TopoDS_Shape copy = copy_of(shape_, false);
+      return extent == FaceExtent::whole_rectangle ? whole_faces_of(copy) : copy;
+    };
+    const std::string bytes = meshed(deflection_mm, fine_facet_angle, faces_of_copy, [&](const TopoDS_Shape& shape) {
       const std::vector<FaceMesh> made = face_meshes_of(shape, what());
       BytePacker packer;
       packer.add(uint64_t{made.size()});
@@ -180,14 +185,14 @@ class OcctSolid final : public Solid {
   }
 
  private:
-  // Returns the bytes that `pack` makes of the meshed solid, in a helper process. Triangulates a copy, because an
-  // existing mesh would be kept if it is fine enough.
-  std::string meshed(double deflection_mm, double angle,
+  // Returns the bytes that `pack` makes of the meshed shape that `make_copy` makes of the solid, in a helper process.
+  // The shape is a copy, because an existing mesh would be kept if it is fine enough.
+  std::string meshed(double deflection_mm, double angle, const std::function<TopoDS_Shape()>& make_copy,
                      const std::function<std::string(const TopoDS_Shape&)>& pack) const {
     const std::lock_guard lock(mutex_);
     const auto cut = [&] {
       return guarded(what(), [&] {
-        const TopoDS_Shape copy = copy_of(shape_, false);
+        const TopoDS_Shape copy = make_copy();
         const BRepMesh_IncrementalMesh mesh(copy, deflection_mm, false, angle, false);
         return pack(copy);
       });

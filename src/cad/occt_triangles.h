@@ -11,6 +11,10 @@ namespace ombre::cad {
 // `what` names the shape in messages.
 Triangles triangles_of(const TopoDS_Shape& shape, const std::string& what);
 
+// Returns a compound of the shape's faces, in their order, without their borders: all of each surface between the least
+// and greatest u and v of its face.
+TopoDS_Shape whole_faces_of(const TopoDS_Shape& shape);
+
 // Returns the meshed faces with the coordinates of their surfaces. Throws as triangles_of().
 std::vector<FaceMesh> face_meshes_of(const TopoDS_Shape& shape, const std::string& what);
 

@@ -35,6 +35,9 @@ struct FaceMesh {
   std::vector<std::array<uint32_t, 3>> triangles;  // counter-clockwise from outside, and in u and v
 };
 
+// The part of a face's surface: what its border encloses, or all between its least and greatest u and v.
+enum class FaceExtent : uint8_t { within_border, whole_rectangle };
+
 // The position of a point relative to a surface.
 struct FaceSide {
   double distance = 0;  // mm; negative on the inner side
@@ -68,7 +71,8 @@ class Solid {
   // edges.
   virtual Triangles triangulate(double deflection_mm) const = 0;
   // Returns the faces in the order of Triangles::faces, with triangles that deviate by at most about `deflection_mm`.
-  virtual std::vector<FaceMesh> face_meshes(double deflection_mm) const = 0;
+  virtual std::vector<FaceMesh> face_meshes(double deflection_mm,
+                                            FaceExtent extent = FaceExtent::within_border) const = 0;
   virtual std::unique_ptr<Query> query() const = 0;
 };
 using SolidPtr = std::shared_ptr<const Solid>;

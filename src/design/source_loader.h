@@ -338,6 +338,7 @@ struct SurfaceChoice {
   double within_deg = 60;      // ... up to this angle
   std::string kind = {};       // of CAD files: the kind of a face, one of cad::face_kinds; empty for any
   Interval area_mm2 = Interval::everything();  // of CAD files: the area of a face
+  bool is_rectangle = false;  // of a single face of a CAD file: all between its least and greatest u and v
 
   bool is_whole() const {
     return !at && !box && !normal && kind.empty() && area_mm2.lo <= 0 && area_mm2.hi == Interval::everything().hi;

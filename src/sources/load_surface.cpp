@@ -46,7 +46,8 @@ class PartMaker {
       : layout_(layout), loading_(loading), reader_(reader) {}
 
   std::optional<Part> part_of(const SurfaceChoice& choice) const {
-    return cad::is_cad_file(choice.file.path) ? faces_of(choice) : triangles_of(choice);
+    if (cad::is_cad_file(choice.file.path)) return faces_of(choice);
+    return choice.is_rectangle ? no_rectangle(choice) : triangles_of(choice);
   }
 
   std::optional<Surface> surface_of(const FilePath& file) const {
@@ -127,7 +128,18 @@ class PartMaker {
       return std::nullopt;
     }
     if (choice.at) keep_nearest(chosen, *choice.at);
-    return chosen.size() > 1 ? joined(choice, chosen) : with_own_places(choice, std::move(chosen.front().mesh));
+    if (chosen.size() == 1) return with_own_places(choice, mesh_of(choice, chosen.front()));
+    return choice.is_rectangle ? no_rectangle(choice) : joined(choice, chosen);
+  }
+  cad::FaceMesh mesh_of(const SurfaceChoice& choice, Face& face) const {
+    if (!choice.is_rectangle) return std::move(face.mesh);
+    return std::move(face.solid->face_meshes(layout_.tolerance_mm, cad::FaceExtent::whole_rectangle)[face.number]);
+  }
+  std::optional<Part> no_rectangle(const SurfaceChoice& choice) const {
+    refuse(choice, "only a single face of a CAD file goes on beyond its border",
+           "write " + spelled::parameter("trim", "\"border\"") + ", or choose one face, for example by " +
+               spelled::parameter("at", "(0, 0, 10)"));
+    return std::nullopt;
   }
   std::optional<Part> with_own_places(const SurfaceChoice& choice, cad::FaceMesh face) const {
     Part part;
@@ -393,6 +405,7 @@ void add(sources::Key& key, const SurfaceChoice& choice) {
   add(key, choice.box ? std::optional(choice.box->hi) : std::nullopt);
   add(key, choice.normal);
   key.add(choice.kind).add(choice.area_mm2.lo).add(choice.area_mm2.hi).add(choice.angle_deg).add(choice.within_deg);
+  key.add(choice.is_rectangle ? 1.0 : 0.0);
 }
 void add(sources::Key& key, const SurfaceLayout& layout) {
   add(key, layout.toward);

@@ -442,7 +442,7 @@ def test_surfaces_without_cells_are_refused():
     surface = pv.TriangleMeshSurface(*sheet())
     with pytest.raises(ValueError, match="above or below 0"):
         mm.cell_map_from_surface(surface, (1, 1, 1), height=0)
-    with pytest.raises(pv.MissingFeature, match="trim="):
+    with pytest.raises(Exception, match="only a single face of a CAD file goes on beyond its border"):
         mm.cell_map_from_surface(surface, (1, 1, 1), height=1, trim="none")
     with pytest.raises(TypeError, match="CADFace or a TriangleMeshSurface"):
         mm.cell_map_from_surface("part.step", (1, 1, 1), height=1)
@@ -548,6 +548,11 @@ def test_cells_lie_on_faces_of_cad_files():
     assert len(both.maps) == 2 and mm.simple_cubic_plate(both, wall_thickness=9).evaluate(
         1, 1, upper.centroid.z - 0.5) < 0
     assert model.to_node().evaluate(0, 0, side.centroid.z) < 0
+    # The square around the disc has corners at 5 sqrt(2), where the disc has no cells.
+    corner = (4.8, 4.8, upper.centroid.z + 0.5)
+    for trim, sign in (("none", -1), ("boundary", 1)):
+        square = mm.cell_map_from_cad_face(upper, cells=(3, 3, 1), height=1, trim=trim)
+        assert sign * mm.simple_cubic_plate(square, wall_thickness=9).evaluate(*corner) > 0
 
     class Shape:  # what is used of a shape of CadQuery
         def exportStep(self, path):

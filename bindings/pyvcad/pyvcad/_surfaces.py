@@ -11,7 +11,6 @@ import ombre
 
 from ._arguments import number, vector
 from ._cell_maps import CellMap, TrimMode, inverted_from, whole_counts
-from ._errors import missing
 from ._triangles import Triangles
 
 _methods = ("lscm", "arap", "authalic")
@@ -121,9 +120,7 @@ def options_of_map(what: str, cells: Any, height: Any, trim: Any,
 
 def _trimmed(trim: Any) -> tuple[TrimMode, dict[str, str]]:
     mode = TrimMode(trim) if isinstance(trim, str) else trim
-    if mode is TrimMode.none:
-        raise missing("a map that goes on beyond the border of its surface", 'trim="boundary" or trim="cells"')
-    return mode, {"trim": "cells" if mode is TrimMode.cells else "border"}
+    return mode, {"trim": "border" if mode is TrimMode.boundary else mode.value}
 
 
 def made_map(value: Any, counts: tuple[int, int, int], mode: TrimMode, starts: numpy.ndarray, *sources: Any) -> CellMap:
@@ -143,7 +140,8 @@ def from_surface(surface: Any, cells: Any, height: float, linear: bool = True, t
         cells: their numbers along u, v and w.
         height: of all cells together, mm; below 0 on the other side.
         linear: accepted; walls and struts follow the surface.
-        trim: TrimMode.boundary cuts cells at the border, TrimMode.cells keeps whole ones.
+        trim: TrimMode.boundary cuts cells at the border, TrimMode.cells keeps whole ones; with TrimMode.none cells on a
+            face of a CAD file go on beyond its border.
         standoff: distance of the first cells from the surface, mm.
     """
     what = "cell_map_from_surface"
@@ -170,7 +168,8 @@ def between_surfaces(a: Any, b: Any, cells: Any, linear: bool = True, trim: Any 
         a, b: a CADFace or a TriangleMeshSurface each.
         cells: their numbers along u, v and w.
         linear: accepted; walls and struts follow the surfaces.
-        trim: TrimMode.boundary cuts cells at the border, TrimMode.cells keeps whole ones.
+        trim: TrimMode.boundary cuts cells at the border, TrimMode.cells keeps whole ones; with TrimMode.none cells on a
+            face of a CAD file go on beyond its border.
     """
     return paired("cell_map_between_surfaces", a, b, cells, trim, "nearest")
 

@@ -112,7 +112,7 @@ class Cube : public cad::Solid {
     cube.faces.resize(cube.triangles.size());
     return cube;
   }
-  std::vector<cad::FaceMesh> face_meshes(double) const override { return {}; }
+  std::vector<cad::FaceMesh> face_meshes(double, cad::FaceExtent) const override { return {}; }
   std::unique_ptr<cad::Query> query() const override { return std::make_unique<CubeQuery>(center_); }
 
  private:

@@ -53,8 +53,11 @@ struct SurfaceCells : CellOutputs<SurfaceCells>, OnSurfacePart {
         {"to", &SurfaceCells::to,
          "Another mesh or CAD file: cells reach from the surface up to it, along the normal; height and standoff do "
          "not count"},
-        {"trim", &SurfaceCells::trim, "border: the border of the part cuts cells; cells: only whole cells are kept",
-         one_of({"border", "cells"})}};
+        {"trim", &SurfaceCells::trim,
+         "border: the border of the part cuts cells; cells: only whole cells are kept; none: cells go on beyond the "
+         "border "
+         "of a face of a CAD file, over all between its least and greatest u and v",
+         one_of({"border", "cells", "none"})}};
   }
 
   static std::vector<Parameter<SurfaceCells>> pair_parameters() {
@@ -84,6 +87,7 @@ struct SurfaceCells : CellOutputs<SurfaceCells>, OnSurfacePart {
     SurfaceRequest request{layout(), part()};
     if (to) request.to = choice(*to, to_at, to_min, to_max, to_normal, to_kind, {to_least_area, to_most_area});
     request.pairing = pairing;
+    request.part.is_rectangle = request.to.is_rectangle = trim == "none";
     request.standoff_mm = standoff;
     request.height_mm = height;
     request.is_inward = side == "inside";
@@ -92,7 +96,7 @@ struct SurfaceCells : CellOutputs<SurfaceCells>, OnSurfacePart {
     if (to) to = request.to.file;
     if (!space) return false;
     return find_counts(reader, {space->lengths.x, space->lengths.y, space->thickness_mm}, size, count, counts) &&
-           (trim == "border" || find_whole_cells(reader));
+           (!(trim == "cells") || find_whole_cells(reader));
   }
 
   Slope cells_at(const Point& p) const {
