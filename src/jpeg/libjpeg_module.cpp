@@ -110,7 +110,7 @@ void check_size(const Decoder& decoder, uint64_t most_pixels, const std::string&
         "cannot read " + name + " as a JPEG image: it has " + size + ", more than " + std::to_string(most_pixels),
         {{"file", name}});
   // Each unit of at most 32 by 32 pixels takes a bit or more, unless it is coded arithmetically.
-  constexpr uint64_t most_pixels_of_byte = 32 * 32 * 8;
+  constexpr uint64_t most_pixels_of_byte = uint64_t{32} * 32 * 8;
   if (state.arith_code == FALSE && pixels / most_pixels_of_byte > decoder.bytes.size())
     throw Error(Code::cannot_read, "cannot read " + name + " as a JPEG image: the file is too short for " + size,
                 {{"file", name}});
