@@ -7,7 +7,7 @@ namespace {
 
 using Paths = std::vector<std::string>;
 
-// References of RFC 3986.
+// References, as RFC 3986 writes them, become paths.
 TEST(PathOfUri, IsDecoded) {
   EXPECT_EQ(path_of_uri("a.bin"), "a.bin");
   EXPECT_EQ(path_of_uri("maps/my%20scan%231.jpg"), "maps/my scan#1.jpg");
