@@ -40,12 +40,18 @@ class NodeLister {
     return list;
   }
   DataList numbers(const std::vector<design::NodePtr>& nodes) const { return numbers(std::span(nodes)); }
-  // Returns what statements make that are no calls of nodes: where they begin, and the numbers of their solids.
-  DataList made(const StatementSolids& statements) const {
+  // Returns what statements make that are no calls of nodes: where they begin, and the numbers of their solids. Of
+  // expressions, where they stand, and the numbers of their values.
+  DataList made(const ScriptResults& results) const {
     DataList list;
-    for (const auto& [begin, solids] : statements.all())
+    for (const auto& [begin, solids] : results.solids())
       if (DataList found = numbers(solids); found.size() == solids.size())
         list.emplace_back(DataMembers{{"from", offsets_.at(begin)}, {"nodes", std::move(found)}});
+    for (size_t n = 0; n < results.values().size(); ++n) {
+      const SourceRange& expression = results.values()[n].expression;
+      list.emplace_back(DataMembers{
+          {"from", offsets_.at(expression.begin)}, {"to", offsets_.at(expression.end)}, {"value", number(n)}});
+    }
     return list;
   }
 
@@ -239,7 +245,7 @@ DataMembers describe_design(const OpenDesign& open, const SourcePtr& page_text) 
           {"attributes", std::move(attributes)},
           {"part_nodes", lister.numbers(design.roots())},
           {"nodes", lister.list()},
-          {"made", lister.made(open.statements)}};
+          {"made", lister.made(open.results)}};
 }
 
 }  // namespace ombre::studio

@@ -4,6 +4,12 @@
 
 namespace ombre::studio {
 
+namespace {
+
+constexpr size_t most_results = 3000;  // of the statements of a script, and of its expressions
+
+}  // namespace
+
 RequestError design_error(const Diagnostics& diagnostics) {
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics.list()) {
@@ -64,12 +70,16 @@ CutDesignPtr OpenDesign::make(const JobChoices& choices) const {
   return made;
 }
 
-void StatementSolids::add(const SourceRange& statement, std::vector<design::NodePtr> solids) {
-  constexpr size_t most_statements = 3000, most_solids = 1000;
+void ScriptResults::add(const SourceRange& statement, std::vector<design::NodePtr> solids) {
+  constexpr size_t most_solids = 1000;  // of one statement
   const bool is_one_node = solids.size() == 1 && solids.front()->where().begin == statement.begin &&
                            solids.front()->where().source == statement.source;
-  if (is_one_node || solids.size() > most_solids || all_.size() >= most_statements) return;
-  all_.try_emplace(statement.begin, std::move(solids));
+  if (is_one_node || solids.size() > most_solids || solids_.size() >= most_results) return;
+  solids_.try_emplace(statement.begin, std::move(solids));
+}
+
+void ScriptResults::add(const SourceRange& expression, Data value) {
+  if (values_.size() < most_results) values_.push_back({expression, std::move(value)});
 }
 
 OpenDesignPtr Designs::add(const DesignOrigin& origin, ReadDesign design, const std::string& program) {

@@ -30,21 +30,32 @@ struct DesignOrigin {
   std::array<double, 3> rotate{};        // degrees about x, then y, then z
 };
 
-// The solids that statements of a script made when they ran first, by where the statements begin in the text.
-class StatementSolids {
+// The solids and values that statements and expressions of a script gave when they ran first, for small pictures of
+// them.
+class ScriptResults {
  public:
+  // A value that varies in space, or a solid, as data of a parameter.
+  struct ExpressionValue {
+    SourceRange expression;
+    Data value;
+  };
+
   void add(const SourceRange& statement, std::vector<design::NodePtr> solids);
-  const std::map<uint32_t, std::vector<design::NodePtr>>& all() const { return all_; }
+  void add(const SourceRange& expression, Data value);
+  // Returns the solids of statements, by where the statements begin in the text.
+  const std::map<uint32_t, std::vector<design::NodePtr>>& solids() const { return solids_; }
+  const std::vector<ExpressionValue>& values() const { return values_; }
 
  private:
-  std::map<uint32_t, std::vector<design::NodePtr>> all_;
+  std::map<uint32_t, std::vector<design::NodePtr>> solids_;
+  std::vector<ExpressionValue> values_;
 };
 
 // A design that was read, with what the studio knows of it.
 struct ReadDesign {
   compile::LoadedPtr loaded;
   Box bounds;
-  StatementSolids statements;
+  ScriptResults results;
 };
 
 // A loaded design. Thread-safe.
@@ -56,7 +67,7 @@ class OpenDesign {
         origin(std::move(from)),
         loaded(std::move(design.loaded)),
         bounds(design.bounds),
-        statements(std::move(design.statements)),
+        results(std::move(design.results)),
         memory(kept),
         program_(std::move(program)) {}
 
@@ -64,7 +75,7 @@ class OpenDesign {
   const DesignOrigin origin;
   const compile::LoadedPtr loaded;
   const Box bounds;
-  const StatementSolids statements;
+  const ScriptResults results;
   design::SubDesignMemory& memory;  // holds what was made of parts of this and other designs
 
   // Returns the plan for these choices, made on first use and cached. Throws RequestError with the reason if the design

@@ -16,7 +16,7 @@
 #include "load/load.h"
 #include "load/node_data.h"
 #include "load/node_registry.h"
-#include "load/statement_solids.h"
+#include "load/script_notes.h"
 #include "load/turned.h"
 #include "questions/build.h"
 #include "questions/colour_map.h"
@@ -395,14 +395,11 @@ Answer Studio::presets_answer(const std::string& file, DataList presets) {
 // Reads a design. A Python script, which may do anything, is run only when the user requests it, not while it is
 // edited.
 compile::LoadedPtr Studio::read(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
-                                const compile::LoadOptions& options, StatementSolids& statements,
-                                Diagnostics& diagnostics) {
+                                const compile::LoadOptions& options, ScriptResults& results, Diagnostics& diagnostics) {
   if (has_ending(origin.file, ".scad")) return load_scad(text, options, diagnostics);
   if (!has_ending(origin.file, ".py")) {
-    const auto note = [&](const SourceRange& statement, std::vector<design::NodePtr> solids) {
-      statements.add(statement, std::move(solids));
-    };
-    return compile::load_noting(std::string(text->text()), text->name(), options, note, diagnostics);
+    const auto note = [&](const SourceRange& place, auto made) { results.add(place, std::move(made)); };
+    return compile::load_noting(std::string(text->text()), text->name(), options, {note, note}, diagnostics);
   }
   if (options_.command.empty()) throw RequestError("unsupported", "this studio cannot run designs in Python");
   if (!may_run) throw RequestError("unsupported", "Python scripts are shown when they are run: press Run");
@@ -414,7 +411,7 @@ OpenDesignPtr Studio::load_design(const DesignOrigin& origin, bool may_run, cons
   options.definitions = origin.definitions;
   options.cache = &cache_;
   ReadDesign design;
-  design.loaded = read(origin, may_run, text, options, design.statements, diagnostics);
+  design.loaded = read(origin, may_run, text, options, design.results, diagnostics);
   const auto& [x, y, z] = origin.rotate;
   if (design.loaded && (x != 0 || y != 0 || z != 0))
     design.loaded = compile::turned(design.loaded, {x, y, z}, diagnostics);

@@ -77,7 +77,7 @@ class Studio {
   Handler keep_draft, drop_draft, rename, duplicate, remove_file, make_folder, upload, import, download, zip, is_there;
   Answer presets_answer(const std::string& file, DataList presets);
   compile::LoadedPtr read(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
-                          const compile::LoadOptions& options, StatementSolids& statements, Diagnostics& diagnostics);
+                          const compile::LoadOptions& options, ScriptResults& results, Diagnostics& diagnostics);
   // Loads a design and keeps it by a handle. Returns null, with diagnostics, if it is wrong.
   OpenDesignPtr load_design(const DesignOrigin& origin, bool may_run, const SourcePtr& text,
                             compile::LoadOptions options, Diagnostics& diagnostics);

@@ -1,6 +1,6 @@
-// Small pictures of the nodes of a design: solids from a corner, values as colours on the slice through the middle of
-// the design. They are cached by the hash of the node and everything below it, so that an edit only renders changed
-// nodes again.
+// Small pictures of the nodes of a design, and of the values of expressions in its script: solids from a corner, values
+// as colours on the slice through the middle of the design. They are cached by the hash of the node and everything
+// below it, so that an edit only renders changed nodes again.
 #include "design/outputs.h"
 #include "formats/images/png.h"
 #include "jobs/picture/picture.h"
@@ -38,34 +38,49 @@ design::NodePtr make(const char* name, const design::Design& design,
   return node;
 }
 
-// Returns a block around the design, made of the node's mixture, or with the node's first output as an attribute.
-design::NodePtr block_of(const OpenDesign& open, const design::NodePtr& value) {
+// Returns a block around the design, made of the mixture, or with the value as an attribute.
+design::NodePtr block_of(const OpenDesign& open, const Data& value) {
   const design::Design& design = open.loaded->design;
   const Vec3 size = open.bounds.size(), middle = open.bounds.center();
-  const Data output(HostObjectPtr(std::make_shared<design::NodeObject>(value)));
-  const bool is_mixture = value->is_mixture();
+  const bool is_mixture = design::is_mixture(value);
   std::vector<std::pair<const char*, Data>> arguments{{"size", list_of(size)}};
-  if (is_mixture) arguments.emplace_back("material", output);
+  if (is_mixture) arguments.emplace_back("material", value);
   const auto block = make("translate", design, {{"by", list_of(middle)}}, {make("rectprism", design, arguments, {})});
-  return is_mixture ? block : make("attribute", design, {{"name", shown_value}, {"value", output}}, {block});
+  return is_mixture ? block : make("attribute", design, {{"name", shown_value}, {"value", value}}, {block});
+}
+
+compile::Loaded shown_solids(const OpenDesign& open, const std::vector<design::NodePtr>& solids,
+                             compile::PictureRequest& picture) {
+  picture.view = *render::named_view(view);
+  return alone(*open.loaded, solids.size() == 1 ? solids.front() : make("union", open.loaded->design, {}, solids));
+}
+
+compile::Loaded shown_value_of(const OpenDesign& open, const Data& value, compile::PictureRequest& picture) {
+  picture.slice = compile::SliceView{2, open.bounds.center().z};
+  if (!design::is_mixture(value)) picture.by = shown_value;
+  design::NodePtr block = block_of(open, value);
+  if (block->uses_cell()) throw RequestError("unsupported", "the value depends on the cell that repeats it");
+  return alone(*open.loaded, std::move(block));
+}
+
+bool is_solid(const OpenDesign& open, const Data& value) {
+  Diagnostics ignored;
+  return design::read_solid(value, {open.loaded->design.materials, ignored, nullptr, {}, "", ""}).has_value();
+}
+
+Data data_of(design::NodePtr node) {
+  return Data(HostObjectPtr(std::make_shared<design::NodeObject>(std::move(node))));
 }
 
 design::NodePtr not_held(const design::Node& node) { return {design::NodePtr(), &node}; }
 
-// Returns the design for the thumbnail of several solids together, or of one node. It must not outlive the nodes of
-// the whole design.
-compile::Loaded shown(const OpenDesign& open, const std::vector<const design::Node*>& nodes,
-                      compile::PictureRequest& picture) {
-  const design::Node& node = *nodes.front();
-  if (node.type().is_solid()) {
-    picture.view = *render::named_view(view);
-    std::vector<design::NodePtr> solids;
-    for (const design::Node* one : nodes) solids.push_back(not_held(*one));
-    return alone(*open.loaded, solids.size() == 1 ? solids.front() : make("union", open.loaded->design, {}, solids));
-  }
-  picture.slice = compile::SliceView{2, open.bounds.center().z};
-  if (!node.is_mixture()) picture.by = shown_value;
-  return alone(*open.loaded, block_of(open, not_held(node)));
+// Returns the design for the thumbnail of several solids together, or of one node.
+compile::Loaded shown_nodes(const OpenDesign& open, const std::vector<const design::Node*>& nodes,
+                            compile::PictureRequest& picture) {
+  if (!nodes.front()->type().is_solid()) return shown_value_of(open, data_of(not_held(*nodes.front())), picture);
+  std::vector<design::NodePtr> solids;
+  for (const design::Node* one : nodes) solids.push_back(not_held(*one));
+  return shown_solids(open, solids, picture);
 }
 
 // Returns the node of a request, or its nodes, which are solids then.
@@ -88,6 +103,17 @@ std::vector<const design::Node*> nodes_of(const OpenDesign& design, const Reques
   return nodes;
 }
 
+// Returns the design for the thumbnail of what a request names: a node, solids together, or the value of an expression.
+// It must not outlive the nodes of the whole design.
+compile::Loaded shown(const OpenDesign& open, const Request& request, compile::PictureRequest& picture) {
+  if (!request.body.find("value")) return shown_nodes(open, nodes_of(open, request), picture);
+  const auto& values = open.results.values();
+  const int64_t n = request.whole("value", 0, static_cast<int64_t>(values.size()) - 1);
+  const Data& value = values[static_cast<size_t>(n)].value;
+  if (!is_solid(open, value)) return shown_value_of(open, value, picture);
+  return shown_solids(open, {make("solid_of", open.loaded->design, {{"solid", value}}, {})}, picture);
+}
+
 std::string made_now(const compile::Loaded& loaded, const compile::PictureRequest& picture, const StopFlag& stop) {
   std::string png;
   Diagnostics diagnostics;
@@ -103,7 +129,7 @@ std::string made_now(const compile::Loaded& loaded, const compile::PictureReques
 
 Answer thumbnail_answer(OpenDesign& design, const Request& request, const StopFlag& cancelled) {
   compile::PictureRequest picture;
-  const compile::Loaded loaded = shown(design, nodes_of(design, request), picture);
+  const compile::Loaded loaded = shown(design, request, picture);
   picture.width = request.whole("width", 1, most_thumbnail);
   picture.height = request.whole("height", 1, most_thumbnail);
   picture.samples = 1;

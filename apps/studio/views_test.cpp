@@ -301,6 +301,46 @@ TEST_F(StudioTest, StatementsThatAreNoNodesShowWhatTheyMake) {
     EXPECT_EQ(text(thumbnail(loaded, R"("nodes": )" + wrong).first, "error"), "request") << wrong;
 }
 
+// Pictures of the values of expressions, beside those of nodes that give the same.
+TEST_F(StudioTest, ExpressionsShowTheirValues) {
+  const std::string script =
+      "function wave(k) = sin(k * formula(\"x\"));\n"
+      "function both(k) = object(first=wave(k), second=mix(red, blue, wave(k)));\n"
+      "a = wave(30);\n"
+      "b = wave(30) * 2 + 1;\n"
+      "c = both(30);\n"
+      "d = 1 + 2;\n"
+      "e = [for (k = [10 : 10 : 30]) wave(k)];\n"
+      "attribute(\"heat\", wave(60)) rectprism((8, 8, 8), c.second);";
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
+  ASSERT_TRUE(loaded.find("made")) << print_json(loaded);
+  std::map<std::string, std::string> values;  // numbers of values, by the texts of expressions
+  for (const Data& one : *loaded.find("made")->list()) {
+    if (!one.find("value")) continue;
+    const auto from = static_cast<size_t>(number_in(one, "from")), to = static_cast<size_t>(number_in(one, "to"));
+    values.emplace(script.substr(from, to - from), print_json_line(*one.find("value")));
+  }
+  for (const char* known : {"wave(30)", "wave(30) * 2 + 1", "both(30)", "wave(60)", "wave(k)"})
+    EXPECT_EQ(values.count(known), 1) << known;
+  EXPECT_EQ(values.count("1 + 2"), 0);
+  const auto thumbnail = [&](const std::string& of) {
+    return ask("thumbnail",
+               R"("width": 24, "height": 24, "design": ")" + text(loaded, "design") + R"(", "value": )" + of);
+  };
+  const auto picture = [&](const std::string& expression) {
+    const auto [header, bytes] = thumbnail(values[expression]);
+    EXPECT_FALSE(bytes.empty()) << expression << print_json(header);
+    return bytes;
+  };
+  // Colours go from the least to the greatest value, so that a factor above 0 and a sum change nothing.
+  EXPECT_EQ(formats::decode_png(picture("wave(30)"), "").pixels,
+            formats::decode_png(picture("wave(30) * 2 + 1"), "").pixels);
+  EXPECT_NE(picture("wave(30)"), picture("wave(60)"));
+  EXPECT_EQ(picture("both(30)"), picture("wave(30)"));  // its first output
+  EXPECT_EQ(text(thumbnail("-1").first, "error"), "request");
+  EXPECT_EQ(text(thumbnail("1000").first, "error"), "request");
+}
+
 TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
   const Data loaded =
       ask("load", R"("file": "a.vcad", "text": )" +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "base/system/tasks.h"
 #include "base/text/error.h"
@@ -18,7 +19,7 @@
 #include "load/library_folders.h"
 #include "load/material_map.h"
 #include "load/scad_words_design.h"
-#include "load/statement_solids.h"
+#include "load/script_notes.h"
 #include "nodes/all_nodes.h"
 
 namespace ombre::compile {
@@ -62,20 +63,31 @@ std::optional<design::MaterialTable> read_materials(const std::string& path, sou
   return materials;
 }
 
-std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options, const NoteSolids& note,
-                                         sources::SourceCache& cache, Diagnostics& diagnostics) {
-  const auto materials = read_materials(options.materials, cache, diagnostics);
-  lang::Options run;
-  run.echo = options.echo;
-  run.stop = options.stop;
-  if (note)
+// Makes the script tell the functions what it makes. What libraries make is left out.
+void add_notes(const SourcePtr& source, const ScriptNotes& notes, lang::Options& run) {
+  if (notes.solids)
     run.made = [&](const SourceRange& statement, std::span<const lang::Product> products) {
       if (statement.source != source) return;
       std::vector<NodePtr> solids;
       for (const lang::Product& product : products)
         solids.push_back(std::static_pointer_cast<const design::Node>(product));
-      note(statement, std::move(solids));
+      notes.solids(statement, std::move(solids));
     };
+  if (!notes.value) return;
+  run.computed = [&, known = std::set<std::pair<uint32_t, uint32_t>>()](const SourceRange& expression,
+                                                                        const lang::Object& value) mutable {
+    if (expression.source == source && known.emplace(expression.begin, expression.end).second)
+      notes.value(expression, value.data());
+  };
+}
+
+std::optional<design::Design> run_script(const SourcePtr& source, const LoadOptions& options, const ScriptNotes& notes,
+                                         sources::SourceCache& cache, Diagnostics& diagnostics) {
+  const auto materials = read_materials(options.materials, cache, diagnostics);
+  lang::Options run;
+  run.echo = options.echo;
+  run.stop = options.stop;
+  add_notes(source, notes, run);
   run.read_file = [&](const std::string& name) { return sources::read_included(name, cache); };
   run.threads = options.threads > 0 ? options.threads : core_count();
   run.needed = options.needed;
@@ -206,13 +218,13 @@ std::optional<design::Design> read_json_design(const SourcePtr& source, const Lo
   return design;
 }
 
-LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, const NoteSolids& note,
+LoadedPtr read_design(const SourcePtr& source, const LoadOptions& options, const ScriptNotes& notes,
                       sources::SourceCache& cache, Diagnostics& diagnostics) {
   const bool is_scad = ends_with(source->name(), ".scad");
   if (!is_scad && !check_no_map(source, options, diagnostics)) return nullptr;
   auto design = is_scad                              ? run_scad_script(source, options, cache, diagnostics)
                 : ends_with(source->name(), ".json") ? read_json_design(source, options, cache, diagnostics)
-                                                     : run_script(source, options, note, cache, diagnostics);
+                                                     : run_script(source, options, notes, cache, diagnostics);
   if (!design || diagnostics.has_errors() || !design::check_design(*design, diagnostics)) return nullptr;
   return std::make_shared<const Loaded>(Loaded{source->name(), source, std::move(*design)});
 }
@@ -232,17 +244,17 @@ LoadedPtr load_design(const std::string& path, const LoadOptions& options, Diagn
                 {{"file", path}});
   sources::SourceCache own;
   sources::SourceCache& cache = options.cache ? *options.cache : own;
-  return read_design(read_source(path, cache), options, nullptr, cache, diagnostics);
+  return read_design(read_source(path, cache), options, {}, cache, diagnostics);
 }
 
 LoadedPtr load_text(std::string text, const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
-  return load_noting(std::move(text), path, options, nullptr, diagnostics);
+  return load_noting(std::move(text), path, options, {}, diagnostics);
 }
 
-LoadedPtr load_noting(std::string text, const std::string& path, const LoadOptions& options, const NoteSolids& note,
+LoadedPtr load_noting(std::string text, const std::string& path, const LoadOptions& options, const ScriptNotes& notes,
                       Diagnostics& diagnostics) {
   sources::SourceCache own;
-  return read_design(make_source(path, std::move(text)), options, note, options.cache ? *options.cache : own,
+  return read_design(make_source(path, std::move(text)), options, notes, options.cache ? *options.cache : own,
                      diagnostics);
 }
 

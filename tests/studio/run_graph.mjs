@@ -8,9 +8,17 @@ const warm = 'attribute("heat", "x", unit="K") cube(20, red);\n';
 // A module, which becomes a library.
 const discs = "module disc(radius = 5) {\n  cylinder(radius, 2);\n}\ndisc();\n";
 
+// A variable and an argument that calls of functions give.
+const walls = `use <ombre/cellular.vcad>
+function stripes(n) = mix(red, blue, 0.5 + 0.5 * sin(36 * n * formula("x")));
+walls = honeycomb_walls(5, 0.8, "red", "white");
+cylinder(10, 4, walls);
+translate(25, 0, 0) cylinder(10, 4, stripes(4));
+`;
+
 const loop = "// Three cubes.\nfor (i = [0 : 2]) cube(3 + i);\n";
 
-await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": warm, "loop.vcad": loop, "ball.scad": "sphere(5);\n", "discs.vcad": discs } }, {
+await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": warm, "loop.vcad": loop, "ball.scad": "sphere(5);\n", "discs.vcad": discs, "walls.vcad": walls } }, {
   async "opacity by an attribute shows what has a value"() {
     await open("warm.vcad");
     await page.click("#tab-volume");
@@ -101,6 +109,13 @@ await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": war
     await page.waitForSelector(".graphproblem:has-text('this is made by a loop; edit line 2')");
     assert.deepEqual(await violations(), []);
     await page.click(".graphproblem button");
+  },
+
+  async "values of functions have pictures"() {
+    await open("walls.vcad");
+    for (const name of ["honeycomb_walls", "stripes"]) await page.waitForSelector(`.card img[alt='What ${name} makes']`);
+    await untilOnPage(() => [...document.querySelectorAll(".card img")].every((image) => image.naturalWidth >= 48));
+    await picture("graph_values");
   },
 
   async "scripts of other languages show the nodes of the design"() {

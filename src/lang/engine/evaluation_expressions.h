@@ -57,7 +57,7 @@ Value Evaluation<Language, Product>::eval_compound(const ast::Expr& expr, const 
       captured_.add(scope);
       return ClosurePtr(std::make_shared<const Closure>(Closure{&static_cast<const ast::Function&>(expr), scope}));
     default:
-      return eval_tail(expr, scope);
+      return self().computed(expr, eval_tail(expr, scope));
   }
 }
 

@@ -84,6 +84,12 @@ class Interpreter : Evaluation<Interpreter, Product> {
   void end(const Unit&, size_t) {}
   bool is_overridden(const ast::Assign& assignment, const Scope& scope) const;
   Value assigned(const ast::Assign& assignment, const ScopePtr& scope);
+  // Tells the caller of the script what an expression gives. Returns that value.
+  Value computed(const ast::Expr& expr, Value value) const {
+    if (options_.computed) tell(expr, value);
+    return value;
+  }
+  void tell(const ast::Expr& expr, const Value& value) const;
   void report_missing(Severity severity, const std::string& name, const std::string& what, const Unit& main);
   // If `ends` is given, it gets the size of `out` after each statement that makes solids.
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends = nullptr);

@@ -30,10 +30,17 @@ bool Interpreter::is_overridden(const ast::Assign& assignment, const Scope& scop
 // Code that reads a variable whose assignment failed fails without a diagnostic.
 Value Interpreter::assigned(const ast::Assign& assignment, const ScopePtr& scope) {
   try {
-    return eval(*assignment.value, scope);
+    return computed(*assignment.value, eval(*assignment.value, scope));
   } catch (const Stopped&) {
     return Broken{};
   }
+}
+
+void Interpreter::tell(const ast::Expr& expr, const Value& value) const {
+  if (const Object* object = value.object()) return options_.computed(expr.span.range(), *object);
+  if (!value.record()) return;
+  for (const auto& [name, member] : value.record()->members)
+    if (const Object* object = member.object()) return options_.computed(expr.span.range(), *object);
 }
 
 void Interpreter::run_actions(const ast::Plan& plan, const ScopePtr& scope, Nodes& out, std::vector<size_t>* ends) {

@@ -15,6 +15,8 @@
 
 namespace ombre::lang {
 
+class Object;
+
 // A definition from the command line, which replaces the top-level variable of that name.
 struct Definition {
   std::string name;
@@ -29,6 +31,9 @@ struct Options {
   const StopFlag* stop = nullptr;  // checked regularly; Cancelled is thrown if it is set
   // Is told what a statement has made, each time that it has run; may be empty.
   std::function<void(const SourceRange& statement, std::span<const std::shared_ptr<const void>> products)> made;
+  // Is told the value of a call in an expression, or of a variable, each time that it is computed and is an object. Of
+  // a record it is told the first member that is one. May be empty.
+  std::function<void(const SourceRange& expression, const Object& value)> computed;
   std::function<void(const std::string&)> echo;  // receives one line without its line ending; may be empty
   // Returns the content of a file for `include` and `use`, or nothing if there is no such file. If empty, the file
   // system is used.

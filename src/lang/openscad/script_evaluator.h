@@ -157,6 +157,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   void end(const Unit& unit, size_t specials_before);
   bool is_overridden(const ast::Assign&, const Scope&) const { return false; }
   Value assigned(const ast::Assign& assignment, const ScopePtr& scope) { return eval(*assignment.value, scope); }
+  static Value computed(const ast::Expr&, Value value) { return value; }
   void run_actions(const ast::Plan& plan, const ScopePtr& scope, Trees& out);
   void run_statement(const ast::Statement& statement, const ScopePtr& scope, Trees& out);
   void run_deferred(const ast::Deferred& statement, const ScopePtr& scope, Trees& out);

@@ -64,6 +64,22 @@ export interface Port {
   from: { node: number; output?: string }[];
 }
 
+// The solids that a statement makes which is no call of a node.
+export interface MadeSolids {
+  from: number;
+  nodes: number[];
+}
+
+// A value that an expression gives, by its number.
+export interface MadeValue {
+  from: number;
+  to: number;
+  value: number;
+}
+
+// What a small picture shows: a node, solids together, or the value of an expression.
+export type Shown = Pick<MadeSolids, "nodes"> | Pick<MadeValue, "value">;
+
 export interface Design {
   design: string;
   bounds_mm: [number[], number[]];
@@ -72,7 +88,7 @@ export interface Design {
   part_nodes: number[];
   attributes: { name: string; type: string; unit: string }[];
   nodes: GraphNode[];
-  made: { from: number; nodes: number[] }[]; // the solids that statements make which are no calls of nodes
+  made: (MadeSolids | MadeValue)[];
   scans: string[]; // files of the folder that the design reads
 }
 

@@ -6,7 +6,7 @@ import { editor, reveal } from "../session/script";
 import { NodeType, set, state, useStore } from "../store";
 import { CardView, End } from "./card";
 import { Place, heightOf, rowsOf, sizes, tidy, yOfRow } from "./layout";
-import { Card, cardsOf, fits, freeName, nodesOf, numberOf, startingCall, startingNode } from "./model";
+import { Card, cardsOf, fits, freeName, numberOf, shownOf, startingCall, startingNode } from "./model";
 import { Palette, Where, numberNode } from "./palette";
 
 // What is kept while the page is open, by files: which cards are opened, and where a person has put some.
@@ -380,7 +380,7 @@ export function CanvasView() {
               {rubber && rubberLine && <path class="wire rubber" d={rubber.end!.side === "output" ? curve(rubberLine, rubber) : curve(rubber, rubberLine)} />}
             </svg>
             {laid.cards.map((card) => (
-              <CardView key={card.key} card={card} place={laid.places.get(card.item)!} rows={laid.rows.get(card.item)!} nodes={isShown && graph ? nodesOf(design, graph, card) : []} isOpen={opened.has(card.key)} isSelected={selected.includes(card.key)} isFocus={card === focused}
+              <CardView key={card.key} card={card} place={laid.places.get(card.item)!} rows={laid.rows.get(card.item)!} shown={isShown && graph ? shownOf(design, graph, card) : undefined} isOpen={opened.has(card.key)} isSelected={selected.includes(card.key)} isFocus={card === focused}
                         pending={pending} onFocus={() => setFocus(card.key)} onPort={onPort} onOpen={() => open(card)} onKey={onCardKey(card)} onLine={() => reveal(card.of.from, card.of.to)}
                         onGrab={(e) => !(e.target as Element).closest("button, input") && begin(e, { kind: "card", x: e.clientX, y: e.clientY, card, place: laid.places.get(card.item)!, isMoved: false })}
                         onPull={(e, end) => (e.preventDefault(), e.stopPropagation(), begin(e, { kind: "wire", x: e.clientX, y: e.clientY, end, isMoved: false }))} />

@@ -1,6 +1,7 @@
 // A card of the graph: a call with its inputs, outputs and values.
 import { LateField } from "../latefield";
 import { editGraph, moveValues } from "../session/graph";
+import { Shown } from "../store";
 import { Thumbnail } from "../thumbnails";
 import { Place, Row, heightOf, sizes } from "./layout";
 import { Card, Input, isNamed, numberOf, rangeOf } from "./model";
@@ -16,7 +17,7 @@ interface Props {
   card: Card;
   place: Place;
   rows: Row[];
-  nodes: number[]; // what it makes: numbers in the design, for its picture
+  shown?: Shown; // by its picture
   isOpen: boolean;
   isSelected: boolean;
   isFocus: boolean; // the one card that Tab reaches
@@ -119,7 +120,7 @@ function summary(card: Card): string {
 }
 
 function Head({ props }: { props: Props }) {
-  const { card, nodes } = props;
+  const { card, shown } = props;
   const { of } = card;
   const isGroup = of.kind === "group";
   return (
@@ -137,7 +138,7 @@ function Head({ props }: { props: Props }) {
           {of.locked_by ? " · read-only" : ""}
         </small>
       </span>
-      {nodes.length > 0 && <Thumbnail nodes={nodes} type={card.title} />}
+      {shown && <Thumbnail of={shown} type={card.title} />}
     </div>
   );
 }

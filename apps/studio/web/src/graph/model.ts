@@ -1,7 +1,7 @@
 // The cards of a graph: what each shows of a call, its inputs and its outputs.
 import { nodeCalled } from "../language";
 import { GraphItem, ScriptGraph, keysOf } from "../session/graph";
-import { Design, NodeType, Variable, state } from "../store";
+import { Design, MadeValue, NodeType, Shown, Variable, state } from "../store";
 
 export type PortType = "solid" | "number" | "vector" | "mixture" | "text" | "truth" | "other";
 type Parameter = NodeType["parameters"][0];
@@ -157,15 +157,23 @@ function connect(graph: ScriptGraph, card: Card, cards: Map<number, Card>) {
   input?.from.push({ item: card.item, output: "" });
 }
 
-// Returns the numbers of the nodes that a card stands for: its own, or those that its statement makes; of the definition
-// of a module those that its first call makes.
-export function nodesOf(design: Design, graph: ScriptGraph, card: Card): number[] {
+// Returns what a card stands for: the value of its expression, its own node, or the solids that its statement makes; of the
+// definition of a module the solids that its first call makes.
+export function shownOf(design: Design, graph: ScriptGraph, card: Card): Shown | undefined {
   const { of } = card;
-  if (of.kind === "part") return design.part_nodes.filter((_, n) => design.parts[n] === of.variable);
+  if (of.kind === "part") {
+    const nodes = design.part_nodes.filter((_, n) => design.parts[n] === of.variable);
+    return nodes.length > 0 ? { nodes } : undefined;
+  }
+  if (of.kind === "variable" || of.kind === "value") {
+    // A variable ends with its expression, which may begin with a shorter one.
+    const values = design.made.filter((one) => "value" in one && one.from === of.at && one.to <= of.to) as MadeValue[];
+    if (values.length > 0) return values.reduce((longest, one) => (one.to > longest.to ? one : longest));
+  }
   const own = of.kind === "group" ? undefined : design.nodes.find((node) => node.from === of.at);
-  if (own) return [own.id];
+  if (own) return { nodes: [own.id] };
   const at = of.callee === "module" ? graph.items.find((item) => item.kind === "call" && item.callee === of.variable)?.at : of.at;
-  return design.made.find((one) => one.from === at)?.nodes ?? [];
+  return design.made.find((one) => "nodes" in one && one.from === at);
 }
 
 // Returns the inputs that a card shows when it is not opened: those that are given, or have to be.

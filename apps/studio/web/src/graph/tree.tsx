@@ -61,7 +61,7 @@ function Entry({ branch, depth }: { branch: Branch; depth: number }) {
           {isOpen ? "▾" : "▸"}
         </button>
       )}
-      {!isRepeated && <Thumbnail nodes={[node.id]} type={node.type} />}
+      {!isRepeated && <Thumbnail of={{ nodes: [node.id] }} type={node.type} />}
       <button class="node" disabled={node.from === undefined} onClick={() => reveal(node.from!, node.to ?? node.from!)}>
         {node.type}
         {output && `.${output}`}
