@@ -22,13 +22,17 @@ def examples(ombre):
     return [design for design in sorted((SOURCE / "examples").glob("*.vcad")) if is_readable(design)]
 
 
+# Seconds after which a command hangs; no test measures it, since machines may do other things as well.
+PATIENCE_S = 1200
+
+
 def environment():
     variables = dict(os.environ, NO_COLOR="1")
     variables.setdefault("OMBRE_DATA", str(SOURCE))
     return variables
 
 
-def run(arguments, cwd=None, timeout=120, **options):
+def run(arguments, cwd=None, timeout=PATIENCE_S, **options):
     """Runs a command; its output as text, its status in .returncode."""
     if "input" not in options:
         options["stdin"] = subprocess.DEVNULL

@@ -13,7 +13,7 @@ def run_program(tmp_path):
     """Runs the command line in an empty folder."""
     def run(*arguments, status=0):
         result = subprocess.run([sys.executable, "-m", "ombre", *map(str, arguments)], cwd=tmp_path, text=True,
-                                capture_output=True, timeout=120)
+                                capture_output=True)
         assert result.returncode == status, result.stderr
         return result
     return run

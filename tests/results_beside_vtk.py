@@ -40,7 +40,7 @@ class Comparison:
 
     def run(self, *arguments):
         return subprocess.run([self.ombre, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def add(self, path, expected, step=0):
         """Compares a file with what it must hold; `expected` has the members of info, and "at": points with values."""

@@ -29,7 +29,7 @@ def command(build, scratch, *arguments):
 def whole_suite(build, folder):
     scratch, figures = folder / "scratch", folder / "figures.json"
     scratch.mkdir()
-    result = program.run(command(build, scratch, "--json", figures), timeout=250)
+    result = program.run(command(build, scratch, "--json", figures))
     expect(result.returncode == 0, f"status {result.returncode}: {result.stderr}")
     expect(not list(scratch.iterdir()), f"it left {list(scratch.iterdir())}")
     return result.stdout, json.loads(figures.read_text())
@@ -112,7 +112,7 @@ def interrupts_leave_nothing(build):
                                    env=program.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         processes.wait_until(lambda: process.poll() is not None or list(pathlib.Path(scratch).iterdir()), "it has a folder")
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=processes.PATIENCE_S)
+        _, errors = process.communicate(timeout=program.PATIENCE_S)
         expect(process.returncode == 130, f"status {process.returncode}: {errors}")
         expect(not list(pathlib.Path(scratch).iterdir()), "folders stayed")
 

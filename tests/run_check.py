@@ -127,7 +127,7 @@ def examples_have_no_faults(folder):
     for design in sorted((program.SOURCE / "examples").glob("*.vcad")):
         if design.stem in LARGE:
             continue
-        event = folder.events("check", design, timeout=300)[-1]
+        event = folder.events("check", design)[-1]
         expect(event["is_printable"], f"{design.stem}: {event}")
         found = {finding["kind"] for finding in event["findings"]}
         expect(found == {kind for kind, names in REALLY_THERE.items() if design.stem in names}, f"{design.stem}: {event}")

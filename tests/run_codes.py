@@ -145,7 +145,7 @@ def codes_of(ombre, design):
     arguments, _ = run_errors.directives(design)
     with tempfile.TemporaryDirectory() as scratch:
         result = program.run([ombre, "slice", design.name, "--json", "-o", pathlib.Path(scratch) / "out", *arguments],
-                             cwd=run_errors.FOLDER, timeout=60)
+                             cwd=run_errors.FOLDER)
     events = [json.loads(line) for line in result.stdout.splitlines()]
     return {e["code"] for e in events if e["event"] == "message" and e["severity"] == "error"}
 

@@ -210,7 +210,7 @@ def interrupts_leave_nothing(drawing):
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         processes.wait_until(lambda: job.poll() is not None or (drawing.path / part).exists(), f"{out} is begun")
         job.send_signal(signal.SIGINT)
-        error = job.communicate(timeout=processes.PATIENCE_S)[1]
+        error = job.communicate(timeout=program.PATIENCE_S)[1]
         expect(job.returncode == 130, f"status {job.returncode}: {error}")
         expect(drawing.names() == [], str(drawing.names()))
 

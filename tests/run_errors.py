@@ -49,7 +49,7 @@ def check(ombre, design, update):
     arguments, status = directives(design)
     with tempfile.TemporaryDirectory() as scratch:
         output = pathlib.Path(scratch) / "out"
-        result = program.run([ombre, "slice", design.name, "-o", output, *arguments], cwd=FOLDER, timeout=60)
+        result = program.run([ombre, "slice", design.name, "-o", output, *arguments], cwd=FOLDER)
         written = final_names(output)
     reported = result.stderr.replace(scratch, "OUT").replace(str(FOLDER), "HERE")
     if status != 1:

@@ -50,7 +50,7 @@ class Failing:
         try:
             command = [str(self.ombre), *JOBS[self.name], *more]
             process = subprocess.run(command, cwd=folder, env=variables, pass_fds=[end], stdin=subprocess.DEVNULL,
-                                     capture_output=True, timeout=60)
+                                     capture_output=True, timeout=program.PATIENCE_S)
         finally:
             os.close(end)
         with open(begin, "rb") as report:

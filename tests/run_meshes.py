@@ -49,7 +49,7 @@ class Meshes(program.Folder):
         self.write("bar.vcad", BAR)
 
     def mesh(self, *arguments, design="bar.vcad", **options):
-        return self.run("mesh", design, *arguments, timeout=600, **options)
+        return self.run("mesh", design, *arguments, **options)
 
     def bodies(self, *arguments, **options):
         for line in self.mesh(*arguments, "--json", **options).stdout.splitlines():
@@ -64,7 +64,7 @@ class Meshes(program.Folder):
 
     def compared(self, design, name, tolerance):
         """Both sides of the Hausdorff distance between a design's surface and its mesh, at samples."""
-        done = program.run([self.comparer, design, name, tolerance], cwd=self.path, timeout=400)
+        done = program.run([self.comparer, design, name, tolerance], cwd=self.path)
         expect(done.returncode == 0, done.stderr)
         return json.loads(done.stdout)
 

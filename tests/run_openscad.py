@@ -27,7 +27,7 @@ def ask_openscad(script):
     for ending in ("echo", "csg"):
         output = script.with_suffix("." + ending)
         output.unlink(missing_ok=True)
-        subprocess.run(["openscad", "-o", output.name, script.name], cwd=FOLDER, timeout=100, check=False,
+        subprocess.run(["openscad", "-o", output.name, script.name], cwd=FOLDER, timeout=program.PATIENCE_S, check=False,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
@@ -47,7 +47,7 @@ def check(ombre, script):
     with tempfile.TemporaryDirectory() as scratch:
         outputs = {ending: pathlib.Path(scratch) / f"out.{ending}" for ending in ("echo", "csg")}
         for ending, output in outputs.items():
-            result = program.run([ombre, "scad", script.name, "-o", output], cwd=FOLDER, timeout=60)
+            result = program.run([ombre, "scad", script.name, "-o", output], cwd=FOLDER)
             if result.returncode not in (0, 1):
                 return f"ended with {result.returncode}: {result.stderr}"
         problems = []
@@ -206,12 +206,12 @@ def check_vase(ombre):
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "vase.scad").write_text(VASE, encoding="utf-8")
-        made = program.run([ombre, "scad", "vase.scad", "-o", "vase.3mf"], cwd=folder, timeout=100)
+        made = program.run([ombre, "scad", "vase.scad", "-o", "vase.3mf"], cwd=folder)
         if made.returncode != 0:
             return made.stderr
         sliced = program.run(["prusa-slicer", "--export-gcode", "vase.3mf", "-o", "vase.gcode", "--nozzle-diameter", "0.4,0.4",
                               "--center", "100,100", "--skirts", "0", "--fill-density", "100%", "--fill-pattern", "rectilinear"],
-                             cwd=folder, timeout=100)
+                             cwd=folder, timeout=program.PATIENCE_S)
         if sliced.returncode != 0:
             return sliced.stderr
         code = (folder / "vase.gcode").read_text(encoding="utf-8")
@@ -229,7 +229,7 @@ def check_bytes(ombre):
             folder = pathlib.Path(scratch) / ("f" * length)
             folder.mkdir()
             (folder / "hulls.scad").write_text(script)
-            subprocess.run([ombre, "scad", folder / "hulls.scad", "-o", folder / "hulls.stl"], check=True, timeout=100,
+            subprocess.run([ombre, "scad", folder / "hulls.scad", "-o", folder / "hulls.stl"], check=True, timeout=program.PATIENCE_S,
                            env={**program.environment(), "OMBRE_UNUSED": "x" * (100 * n)}, capture_output=True)
             made.add((folder / "hulls.stl").read_bytes())
     if len(made) > 1:

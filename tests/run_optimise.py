@@ -50,7 +50,7 @@ class Folder(program.Folder):
         processes.wait_until(lambda: process.poll() is not None or (history.exists() and history.read_text().count("\n") >= lines),
                              f"{lines} lines are in the history")
         process.send_signal(signal.SIGINT)
-        _, reported = process.communicate(timeout=processes.PATIENCE_S)
+        _, reported = process.communicate(timeout=program.PATIENCE_S)
         expect(process.returncode == 130, f"status {process.returncode}: {reported}")
         return reported
 

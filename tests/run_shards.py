@@ -264,7 +264,7 @@ def full_disk(folder):
         begin(folder, 4, output="small/shared")
         running = [subprocess.Popen(folder.command("run", "plan.json", "--shard", n), cwd=folder.path, text=True,
                                     env=program.environment(), stderr=subprocess.PIPE) for n in (1, 2, 3, 4)]
-        said = [process.communicate(timeout=120)[1] for process in running]
+        said = [process.communicate(timeout=program.PATIENCE_S)[1] for process in running]
         failed = [text for process, text in zip(running, said) if process.returncode != 0]
         # Some may be done before the others fill the disk. How many layers a share has depends on what the plan measured.
         expect(failed and all(process.returncode in (0, 2) for process in running), f"{said}")

@@ -30,7 +30,7 @@ def submit(folder, *arguments, status=0, variables=(), path=PATH):
     """Submits plan.json."""
     environment = dict(program.environment(), OMBRE=str(folder.ombre), PATH=path, **dict(variables))
     done = subprocess.run(folder.command("submit", "plan.json", *arguments), cwd=folder.path, env=environment,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=program.PATIENCE_S)
     expect(done.returncode == status, f"status {done.returncode}, not {status}: {done.stdout}\n{done.stderr}")
     return done.stdout + done.stderr
 
@@ -155,7 +155,7 @@ def mpi(folder):
         return is_missing("mpirun")
     begin(folder, 20)
     process = mpirun(folder, 4)
-    said = process.communicate(timeout=120)[0]
+    said = process.communicate(timeout=program.PATIENCE_S)[0]
     expect(process.returncode == 0, said)
     expect(len(journals(folder)) == 20, f"{len(journals(folder))} shares were made")
     folder.run("gather", "plan.json")
@@ -178,7 +178,7 @@ def slow_process_of_mpi(folder):
     found = len(journals(folder))
     for rank in slow:
         os.kill(rank, signal.SIGCONT)
-    said = process.communicate(timeout=120)[0]
+    said = process.communicate(timeout=program.PATIENCE_S)[0]
     expect(process.returncode == 0, said)
     expect(slow and found >= 15, f"{found} shares were begun beside a process that stood still: {said}")
     folder.run("gather", "plan.json")
@@ -194,11 +194,11 @@ def killed_process_of_mpi(folder):
     wait_for_journals(folder, 3, process)
     for rank in ranks_below(process)[1:2]:
         os.kill(rank, signal.SIGKILL)
-    process.communicate(timeout=120)
+    process.communicate(timeout=program.PATIENCE_S)
     expect(process.returncode != 0, "a killed process is not noticed")
     before = {path.name: path.read_bytes() for path in (folder.path / "shared").glob("slice_*.png")}
     process = mpirun(folder, 3)
-    said = process.communicate(timeout=120)[0]
+    said = process.communicate(timeout=program.PATIENCE_S)[0]
     expect(process.returncode == 0, said)
     folder.run("gather", "plan.json")
     expect_same(folder)

@@ -274,7 +274,7 @@ def interrupts_leave_nothing(grid):
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         processes.wait_until(lambda: job.poll() is not None or (grid.path / (name + ".part")).exists(), f"{name} is begun")
         job.send_signal(signal.SIGINT)
-        error = job.communicate(timeout=processes.PATIENCE_S)[1]
+        error = job.communicate(timeout=program.PATIENCE_S)[1]
         if "without OpenVDB" in error:
             continue
         expect(job.returncode == 130, f"status {job.returncode}: {error}")

@@ -64,7 +64,7 @@ PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 
     def run(self, *command):
         return subprocess.run(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, timeout=60, check=True).stdout
+                              stderr=subprocess.PIPE, text=True, check=True).stdout
 
     def wait(self, condition, what, seconds=120):
         end = time.monotonic() + seconds

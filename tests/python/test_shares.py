@@ -66,7 +66,7 @@ def test_wrong_calls(tmp_path):
 
 def test_threads_may_read_a_file_of_code_at_once(monkeypatch):
     """Messages quote the line that made a node. Two threads that quote a new file first once crashed."""
-    both = threading.Barrier(2, timeout=60)
+    both = threading.Barrier(2)
     monkeypatch.setattr(linecache, "getlines", lambda file: both.wait() and [] or ["line\n"] * 3)
     code = compile("\nmade = ombre.sphere(3)\n", "no_file_that_is_there.py", "exec")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:

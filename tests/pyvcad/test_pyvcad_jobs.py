@@ -144,7 +144,7 @@ def test_nodes_go_where_solids_go():
 def run_script(tmp_path, text, **environment):
     (tmp_path / "part.py").write_text("import pyvcad as pv\nroot = pv.Sphere(pv.Vec3(0, 0, 0), 5)\n" + text)
     kept = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    result = subprocess.run([sys.executable, "part.py"], cwd=tmp_path, text=True, capture_output=True, timeout=120,
+    result = subprocess.run([sys.executable, "part.py"], cwd=tmp_path, text=True, capture_output=True,
                             env={**kept, **environment})
     assert result.returncode == 0, result.stderr
     return result.stderr

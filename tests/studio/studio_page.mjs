@@ -38,7 +38,7 @@ export async function startServer(key = token, port = 0, place = folder) {
 export const stopServer = (signal) => stop(server, signal);
 
 // What hangs ends at last; a busy machine is no failure.
-const longestWait = 120000;
+const longestWait = 1200000;
 
 async function openContext() {
   context = await browser.newContext({ viewport: size });
