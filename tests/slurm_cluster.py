@@ -7,6 +7,8 @@ import socket
 import subprocess
 import time
 
+import program
+
 PATH = "/usr/bin:/usr/sbin:/bin:/sbin"
 PROGRAMS = ("mungekey", "munged", "slurmctld", "slurmd", "sbatch")
 
@@ -66,8 +68,8 @@ PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         return subprocess.run(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True, check=True).stdout
 
-    def wait(self, condition, what, seconds=120):
-        end = time.monotonic() + seconds
+    def wait(self, condition, what):
+        end = time.monotonic() + program.PATIENCE_S
         while not condition():
             if time.monotonic() > end:
                 raise AssertionError(f"{what} did not come: {self.run('squeue', '--array')}\n{self.logs()}")

@@ -54,12 +54,12 @@ class Listener : public Client {
     news_.notify_all();
   }
 
-  // Waits for the first frame that satisfies the predicate and removes it; returns a null value after two minutes.
+  // Waits for the first frame that satisfies the predicate and removes it; returns a null value after 20 minutes.
   template <class Question>
   std::pair<Data, std::string> wait(const Question& is_it) {
     std::unique_lock lock(mutex_);
     const auto found = [&] { return std::ranges::find_if(frames_, [&](const auto& f) { return is_it(f.first); }); };
-    news_.wait_for(lock, std::chrono::minutes(2), [&] { return found() != frames_.end(); });
+    news_.wait_for(lock, std::chrono::minutes(20), [&] { return found() != frames_.end(); });
     const auto frame = found();
     if (frame == frames_.end()) return {};
     auto taken = *frame;

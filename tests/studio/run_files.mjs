@@ -22,7 +22,7 @@ const files = {
   "ball.vcad": "radius = 8;  // [2:20]\nsphere(radius, red);\n",
   "mine_2.scad": "cube(4);\n",
   "plain.scad": "cube(6);\ntranslate([9, 0, 0]) sphere(3);\n",
-  "slow.py": "import time, ombre\nprint('begun')\ntime.sleep(1 if ombre.option('short', False) else 60)\nroot = ombre.sphere(3, 'blue')\n",
+  "slow.py": "import time, ombre\nprint('begun')\ntime.sleep(1 if ombre.option('short', False) else 3600)\nroot = ombre.sphere(3, 'blue')\n",
   "quick.py": "import ombre\nprint('quick')\nroot = ombre.sphere(3, 'blue')\n",
 };
 

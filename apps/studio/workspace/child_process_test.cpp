@@ -69,12 +69,12 @@ TEST(ChildProcess, EndsWithTheProgramThatStartedIt) {
   const pid_t studio = ::fork();
   if (studio == 0) {
     const StopFlag none;
-    run_program({"sh", "-c", "sleep 60 & echo $$ $! > \"$0.part\"; mv \"$0.part\" \"$0\"; sleep 60", note.string()},
+    run_program({"sh", "-c", "sleep 3600 & echo $$ $! > \"$0.part\"; mv \"$0.part\" \"$0\"; sleep 3600", note.string()},
                 none, 1000);
     ::_exit(0);
   }
   const Stopwatch watch;
-  while (!std::filesystem::exists(note) && watch.seconds() < 10)
+  while (!std::filesystem::exists(note) && watch.seconds() < 600)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   pid_t child = 0, grandchild = 0;
   std::ifstream(note) >> child >> grandchild;
@@ -91,7 +91,7 @@ TEST(ChildProcess, EndsWithTheProgramThatStartedIt) {
       if (word == "State:" && status >> state) return state != "Z" && state != "X";
     return false;
   };
-  while ((runs(child) || runs(grandchild)) && watch.seconds() < 20)
+  while ((runs(child) || runs(grandchild)) && watch.seconds() < 1200)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   EXPECT_FALSE(runs(child));
   EXPECT_FALSE(runs(grandchild));
