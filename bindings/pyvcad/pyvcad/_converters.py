@@ -324,11 +324,11 @@ class AttributeModifier(Unary):
     def get_attribute(self, name: str) -> Any:
         raise RuntimeError("get_attribute: an AttributeModifier has no attributes of its own")
 
-    def attribute_list(self) -> list[str]:
-        return sorted({*super().attribute_list(), *self._converter.output_attributes()})
-
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return self._converter._apply(solids[0])
+
+    def _computed(self) -> dict[str, list[str]]:
+        return {name: self._converter.required_attributes() for name in self._converter.output_attributes()}
 
     def _fractions(self) -> set[int] | None:
         return self._converter._materials()

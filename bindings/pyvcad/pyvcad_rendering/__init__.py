@@ -18,13 +18,14 @@ from pyvcad._tree import as_node
 
 from . import vtk_export
 from ._diagram_files import Render_Tree_Diagram, Render_Tree_Legend
+from ._mesh_selections import load_mesh_selection, resolve_selection_mesh, save_mesh_selection
 from ._pictures import (Render_Image, Render_Sweep_Animation, Render_Turntable_Animation, RenderSettings, VisualizeSDF,
                         first_scaled_attribute)
 from .vtk_export import export_iso_surface_vtk, export_volume_vtk
 
 __all__ = ["Render", "Export", "RenderSettings", "Render_Image", "Render_Sweep_Animation", "Render_Tree_Diagram",
            "Render_Tree_Legend", "Render_Turntable_Animation", "VisualizeSDF", "export_iso_surface_vtk",
-           "export_volume_vtk", "vtk_export"]
+           "export_volume_vtk", "load_mesh_selection", "resolve_selection_mesh", "save_mesh_selection", "vtk_export"]
 
 # The methods of a design that are not called as their kinds of jobs.
 _methods = {"voxels": "write_voxels"}
@@ -101,6 +102,7 @@ def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
 render, export, render_image = Render, Export, Render_Image
 render_sweep_animation, render_turntable_animation = Render_Sweep_Animation, Render_Turntable_Animation
 render_tree_diagram, render_tree_legend = Render_Tree_Diagram, Render_Tree_Legend
+visualize_sdf = VisualizeSDF
 
 
 def __getattr__(name: str) -> object:
