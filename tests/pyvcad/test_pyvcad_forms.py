@@ -79,6 +79,13 @@ def test_pictures_have_the_colours_of_the_first_attribute(tmp_path):
     ball = graded_ball()
     ball.set_attribute("age", pv.FloatAttribute(7))  # the same everywhere
     assert viz.first_scaled_attribute(ball) == "modulus"
+    colour = pv.RectPrism()
+    colour.set_attribute("density", pv.FloatAttribute("x"))
+    colour.set_attribute("color_rgb", pv.Vec3Attribute(0, 1, 0))
+    assert viz.shown_attribute(colour) == "color_rgb"
+    whole = pv.Union(ball, colour)
+    whole.set_attribute("color_rgba", pv.Vec4Attribute(0, 1, 0, 1))
+    assert viz.shown_attribute(whole) == "color_rgba"
     viz.Render_Image(ball, tmp_path / "a.png", width=64, height=48)
     viz.Render_Image(ball, tmp_path / "b.png", {"visualized_attribute": "none"}, 64, 48)
     settings = viz.RenderSettings(clipping_plane=True, clipping_plane_normal=(0, 0, 1), camera_position=(0, -9, 9), quality="low")

@@ -52,6 +52,12 @@ def first_scaled_attribute(node: Node) -> str | None:
     return None
 
 
+def shown_attribute(node: Node) -> str | None:
+    """The attribute that parts are coloured by: a colour, else the first number that is not the same everywhere."""
+    own = node.attribute_list()
+    return next((name for name in ("color_rgba", "color_rgb") if name in own), None) or first_scaled_attribute(node)
+
+
 # Places in a box, off its planes of symmetry.
 _places = [((0.31 + 7 * n % 17) / 17, (0.43 + 11 * n % 19) / 19, (0.57 + 5 * n % 23) / 23) for n in range(200)]
 
@@ -78,7 +84,7 @@ def options_of(node: Node, settings: Any, width: int, height: int) -> dict[str, 
 def _add_colours(node: Node, settings: Any, options: dict[str, Any]) -> None:
     name = _setting(settings, "visualized_attribute")
     if name is None and "volume_fractions" not in node.attribute_list():
-        name = first_scaled_attribute(node)
+        name = shown_attribute(node)
     if name and name not in ("none", "Signed Distance", "volume_fractions"):
         options["by"] = name
         options["legend"] = bool(_setting(settings, "scale_bar_visible", True))
@@ -118,7 +124,7 @@ def Render_Image(root: Any, file: str | os.PathLike[str], settings: Any = None, 
                  materials: Any = None) -> None:
     """Writes a picture (.png). `settings` is a RenderSettings or a dict.
 
-    Parts with attributes but no materials have the colours of the first attribute that varies.
+    Parts with attributes but no materials have their colours, or those of the first attribute that varies.
     """
     expect_table("Render_Image", materials)
     node = as_node(root)
