@@ -365,3 +365,21 @@ def test_what_is_missing_says_what_to_write(use):
 def test_attributes_of_nodes_of_ombre_are_sampled():
     part = pv.Identity(ombre.attribute(ombre.cube(4), "density", 2.0))
     assert part.sample(1, 1, 1)[1].get_sample("density") == 2
+
+
+# Compilers.
+
+def test_compilers_report_what_they_did(tmp_path, capsys):
+    gray = box("intensity", pv.FloatAttribute(1))
+    infill = box("infill_density", pv.FloatAttribute("20 + x"))
+    settings = pvc.SimulationCompilerSettings()
+    settings.backend = pvc.SimulationBackend.GENERIC
+    for compiler in (pvc.VatCompiler(gray, V(1, 1, 1), tmp_path / "v", "s_"), pvc.VdbCompiler(gray, V(1, 1, 1), tmp_path / "a.vdb"),
+                     pvc.PrusaSlicerProjectCompiler(infill, V(1, 1, 1), tmp_path / "a.3mf", 2),
+                     pvc.SimulationCompiler(gray, settings)):
+        compiler.report_stats()
+        assert "has not ended yet" in capsys.readouterr().out
+        compiler.compile()
+        compiler.report_stats()
+        lines = capsys.readouterr().out
+        assert "box: Vec3(-2, -2, -2) Vec3(2, 2, 2)" in lines and "seconds: " in lines and "threads: " in lines
