@@ -12,6 +12,8 @@ import pytest
 import ombre
 import pyvcad as pv
 import pyvcad_compilers as pvc
+import pyvcad_medical as med
+import pyvcad_metamaterials as mm
 import pyvcad_rendering as viz
 
 from pyvcad_parts import ball, blue, origin, red
@@ -383,3 +385,40 @@ def test_compilers_report_what_they_did(tmp_path, capsys):
         compiler.report_stats()
         lines = capsys.readouterr().out
         assert "box: Vec3(-2, -2, -2) Vec3(2, 2, 2)" in lines and "seconds: " in lines and "threads: " in lines
+
+
+def test_materials_of_parts_of_lattices_are_compiled(tmp_path):
+    cells = mm.rectangular_cell_map((origin, V(12, 12, 12)), cells=(2, 2, 2))
+
+    def counts(lattice):
+        compiler = pvc.MaterialInkjetCompiler(lattice, V(0.5, 0.5, 0.5), tmp_path / "images", "s_", pv.default_materials)
+        compiler.compile()
+        return compiler.material_voxel_counts()
+    # Two struts across opposite corners of each cell, whose lengths are sqrt(3) and sqrt(2) times its side.
+    cell = pv.GraphUnitCell([V(0, 0, 0), V(1, 1, 1), V(1, 0, 0.5), V(0, 1, 0.5)], [(0, 1), (2, 3)], edge_tags=[1, 2],
+                            material_tags=[red, blue])
+    tagged = counts(mm.graph_lattice(cells, cell, beam_radius=0.5))
+    assert set(tagged) == {red, blue} and tagged[red] > tagged[blue] > 0
+    skin = mm.gyroid(cells, wall_thickness=1.5)
+    assert skin.attribute_list() == []
+    skin.shell.set_attribute("volume_fractions", pv.VolumeFractionsAttribute(["x/12", "1 - x/12"], [red, blue]))
+    assert skin.attribute_list() == ["volume_fractions"]
+    # The wall is its own image through the middle of the box, where both have half.
+    graded = counts(skin)
+    assert graded[red] / (graded[red] + graded[blue]) == pytest.approx(0.5, abs=0.03)
+
+
+def test_struts_alone_have_samples():
+    cells = mm.rectangular_cell_map((origin, V(12, 12, 12)), cells=(2, 2, 2))
+    lattice = mm.cubic(cells, beam_radius=0.5)
+    upright = lattice.struts.where(lambda strut: abs(strut.direction.z) > 0.9)
+    upright.set_attribute("modulus", pv.FloatAttribute(7))
+    assert lattice.attribute_list() == ["modulus"]
+    assert lattice.sample(6, 6, 3)[1].get_sample("modulus") == 7
+    assert not lattice.sample(3, 6, 6)[1].has_sample("modulus")
+
+
+def test_packages_have_their_other_names():
+    from libvcad import pyvcad
+    assert pyvcad is pv
+    assert med.raw_color_palettes["jet"] is med.color_maps.raw_color_palettes["jet"]

@@ -19,6 +19,7 @@ def marked(root: Node, names: list[str]) -> Node:
     tree = root.clone()
     for node in in_order(tree):
         computed = node._computed()
+        node._mark_parts(marker, FloatAttribute(1))
         for name in names:
             if name in node._attributes:
                 node._attributes[marker(name)] = FloatAttribute(1)

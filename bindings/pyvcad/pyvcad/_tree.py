@@ -89,6 +89,13 @@ class Node:
         """The attributes that it computes, each with those that it takes."""
         return {}
 
+    def _part_names(self) -> set[str]:
+        """The attributes that parts of it have."""
+        return set()
+
+    def _mark_parts(self, marker: Callable[[str], str], mark: Attribute) -> None:
+        """Gives the parts an attribute of the name marker(name) beside each of their own."""
+
     # Attributes.
 
     def set_attribute(self, name: str, attribute: Any) -> None:
@@ -106,7 +113,8 @@ class Node:
 
     def attribute_list(self) -> list[str]:
         """The names that the node and those below it have or compute."""
-        return sorted({name for node in in_order(self) for name in (*node._attributes, *node._computed())})
+        return sorted({name for node in in_order(self)
+                       for name in (*node._attributes, *node._computed(), *node._part_names())})
 
     # Building.
 
