@@ -422,3 +422,16 @@ def test_packages_have_their_other_names():
     from libvcad import pyvcad
     assert pyvcad is pv
     assert med.raw_color_palettes["jet"] is med.color_maps.raw_color_palettes["jet"]
+
+
+@pytest.mark.parametrize("name", ["r", "t", "d", "x"])
+def test_inputs_of_converters_go_before_coordinates(name):
+    part = box(name, pv.FloatAttribute("y + 10"))
+    entry = pv.LookupTableEntry
+    for converter in (pv.ExpressionConverter([name], ["q"], [f"2*{name} + 1"]),
+                      pv.LookupTableConverter([name], ["q"], [entry(0, 5, 1.0), entry(5, 50, 23.0)]),
+                      pv.LookupTableConverter([name], ["q"], [entry(10, 21.0), entry(12, 25.0)], pv.InterpolationMode.LINEAR)):
+        assert pv.AttributeModifier(converter, part).sample(0.5, 1, 0)[1].get_sample("q") == pytest.approx(23)
+    fractions = pv.VolumeFractionsExpressionConverter([name], [red, blue], [f"{name}/20", f"1 - {name}/20"])
+    shares = pv.AttributeModifier(fractions, part).sample(0.5, 1, 0)[1].get_sample("volume_fractions")
+    assert shares == {red: pytest.approx(0.55), blue: pytest.approx(0.45)}
