@@ -1,4 +1,5 @@
 """Forms, values and errors of the interface of pyvcad 3 that scripts rely on."""
+import gc
 import json
 import math
 import pathlib
@@ -301,6 +302,9 @@ def test_files_of_open_cascade_are_models(tmp_path):
         assert len(model.faces) == 10
         assert sum(face.area for face in model.faces) == pytest.approx(2 * (200 + 120 + 60) - 2 * 16 + 4 * 24)
         assert model.to_node().volume(0.2) == pytest.approx(20 * 10 * 6 - 4 * 4 * 6, rel=1e-6)
+    node = pv.CADModel.from_brep_bytes(path.read_bytes()).to_node()  # holds the file of the model
+    gc.collect()
+    assert node.clone().bounding_box() == pv.CAD(str(path)).bounding_box()
     for wrong in (b"", path.read_bytes()[:500], bytes(range(256)) * 20):
         with pytest.raises(RuntimeError, match="cannot read"):
             pv.CADModel.from_brep_bytes(wrong)

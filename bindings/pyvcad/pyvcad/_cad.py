@@ -166,7 +166,9 @@ class CADModel:
 
     def to_node(self, use_fast_mode: bool = False) -> CAD:
         """The solids of the file as a node."""
-        return CAD(self._path, use_fast_mode)
+        node = CAD(self._path, use_fast_mode)
+        node._model = self  # whose file stays as long as the node is held
+        return node
 
     def write_step(self, path: Any) -> None:
         """Copies the file."""

@@ -232,6 +232,7 @@ class CAD(_Leaf):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
         form = {"path": text, "use_fast_mode": Optional(boolean, True), "material": _one}
+        self._model: Any = None
         values = read("CAD", (form,), arguments, named)
         self._path = _find("CAD", values["path"])
         self._is_fast, self._material = values["use_fast_mode"], values["material"]

@@ -115,7 +115,7 @@ def _plane(settings: Any) -> tuple[Point, Point] | None:
 
 
 def _axes_of(normal: Point) -> list[int]:
-    return [n for n, c in enumerate(normal) if abs(c) > 1e-9 * max(map(abs, normal))]
+    return [n for n, c in enumerate(normal) if abs(c) > 1e-9 * max(abs(other) for other in normal)]
 
 
 def _cut(origin: Point, normal: Point) -> str:
