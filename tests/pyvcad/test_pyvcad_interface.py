@@ -439,3 +439,9 @@ def test_inputs_of_converters_go_before_coordinates(name):
     fractions = pv.VolumeFractionsExpressionConverter([name], [red, blue], [f"{name}/20", f"1 - {name}/20"])
     shares = pv.AttributeModifier(fractions, part).sample(0.5, 1, 0)[1].get_sample("volume_fractions")
     assert shares == {red: pytest.approx(0.55), blue: pytest.approx(0.45)}
+
+
+def test_formulas_have_the_words_of_pyvcad():
+    for text, value in (("mand(x > 1, y > 1, 3)", 1), ("mor(x > 9, y < 1)", 0), ("x > 1 nand y > 1", 0), ("x <> 2", 0),
+                        ("avg(x, y, 6)", 4), ("clamp(0, x, 1)", 1), ("rad2deg(pi)", 180)):
+        assert pv.FloatAttribute(text).sample(2, 4, 0) == pytest.approx(value), text
