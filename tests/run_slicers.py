@@ -157,6 +157,59 @@ def mixtures_are_layer_cycles(designs):
     return ""
 
 
+def mixed(name, **layers):
+    return {"name": name, "r": 90, "g": 90, "b": 90, "mix_layers": layers}
+
+
+def colour(name, *extruder):
+    return {"name": name, "r": 200, "g": 0, "b": 0, **({"extruder": extruder[0]} if extruder else {})}
+
+
+def materials_are_mixed_of_filaments(designs):
+    def write(*materials):
+        (designs.path / "mixed.json").write_text(json.dumps({"materials": list(materials)}))
+
+    boxes = "".join(f"translate({10 * n}, 0, 4) rectprism((10, 10, 8), {name});\n"
+                    for n, name in enumerate(["purple", "brown", "red"]))
+    (designs.path / "three.vcad").write_text("union() {\n" + boxes + "}\n")
+    use = ["--materials", "mixed.json"]
+    inks = [colour("blue", 4), colour("red"), colour("yellow", 2)]
+    write(mixed("purple", blue=1, red=2), *inks, mixed("brown", yellow=1, red=2, blue=1))
+    said = designs.mesh("three.vcad", "--flavour", "prusa", *use)
+    expect("brown: layers 2 of red, 1 of yellow, 1 of blue" in said, said)
+    # Blue and yellow have the extruders of the file, red the first that is free; mixtures follow the last filament.
+    spectrum = json.loads(designs.entry("Metadata/Prusa_Slicer_full_spectrum.json"))
+    parts = {e["id"]: [(p["extruder"], p["ratio"]) for p in e["components"]] for e in spectrum["virtual_extruders"]}
+    expect(parts == {5: [(1, 2), (4, 1)], 6: [(1, 2), (2, 1), (4, 1)]}, str(parts))
+    expect(len(spectrum["physical_extruders"]) == 4, str(spectrum))
+    config = designs.entry("Metadata/Slic3r_PE_model.config")
+    names = re.findall(r'<metadata type="volume" key="name" value="(\w+)"', config)
+    extruder_of = dict(zip(names, re.findall(r'key="extruder" value="(\d+)"', config)))
+    expect(extruder_of == {"purple": "5", "brown": "6", "red": "1"}, str(extruder_of))
+    expect('"red";"yellow";"filament 3";"blue"' in designs.entry("Metadata/Slic3r_PE.config"), "names of filaments")
+    designs.mesh("three.vcad", "--flavour", "snapmaker", *use)
+    rows = [row.split(",") for row in designs.project()["mixed_filament_definitions"].split(";")]
+    expect([row[:2] for row in rows[:2]] == [["1", "4"], ["1", "2"]], str(rows))
+    expect(sorted(rows[1][-1]) == ["1", "1", "2", "4"], str(rows))
+    designs.mesh("three.vcad", *use)  # a file for any program has the materials as they are
+
+    said = designs.mesh("three.vcad", "--flavour", "prusa", "--by", "whole", *use)
+    expect('"mix_layers" of materials are for bodies of materials' in said, said)
+    said = designs.mesh("three.vcad", "--flavour", "prusa", "--setting", "extruder=1", *use, status=1)
+    expect("leave one of the two out" in said, said)
+    for wrong, words in [
+            (mixed("brown", red=1), "mixed of 2 or 3 filaments"), (mixed("brown", red=4, blue=3), "at most 6 layers"),
+            (mixed("brown", red=1, Red=1), "twice"), (mixed("brown", red=1, green=1), '"green", which is no material'),
+            (mixed("brown", red=1, purple=1), '"purple", which is no filament'), (mixed("brown", red=0, blue=1), "1 to 5"),
+            (mixed("brown", red=1, void=1), '"void", which is no filament'), (colour("brown", 4), "have one extruder"),
+            (colour("brown", 17), "16"), ({**colour("brown"), "mix_layers": "red"}, "mixed of 2 or 3 filaments"),
+            ({**mixed("brown", red=1, blue=1), "extruder": 5}, "no extruder of its own")]:
+        write(mixed("purple", blue=1, red=2), *inks, wrong)
+        said = designs.mesh("three.vcad", "--flavour", "prusa", *use, status=1)
+        expect("mixed.json:1:" in said and words in said, f"{wrong}: {said}")
+    return ""
+
+
 def tools_set_temperature_and_flow(designs):
     reported = designs.mesh("halves.vcad", "--by", "temperature,flow_rate", "--bands", "2", "--flavour", "prusa", "--virtual-tools")
     expect("tool 1: 210 C, flow 95 %" in reported and "tool 2: 230 C, flow 85 %" in reported, reported)
@@ -270,7 +323,7 @@ def commands_of_the_page_work(designs):
         expect(result.returncode == 0 and "warning" not in result.stderr, f"{command}: {result.stderr}")
 
 
-CHECKS = program.named([materials_are_filaments, mixtures_are_layer_cycles, tools_set_temperature_and_flow,
+CHECKS = program.named([materials_are_filaments, mixtures_are_layer_cycles, materials_are_mixed_of_filaments, tools_set_temperature_and_flow,
                         heights_have_settings, bands_are_as_few_as_their_distance_takes, surfaces_are_painted,
                         slips_get_remedies, commands_of_the_page_work])
 

@@ -18,7 +18,8 @@ std::vector<FileFormat> file_formats() {
   constexpr std::string_view refused = "files without a solid; surfaces that do not close";
   constexpr std::string_view left_out = "wires; points; dimensions; surfaces beside solids";
   return {{"STEP", {".step", ".stp"}, Content::cad, true, false, &opencascade, refused, left_out},
-          {"IGES", {".iges", ".igs"}, Content::cad, true, false, &opencascade, refused, left_out}};
+          {"IGES", {".iges", ".igs"}, Content::cad, true, false, &opencascade, refused, left_out},
+          {"Open CASCADE", {".brep", ".brp"}, Content::cad, true, false, &opencascade, refused, left_out}};
 }
 
 bool is_cad_file(const std::string& path) {

@@ -1,9 +1,11 @@
-// Reads shapes, names and colours of STEP and IGES files.
+// Reads shapes, names and colours of STEP and IGES files, and shapes of files of Open CASCADE.
 #ifdef OMBRE_CAD
 
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
@@ -25,7 +27,9 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iostream>
 
 #include "base/system/not_copied.h"
 #include "base/text/error.h"
@@ -74,19 +78,23 @@ std::string name_of(const TDF_Label& label) {
   return utf8;
 }
 
-// Collects the solids of a document, and the faces that belong to no solid.
+// The solids of a file, and the faces that belong to no solid.
+struct Found {
+  std::vector<NamedShape> solids, faces;
+};
+
+// Collects the shapes of a document.
 class Collector {
  public:
   explicit Collector(const opencascade::handle<TDocStd_Document>& document)
       : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
         colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())) {}
 
-  std::vector<NamedShape> solids, faces;
-
-  void run() {
+  Found run() {
     TDF_LabelSequence roots;
     shapes_->GetFreeShapes(roots);
     for (const TDF_Label& root : roots) add(root, TopLoc_Location(), "", {});
+    return std::move(found_);
   }
 
  private:
@@ -119,11 +127,11 @@ class Collector {
       const std::string own_name = has_label ? name_of(own) : "";
       OptionalColour own_colour = has_label ? colour_of_label(own) : OptionalColour();
       if (!own_colour) own_colour = colour ? colour : first_colour(solid);
-      solids.push_back({own_name.empty() ? name : own_name, own_colour, solid.Moved(place)});
+      found_.solids.push_back({own_name.empty() ? name : own_name, own_colour, solid.Moved(place)});
     }
     for (TopExp_Explorer e(whole, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next()) {
       const OptionalColour own = colour_of_shape(e.Current());
-      faces.push_back({name, own ? own : colour, e.Current().Moved(place)});
+      found_.faces.push_back({name, own ? own : colour, e.Current().Moved(place)});
     }
   }
 
@@ -150,6 +158,7 @@ class Collector {
 
   opencascade::handle<XCAFDoc_ShapeTool> shapes_;
   opencascade::handle<XCAFDoc_ColorTool> colours_;
+  Found found_;
 };
 
 // Returns the solids of closed shells into which the faces can be sewn.
@@ -164,7 +173,7 @@ std::vector<NamedShape> sewn(const std::vector<NamedShape>& faces) {
     BRepLib::OrientClosedSolid(solid);
     TopTools_IndexedMapOfShape own;
     TopExp::MapShapes(e.Current(), TopAbs_FACE, own);
-    solids.push_back({"", {}, solid});
+    solids.push_back({"", {}, solid, faces.front().unit});
     // Open CASCADE 7.8 does not report the colours of all faces of an IGES file.
     for (const NamedShape& face : faces) {
       if (!own.Contains(sewing.Modified(face.shape))) continue;
@@ -200,32 +209,64 @@ std::string unit_of(const IGESCAFControl_Reader& reader) {
   return name.IsNull() ? "" : name->ToCString();
 }
 
-bool is_iges(const std::string& path) {
+// Keeps the library from printing while it lives.
+class QuietOutput : NotCopied {
+ public:
+  QuietOutput() : printed_(std::cout.rdbuf(nullptr)) {}
+  ~QuietOutput() { std::cout.rdbuf(printed_); }
+
+ private:
+  std::streambuf* printed_;
+};
+
+// Reads a file of Open CASCADE, which has neither names nor colours, and lengths in mm.
+Found read_brep(const std::string& path) {
+  TopoDS_Shape whole;
+  const QuietOutput quiet;
+  if (!BRepTools::Read(whole, path.c_str(), BRep_Builder()) || whole.IsNull())
+    throw Error(Code::cannot_read,
+                "cannot read " + path + ": it is no valid file of its kind; write it again by Open CASCADE, or as STEP",
+                {{"file", path}});
+  Found found;
+  for (TopExp_Explorer e(whole, TopAbs_SOLID); e.More(); e.Next()) found.solids.push_back({"", {}, e.Current(), "mm"});
+  for (TopExp_Explorer e(whole, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next())
+    found.faces.push_back({"", {}, e.Current(), "mm"});
+  return found;
+}
+
+template <class Reader>
+Found read_document(const std::string& path) {
+  Document document;
+  Reader reader;
+  read_with(reader, path, document);
+  Found found = Collector(document.handle()).run();
+  for (std::vector<NamedShape>* const shapes : {&found.solids, &found.faces})
+    for (NamedShape& shape : *shapes) shape.unit = unit_of(reader);
+  return found;
+}
+
+// Returns the first letter of the ending, which tells the formats of cad_library.cpp apart.
+char kind_of(const std::string& path) {
   const size_t dot = path.rfind('.');
-  return dot != std::string::npos && dot + 1 < path.size() && (path[dot + 1] == 'i' || path[dot + 1] == 'I');
+  if (dot == std::string::npos || dot + 1 == path.size()) return ' ';
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(path[dot + 1])));
+}
+
+Found read_file(const std::string& path) {
+  const char kind = kind_of(path);
+  if (kind == 'b') return read_brep(path);
+  if (kind == 'i') return read_document<IGESCAFControl_Reader>(path);
+  return read_document<STEPCAFControl_Reader>(path);
 }
 
 }  // namespace
 
 std::vector<NamedShape> read_shapes(const std::string& path) {
-  Document document;
-  std::string unit;
-  if (is_iges(path)) {
-    IGESCAFControl_Reader reader;
-    read_with(reader, path, document);
-    unit = unit_of(reader);
-  } else {
-    STEPCAFControl_Reader reader;
-    read_with(reader, path, document);
-    unit = unit_of(reader);
-  }
-  Collector found(document.handle());
-  found.run();
+  Found found = read_file(path);
   if (!found.faces.empty()) {
     std::vector<NamedShape> closed = sewn(found.faces);
     found.solids.insert(found.solids.end(), closed.begin(), closed.end());
   }
-  for (NamedShape& solid : found.solids) solid.unit = unit;
   if (!found.solids.empty()) return found.solids;
   if (found.faces.empty())
     throw Error(Code::file_content, path + " holds no solid; export the part as a solid", {{"file", path}});

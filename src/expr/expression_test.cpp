@@ -110,6 +110,8 @@ TEST(Expression, Logic) {
   EXPECT_EQ(value("true xor true"), 0);
   EXPECT_EQ(value("2 nand 3"), 0);
   EXPECT_EQ(value("0 nor 0"), 1);
+  EXPECT_EQ(value("mand(1, 2, 3) + 10 mand(1, 0, 3) + 100 mand(7)"), 101);
+  EXPECT_EQ(value("mor(0, 0, 3) + 10 mor(0, 0) + 100 mor(7)"), 101);
   EXPECT_EQ(value("x >= 2", {2, 0, 0}), 1);
 }
 

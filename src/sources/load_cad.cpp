@@ -21,9 +21,9 @@ constexpr size_t bytes_of_file_byte = 20;  // estimate for shapes and triangles,
 
 std::shared_ptr<const CadFile> read_cad(const design::FilePath& file, Loading& loading) {
   if (!cad::is_cad_file(file.path)) {
-    loading.reader().diagnostics.error(Code::file_kind, loading.reader().where,
-                                       "\"" + file.path + "\" is no CAD file that can be read here",
-                                       "cad reads STEP (.step, .stp) and IGES (.iges, .igs); write mesh for triangles");
+    loading.reader().diagnostics.error(
+        Code::file_kind, loading.reader().where, "\"" + file.path + "\" is no CAD file that can be read here",
+        "cad reads STEP (.step, .stp), IGES (.iges, .igs) and Open CASCADE's .brep; write mesh for triangles");
     return nullptr;
   }
   using Made = Loading::Made<CadFile>;

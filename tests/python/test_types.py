@@ -24,7 +24,7 @@ def test_types(tmp_path):
                               capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(PACKAGES)})
     (tmp_path / "good.py").write_text(GOOD)
     (tmp_path / "bad.py").write_text(BAD)
-    packages = [PACKAGES / name for name in ("pyvcad", "pyvcad_attribute_resolver", "pyvcad_compilers", "pyvcad_medical", "pyvcad_metamaterials", "pyvcad_rendering", "pyvcadviz")]
+    packages = [PACKAGES / name for name in ("libvcad", "pyvcad", "pyvcad_attribute_resolver", "pyvcad_compilers", "pyvcad_medical", "pyvcad_metamaterials", "pyvcad_rendering", "pyvcadviz")]
     right = check("good.py", *packages)
     assert right.returncode == 0, right.stdout
     assert check("bad.py").stdout.count("error:") == 2

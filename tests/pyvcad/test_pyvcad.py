@@ -32,7 +32,8 @@ def test_sphere():
     (pv.RectPrism(origin, pv.Vec3(2, 2, 2)), (4, 5, 1), 5),
     (pv.Cylinder(origin, 2, 10), (5, 0, 0), 3),
     (pv.Cylinder(origin, 2, 10), (0, 0, 6), 1),
-    (pv.Strut(origin, pv.Vec3(10, 0, 0), 1), (12, 0, 0), 2),
+    (pv.Strut(origin, pv.Vec3(10, 0, 0), 1), (12, 0, 0), 1),
+    (pv.Strut(origin, pv.Vec3(10, 0, 0), 1, 1), (12, 0, 0), 2),
     (pv.GraphLattice([(origin, pv.Vec3(10, 0, 0))], 1, 1), (12, 0, 0), 1),
     (pv.Translate(5, 0, 0, ball(1)), (0, 0, 0), 4),
     (pv.Scale(2, 2, 2, ball(1)), (5, 0, 0), 3),
@@ -297,7 +298,7 @@ def test_newer_nodes():
 
 
 @pytest.mark.parametrize("make", [
-    lambda: pv.ColorMap(), lambda: pv.FloatGrid(),
+    lambda: pv.FloatGrid(),
     lambda: pyvcad_compilers.GCVFCompiler(pv.Sphere()),
     lambda: pyvcad_rendering.select_mesh_patch(pv.Sphere())])
 def test_what_is_missing_says_so(make):

@@ -189,8 +189,6 @@ def test_projects_of_slicers_have_a_body_for_each_band(tmp_path):
     assert densities == pytest.approx([35, 45, 55, 65], abs=1)
     with pytest.raises(RuntimeError, match="infill_density"):
         pvc.PrusaSlicerProjectCompiler(ball(), pv.Vec3(1, 1, 1), tmp_path / "b.3mf").compile()
-    with pytest.raises(pv.MissingFeature):
-        pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "b.3mf", enable_color_mix=True)
     with pytest.raises(TypeError, match="enable_colour_mix"):
         pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "b.3mf", enable_colour_mix=True)
 

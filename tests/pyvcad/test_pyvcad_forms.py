@@ -79,14 +79,27 @@ def test_pictures_have_the_colours_of_the_first_attribute(tmp_path):
     ball = graded_ball()
     ball.set_attribute("age", pv.FloatAttribute(7))  # the same everywhere
     assert viz.first_scaled_attribute(ball) == "modulus"
+    colour = pv.RectPrism()
+    colour.set_attribute("density", pv.FloatAttribute("x"))
+    colour.set_attribute("color_rgb", pv.Vec3Attribute(0, 1, 0))
+    assert viz.shown_attribute(colour) == "color_rgb"
+    whole = pv.Union(ball, colour)
+    whole.set_attribute("color_rgba", pv.Vec4Attribute(0, 1, 0, 1))
+    assert viz.shown_attribute(whole) == "color_rgba"
     viz.Render_Image(ball, tmp_path / "a.png", width=64, height=48)
     viz.Render_Image(ball, tmp_path / "b.png", {"visualized_attribute": "none"}, 64, 48)
     settings = viz.RenderSettings(clipping_plane=True, clipping_plane_normal=(0, 0, 1), camera_position=(0, -9, 9), quality="low")
     viz.render_image(ball, tmp_path / "c.png", settings, 64, 48)
     pictures = [(tmp_path / name).read_bytes() for name in ("a.png", "b.png", "c.png")]
     assert len(set(pictures)) == 3 and all(p[16:24] == bytes((0, 0, 0, 64, 0, 0, 0, 48)) for p in pictures)
-    with pytest.raises(pv.MissingFeature, match="a normal along an axis"):
-        viz.Render_Image(ball, tmp_path / "d.png", {"clipping_plane": True, "clipping_plane_normal": (1, 1, 0)}, 64, 48)
+    slanted = {"clipping_plane": True, "clipping_plane_normal": (1, -1, 0), "clipping_plane_origin": (2, -2, 0)}
+    viz.Render_Image(ball, tmp_path / "d.png", slanted, 64, 48)
+    assert (tmp_path / "d.png").read_bytes() not in pictures
+    # What lies before the plane x - y = 4 is taken away.
+    half = viz._pictures._clipped(ball, slanted)
+    assert half.evaluate(2, -2, 0) == pytest.approx(0, abs=1e-9) and half.evaluate(1.9, -1.9, 0) < 0 < half.evaluate(2.1, -2.1, 0)
+    with pytest.raises(ValueError, match="expected a direction"):
+        viz.Render_Image(ball, tmp_path / "d.png", {"clipping_plane": True, "clipping_plane_normal": (0, 0, 0)}, 64, 48)
 
 
 def test_parts_turn_and_are_cut_in_moving_pictures(tmp_path):

@@ -94,3 +94,8 @@ def using(factory):
 def data_folder():
     """The folder that holds the printers and materials that come with Ombre."""
     return _core.data_folder()
+
+
+def palettes():
+    """{name: nine colours from the least number to the greatest}, each red, green and blue from 0 to 255."""
+    return _core.palettes()

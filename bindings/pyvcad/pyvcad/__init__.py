@@ -8,7 +8,9 @@
 from ._attributes import (Attribute, DefaultAttributes, DerivedFloatAttribute, FloatAttribute, Vec3Attribute,
                           Vec4Attribute, VolumeFractionsAttribute)
 from ._bars import CapMode, Cone, PolygonRevolve, Strut
+from ._beam_lattices import Ball, BallMode, Beam, BeamLattice
 from ._cad import CADFace, CADModel
+from ._colour_maps import ColorMap
 from ._cell_maps import CellMap, CellMapCollection, TrimMode
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
@@ -26,6 +28,7 @@ from ._missing import Map, attribute_of
 from ._operations import (BBoxIntersection, BBoxUnion, ConformalMap, Difference, FGrade, Identity, Intersection, Mirror,
                           Offset, Rotate, Scale, Shell, Sum, Tile, Translate, Union)
 from ._outlines import PolygonExtrude, Text
+from ._probes import Probe, alignment_angles, probe_point, probe_ray, surface_normal
 from ._reliefs import FunctionalHeightField, ImageHeightField, SurfaceReliefVolume
 from ._resolvers import Vec4Mode, resolvers
 from ._results import PointMap, SimulationField
@@ -35,6 +38,7 @@ from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, Sig
 from ._selections import MeshSelection
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
 from ._surfaces import TriangleMeshSurface
+from ._textured_meshes import TexturedMesh
 from ._texts import parse_vcad_text, version
 from ._tree import Node
 from ._triangles import SurfaceMesh
@@ -62,7 +66,7 @@ __all__ = ["Attribute", "AttributeConverterBase", "AttributeModifier", "Attribut
            "FieldAssociation", "FieldCoverage", "FieldDomain", "FieldMetadata", "HexahedralMesh", "SimulationCellType", "SimulationModel", "TetrahedralMesh",
            "UnstructuredFieldDataset", "XDMFFieldLoader", "CellMap", "CellMapCollection", "GraphUnitCell", "ImplicitUnitCell",
            "CADFace", "CADModel", "MappedGraphLattice", "MappedImplicitLattice", "MeshSelection", "TriangleMeshSurface", "TrimMode",
-           "FunctionalHeightField", "ImageHeightField", "SurfaceReliefVolume"]
+           "Ball", "BallMode", "Beam", "BeamLattice", "TexturedMesh", "ColorMap", "Probe", "alignment_angles", "probe_point", "probe_ray", "surface_normal", "FunctionalHeightField", "ImageHeightField", "SurfaceReliefVolume"]
 
 
 def __getattr__(name: str) -> object:

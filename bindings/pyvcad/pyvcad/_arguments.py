@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import ombre
 
+from ._errors import WrongValue
 from ._vectors import Vec3
 
 Point = tuple[float, float, float]
@@ -40,7 +41,7 @@ def read(what: str, forms: tuple[Form, ...], positional: tuple[Any, ...], named:
         except ombre.DesignError:  # has the place of the mistake
             raise
         except ValueError as error:
-            raise ValueError(f"{what}, {error}") from None
+            raise WrongValue(f"{what}, {error}") from None
         else:
             return values
     raise TypeError(f"{what}, {reason}" if reason else _no_form(what, forms, positional, named))

@@ -1,6 +1,8 @@
 """Attributes of nodes, as scripts of pyvcad 3 have them in place of materials: values that vary through a solid."""
 from __future__ import annotations
 
+import copy
+import enum
 import math
 import operator
 import re
@@ -14,9 +16,28 @@ from ._vectors import Vec3, Vec4
 from ._volumes import FloatVolume, Vec3sVolume, Vec4sVolume, Volume
 
 
-class DefaultAttributes:
-    """Names of attributes that programs know."""
+class ReturnType(str, enum.Enum):
+    """What an attribute gives at a point: a number, a vector, a colour, or a dict of fractions."""
 
+    dbl = "dbl"
+    vec3 = "vec3"
+    vec4 = "vec4"
+    vfm_ptr = "vfm_ptr"
+    none = "none"
+
+
+class DefaultAttributes:
+    """Names of attributes that programs know; NAME_TYPE is what each gives."""
+
+    @staticmethod
+    def get_return_type_by_name(name: str) -> ReturnType:
+        """Returns what an attribute of this name gives; ReturnType.none for unknown names."""
+        return _types.get(name, ReturnType.none)
+
+
+_types: dict[str, ReturnType] = {}
+_others = {"VOLUME_FRACTIONS": ReturnType.vfm_ptr, "COLOR_RGBA": ReturnType.vec4, "COLOR_RGB": ReturnType.vec3,
+           "NONE": ReturnType.none}
 
 for _name in ("MODULUS VOLUME_FRACTIONS COLOR_RGBA COLOR_RGB TEMPERATURE FLOW_RATE DENSITY HU TOUGHNESS ELONGATION "
               "SHORE_HARDNESS POISSONS_RATIO INTENSITY INFILL_DENSITY FUZZY_SKIN_POINT_DISTANCE FUZZY_SKIN_THICKNESS "
@@ -25,11 +46,20 @@ for _name in ("MODULUS VOLUME_FRACTIONS COLOR_RGBA COLOR_RGB TEMPERATURE FLOW_RA
               "EXTERNAL_PERIMETER_EXTRUSION_WIDTH INFILL_EXTRUSION_WIDTH PERIMETER_EXTRUSION_WIDTH "
               "SOLID_INFILL_EXTRUSION_WIDTH SUPPORT_MATERIAL_EXTRUSION_WIDTH TOP_INFILL_EXTRUSION_WIDTH "
               "IRONING_FLOWRATE LAYER_HEIGHT PERIMETERS NONE").split():
+    _types[_name.lower()] = _others.get(_name, ReturnType.dbl)
     setattr(DefaultAttributes, _name, _name.lower())
+    setattr(DefaultAttributes, f"{_name}_TYPE", _types[_name.lower()])
+setattr(DefaultAttributes, "TOUGHNSS_TYPE", ReturnType.dbl)  # as scripts spell it
 
 
 class Attribute:
     """A value that varies through the node that it is set on; formulas know x, y, z, rho, ... and the distance d."""
+
+    ReturnType = ReturnType
+
+    def clone(self) -> Attribute:
+        """Returns an attribute that changes of this one do not change."""
+        return copy.deepcopy(self)
 
     def _given_to(self, solid: ombre.Solid, name: str) -> ombre.Solid:
         raise NotImplementedError
@@ -42,13 +72,11 @@ class Attribute:
 def _formula(value: Any, what: str) -> ombre.Expression:
     """Returns a formula for arithmetic, which cannot use functions."""
     if isinstance(value, FloatAttribute):
-        value = value._value
+        value = ombre.Expression(value._value) if isinstance(value._value, str) else value._value
     if isinstance(value, FloatVolume):
         value = value._component(0)
     if isinstance(value, ombre.Expression):
         return value
-    if isinstance(value, str):
-        return ombre.Expression(value)
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return ombre.Expression("0") + float(value)
     raise TypeError(f"{what}: arithmetic of attributes takes numbers and attributes of formulas, found "
@@ -109,8 +137,8 @@ class FloatAttribute(Attribute):
         """Returns the value at a point, at the signed distance d from its solid."""
         return _sampled(self._value, (x, y, z), d)
 
-    def return_type(self) -> str:
-        return "dbl"
+    def return_type(self) -> ReturnType:
+        return ReturnType.dbl
 
     def set_value(self, value: Any) -> None:
         self._set(value)
@@ -178,10 +206,7 @@ class _VectorAttribute(Attribute):
         if len(parts) == 1 and isinstance(parts[0], self._volumes):
             self.set_volume(parts[0])
             return
-        if parts and len(parts) != self._size:
-            raise TypeError(f"{type(self).__name__}: expected {self._size} numbers, formulas or functions, found "
-                            f"{len(parts)}")
-        self._parts = [FloatAttribute(part) for part in parts or [0.0] * self._size]
+        self._set(parts or [0.0] * self._size)
 
     def component(self, i: int) -> FloatAttribute:
         return FloatAttribute(self._parts[i])
@@ -202,8 +227,21 @@ class _VectorAttribute(Attribute):
     def sample(self, x: float, y: float, z: float, d: float = 0.0) -> Any:
         return [part.sample(x, y, z, d) for part in self._parts]
 
-    def return_type(self) -> str:
-        return self._kind
+    def return_type(self) -> ReturnType:
+        return ReturnType(self._kind)
+
+    def set_value(self, *parts: Any) -> None:
+        """Takes a number, a formula or a function for each component."""
+        self._volume = None
+        self._set(parts)
+
+    set_expression = set_function = set_value
+
+    def _set(self, parts: Any) -> None:
+        if len(parts) != self._size:
+            raise TypeError(f"{type(self).__name__}: expected {self._size} numbers, formulas or functions, found "
+                            f"{len(parts)}")
+        self._parts = [FloatAttribute(part) for part in parts]
 
     def _given_to(self, solid: ombre.Solid, name: str) -> ombre.Solid:
         kind = "colour" if self._size == 4 else "vector"
@@ -239,8 +277,9 @@ class Vec3Attribute(_VectorAttribute):
     def __neg__(self) -> Vec3Attribute:
         return self._each(0, lambda a, _: -a)
 
-    def dot(self, other: Vec3Attribute) -> FloatAttribute:
-        x, y, z = (a * b for a, b in zip(self._parts, other._parts))
+    def dot(self, other: Any) -> FloatAttribute:
+        """Returns the product with another attribute, or with a Vec3."""
+        x, y, z = (a * b for a, b in zip(self._parts, other._parts if isinstance(other, Vec3Attribute) else other))
         return x + y + z
 
     def magnitude(self) -> FloatAttribute:
@@ -290,8 +329,20 @@ class VolumeFractionsAttribute(Attribute):
     def add_function(self, *function_and_id: Any) -> None:
         self._add(function_and_id)
 
-    def return_type(self) -> str:
-        return "vfm_ptr"
+    def return_type(self) -> ReturnType:
+        return ReturnType.vfm_ptr
+
+    def sample(self, x: float, y: float, z: float, d: float = 0.0) -> dict[int, float]:
+        """Returns {material's id: fraction} at a point, at the signed distance d from its solid."""
+        shares: dict[int, float] = {}
+        for definition, id in self._fractions:
+            shares[id] = shares.get(id, 0.0) + _sampled(definition, (x, y, z), d)
+        return shares
+
+    @staticmethod
+    def get_value(samples: Any) -> dict[int, float]:
+        """Returns {material's id: fraction} of the samples of a point."""
+        return dict(samples.get_sample("volume_fractions"))
 
     def _given_to(self, solid: ombre.Solid, name: str) -> ombre.Solid:
         functions, materials = [f for f, _ in self._fractions], [m for _, m in self._fractions]

@@ -61,7 +61,8 @@ def _end_of(cap: CapMode, radius: float, side: int, height: float, material: int
 
 
 class Strut(_Leaf):
-    """Cylinder from one point to another with flat ends: Strut(start, end, radius, material=1).
+    """Bar from one point to another with round ends: Strut(start, end, radius); with a material, Strut(start, end, radius,
+    material), its ends are flat.
 
     Or one whose radius changes, and whose ends are closed as requested: Strut(start, end, r1, r2, cap1, cap2).
     """
@@ -83,7 +84,8 @@ class Strut(_Leaf):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         if not self._caps:
-            return ombre.strut(self._start, self._end, self._radius, self._material)
+            ends = "round" if self._material is _unset else "flat"
+            return ombre.strut(self._start, self._end, self._radius, self._material, caps=ends)
         start, end = numpy.array(self._start), numpy.array(self._end)
         height = float(numpy.linalg.norm(end - start))
         parts: list[ombre.Solid] = [ombre.cone(*self._radii, height, self._material)]

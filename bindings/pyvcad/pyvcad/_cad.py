@@ -49,6 +49,14 @@ class CADFace(OpenSurface):
         low, high = self._face["box"]
         return Vec3(*low), Vec3(*high)
 
+    @property
+    def is_trimmed(self) -> bool:
+        raise missing("CADFace.is_trimmed", "area and surface_type tell faces apart")
+
+    @property
+    def boundary_loop_count(self) -> int:
+        raise missing("CADFace.boundary_loop_count", "area and surface_type tell faces apart")
+
     def __repr__(self) -> str:
         return f"CADFace({self.index}, {self.surface_type!r}, area={self.area:g})"
 
@@ -73,7 +81,7 @@ class CADModel:
         self._path, self._folder = path, folder
         try:
             report, _ = run("info", {"file": path}, {})
-        except ombre.DesignError as error:
+        except (ombre.DesignError, ombre.MachineError) as error:
             raise RuntimeError(f"CADModel: {error}") from None
         found = [face for solid in report["solids"] for face in solid["surfaces"]]
         self._faces = [CADFace(self, index, face) for index, face in enumerate(found)]
@@ -88,20 +96,33 @@ class CADModel:
 
     @staticmethod
     def from_brep(path: Any) -> CADModel:
-        raise missing("CADModel.from_brep", "CADModel.from_step reads STEP files")
+        """A .brep file of Open CASCADE, which has neither names nor colours."""
+        return CADModel(_find("CADModel.from_brep", os.fspath(path)))
 
     @staticmethod
     def from_brep_bytes(data: bytes) -> CADModel:
-        raise missing("CADModel.from_brep_bytes", "CADModel.from_step reads STEP files")
+        """What such a file holds."""
+        folder = tempfile.TemporaryDirectory(prefix="ombre_")
+        path = os.path.join(folder.name, "part.brep")
+        with open(path, "wb") as file:
+            file.write(data)
+        return CADModel(path, folder)
 
     @staticmethod
     def from_cadquery(part: Any) -> CADModel:
-        """A workplane, a shape or several shapes of CadQuery, through a STEP file."""
-        shapes = part.vals() if hasattr(part, "vals") else list(part) if isinstance(part, Iterable) else [part]
-        if not shapes or not all(hasattr(shape, "exportStep") for shape in shapes):
-            raise TypeError(f"CADModel.from_cadquery: expected a workplane or shapes of CadQuery, found {type(part).__name__}")
+        """A workplane, a shape or several shapes of CadQuery, or shapes of build123d, through a STEP file."""
         folder = tempfile.TemporaryDirectory(prefix="ombre_")
         path = os.path.join(folder.name, "part.step")
+        if _is_of_build123d(part):
+            _export_build123d(part, path)
+            return CADModel(path, folder)
+        shapes = part.vals() if hasattr(part, "vals") else list(part) if isinstance(part, Iterable) else [part]
+        if shapes and all(map(_is_of_build123d, shapes)):
+            _export_build123d(shapes, path)
+            return CADModel(path, folder)
+        if not shapes or not all(hasattr(shape, "exportStep") for shape in shapes):
+            raise TypeError("CADModel.from_cadquery: expected a workplane or shapes of CadQuery, or shapes of build123d, found "
+                            f"{type(part).__name__}; CADModel.from_step reads the STEP files of other programs")
         shape = shapes[0] if len(shapes) == 1 else _compound(shapes)
         shape.exportStep(path)
         return CADModel(path, folder)
@@ -145,11 +166,24 @@ class CADModel:
 
     def to_node(self, use_fast_mode: bool = False) -> CAD:
         """The solids of the file as a node."""
-        return CAD(self._path, use_fast_mode)
+        node = CAD(self._path, use_fast_mode)
+        node._model = self  # whose file stays as long as the node is held
+        return node
 
     def write_step(self, path: Any) -> None:
         """Copies the file."""
         shutil.copyfile(self._path, path)
+
+
+def _is_of_build123d(part: Any) -> bool:
+    return type(part).__module__.split(".")[0] == "build123d"
+
+
+def _export_build123d(part: Any, path: str) -> None:
+    """Writes a shape, a builder (whose part it is) or a list of shapes, with labels and colours."""
+    import build123d  # type: ignore
+    shape = build123d.Compound(children=list(part)) if isinstance(part, list) else getattr(part, "part", part)
+    build123d.export_step(shape, path)
 
 
 def _compound(shapes: list[Any]) -> Any:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import enum
 import math
+import re
 from typing import Any
 
 import ombre
@@ -63,6 +64,28 @@ class AttributeConverterBase:
         return None
 
 
+_taken = ("d", "t")  # what formulas call the distance and the place along struts
+
+
+def _with_aliases(solid: ombre.Solid, inputs: list[str]) -> ombre.Solid:
+    """The solid, on which inputs have names that mean nothing else in formulas."""
+    for name in inputs:
+        if name in _taken:
+            solid = ombre.attribute(solid, _alias(name), ombre.attribute_of(solid, name).value)
+    return solid
+
+
+def _alias(name: str) -> str:
+    return f"input_{name}" if name in _taken else name
+
+
+def _renamed(formula: str, inputs: list[str]) -> str:
+    for name in inputs:
+        if name in _taken:
+            formula = re.sub(rf"(?<![\w.]){name}(?!\w)", _alias(name), formula)
+    return formula
+
+
 def _names(what: str, names: Any) -> list[str]:
     if isinstance(names, str) or not all(isinstance(name, str) for name in names):
         raise TypeError(f"{what}: expected a list of names of attributes")
@@ -90,8 +113,9 @@ class ExpressionConverter(AttributeConverterBase):
         return ExpressionConverter(self._inputs, self._outputs, self._expressions)
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
+        solid = _with_aliases(solid, self._inputs)
         for name, formula in zip(self._outputs, self._expressions):
-            solid = ombre.attribute(solid, name, formula)
+            solid = ombre.attribute(solid, name, _renamed(formula, self._inputs))
         return solid
 
 
@@ -111,7 +135,8 @@ class VolumeFractionsExpressionConverter(AttributeConverterBase):
         return ["volume_fractions"]
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        return ombre.fgrade(solid, self._expressions, self._ids)
+        formulas = [_renamed(formula, self._inputs) for formula in self._expressions]
+        return ombre.fgrade(_with_aliases(solid, self._inputs), formulas, self._ids)
 
     def _materials(self) -> set[int] | None:
         return set(self._ids)
@@ -265,6 +290,7 @@ class LookupTableConverter(AttributeConverterBase):
             raise ValueError(f"LookupTableConverter: expected {count} values in an entry, found {len(entry.output_values)}")
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
+        solid = _with_aliases(solid, self._inputs)
         if len(self._inputs) > 1 and self._mode is InterpolationMode.STEP:
             return self._apply_steps(solid)
         for n, name in enumerate(self._outputs):
@@ -283,7 +309,7 @@ class LookupTableConverter(AttributeConverterBase):
         formulas = []
         for n, key in enumerate(self._inputs):
             texts = [repr(float(entry.output_values[n])) if entry.is_valid else _unknown for entry in self._entries]
-            formulas.append(_steps(key, [entry.input_ranges[n] for entry in self._entries], texts))
+            formulas.append(_steps(_alias(key), [entry.input_ranges[n] for entry in self._entries], texts))
         if len(self._outputs) > 1:
             for name, formula in zip(self._outputs, formulas):
                 solid = ombre.attribute(solid, name, formula)
@@ -293,7 +319,7 @@ class LookupTableConverter(AttributeConverterBase):
     def _formula(self, values: list[Any]) -> str:
         texts = [repr(float(value)) if entry.is_valid else _unknown for value, entry in zip(values, self._entries)]
         if self._mode is InterpolationMode.STEP:
-            return _steps(self._inputs[0], [entry.input_ranges[0] for entry in self._entries], texts)
+            return _steps(_alias(self._inputs[0]), [entry.input_ranges[0] for entry in self._entries], texts)
         return self._in_lines(0, texts)
 
     def _in_lines(self, axis: int, texts: list[str]) -> str:
@@ -301,7 +327,7 @@ class LookupTableConverter(AttributeConverterBase):
         keys = self._keys[axis]
         size = len(texts) // len(keys)
         rows = texts if size == 1 else [self._in_lines(axis + 1, texts[n:n + size]) for n in range(0, len(texts), size)]
-        return _lines(self._inputs[axis], keys, rows)
+        return _lines(_alias(self._inputs[axis]), keys, rows)
 
     def _materials(self) -> set[int] | None:
         found = {id for entry in self._entries for value in entry.output_values if isinstance(value, dict)
@@ -324,11 +350,11 @@ class AttributeModifier(Unary):
     def get_attribute(self, name: str) -> Any:
         raise RuntimeError("get_attribute: an AttributeModifier has no attributes of its own")
 
-    def attribute_list(self) -> list[str]:
-        return sorted({*super().attribute_list(), *self._converter.output_attributes()})
-
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return self._converter._apply(solids[0])
+
+    def _computed(self) -> dict[str, list[str]]:
+        return {name: self._converter.required_attributes() for name in self._converter.output_attributes()}
 
     def _fractions(self) -> set[int] | None:
         return self._converter._materials()

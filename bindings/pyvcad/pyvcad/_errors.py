@@ -1,4 +1,13 @@
 """Exceptions, and how errors are reported."""
+import ombre
+
+
+class WrongValue(ValueError, RuntimeError):
+    """An argument of a script is wrong; scripts of pyvcad expect a RuntimeError."""
+
+
+class WrongDesign(ombre.DesignError, RuntimeError):
+    """A node of a script is wrong; scripts of pyvcad expect a RuntimeError."""
 
 
 class MissingFeature(NotImplementedError):

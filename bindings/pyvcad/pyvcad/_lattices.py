@@ -66,6 +66,12 @@ class MappedLattice(_Leaf):
     def _take_copies(self) -> None:
         self._parts = list(self._parts)
 
+    def _part_names(self) -> set[str]:
+        return {name for _, name, _ in self._parts}
+
+    def _mark_parts(self, marker: Callable[[str], str], mark: Attribute) -> None:
+        self._parts += [(edges, marker(name), mark) for edges, name, _ in self._parts]
+
     def _fractions(self) -> set[int] | None:
         whole, parts = super()._fractions(), [attribute._materials() for _, _, attribute in self._parts]
         named = [ids for ids in (whole, *parts) if ids is not None]
@@ -184,6 +190,14 @@ class MappedGraphLattice(MappedLattice):
 
     def _own_materials(self) -> set[int]:
         return {self._material, *(self._cell.material_tags or ())}
+
+    def _part_names(self) -> set[str]:
+        return super()._part_names() | ({"volume_fractions"} if self._cell.material_tags else set())
+
+    def _fractions(self) -> set[int] | None:
+        tags = set(self._cell.material_tags or ())
+        named = super()._fractions()
+        return named if not tags else tags | (named or set())
 
     def _lattice_of(self, edges: list[int], material: int) -> ombre.Solid:
         options: dict[str, Any] = {"map": self._map._value, "material": material, **self._sizes}

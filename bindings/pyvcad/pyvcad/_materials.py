@@ -93,6 +93,10 @@ class MaterialDefs:
         """{id: colour}, with void."""
         return {entry["id"]: self.color(entry["id"]) for entry in self._entries()}
 
+    def prescaled_color_list(self) -> list[Vec4]:
+        """The colours by id, 0 to 255, with void."""
+        return list(self.palette().values())
+
     def update_color(self, key: int | str, color: Any) -> None:
         """Changes a colour: red, green, blue and perhaps opacity, 0 to 255."""
         channels = [round(c) for c in color]

@@ -9,32 +9,28 @@ from ._errors import missing
 from ._tree import Node
 
 _grids = "ombre voxels writes grids, and node.toSignedDistanceArray and toRGBAArray give arrays"
+_beams = "Mesh(path) reads a 3MF file with its beams; BeamLattice(vertices, beams, radius) makes them"
 _tables = "its measurements are not free to copy; register_calibration(name or file) takes a calibration of your own"
 
 # Names that are missing, by the package that has them in pyvcad 3, each with what to use instead.
 MISSING: dict[str, dict[str, str]] = {
     "pyvcad": {
-        "TexturedMesh": "Mesh(path) reads the shape",
-        "BeamLattice": "GraphLattice(edges, radius) joins struts", "ThreeMFBeamLattice": "GraphLattice(edges, radius)",
-        "Beam": "", "Ball": "", "BallMode": "", "ClipMode": "", "read_3mf_beam_lattice": "",
-        "Mix": "Union(True, [...]) mixes compositions",
-        "ColorMap": "", "FloatGrid": _grids, "BoolGrid": _grids,
-        "probe_point": "node.snap(point)",
-        "probe_ray": "node.snap(point)", "surface_normal": "node.gradient(point)", "alignment_angles": "",
-        "Point2": "Vec2", "Segment2": "", "Polygon2": "", "Polyline2": "", "Arrangement2": ""},
+        "ThreeMFBeamLattice": _beams, "read_3mf_beam_lattice": _beams, "ClipMode": _beams,
+        "Mix": "pyvcad_metamaterials.mix(left, right, weight)",
+        "FloatGrid": _grids, "BoolGrid": _grids,
+        "Point2": "Vec2"} | dict.fromkeys(
+        ("Segment2", "Polygon2", "Polyline2", "Arrangement2"),
+        "PolygonExtrude(vertices, height) and PolygonRevolve(profile, axis_start, axis_end, degrees) take lists of Vec3"),
     "pyvcad_compilers": dict.fromkeys(
         ("GCVFCompiler",),
-        "ColorInkjetCompiler and MaterialInkjetCompiler write the images of a material printer") | dict.fromkeys(
-        ("FullSpectrumSlicerProjectCompiler",),
-        "ombre.Design.mesh(path, bands=4, mix_layers=4, flavour=\"orca\") mixes two filaments layer by layer, and "
-        "colour_by=\"color_rgb\" paints the surface"),
+        "ColorInkjetCompiler and MaterialInkjetCompiler write the images of a material printer"),
     "pyvcad_metamaterials": {
         "plate_lattice": "simple_cubic_plate, cubic_octet_plate and reentrant_honeycomb are walls",
         "idw_weight": "ombre.morph(first, second, third, seeds=[...]), whose weights fall with the distance from a seed for each body"},
     "pyvcad_metamaterials.properties": {"characterize_mesh": "characterize(Mesh(surface), voxel_size)"},
     "pyvcad_rendering": dict.fromkeys(
-        ("select_mesh_patch", "resolve_selection_mesh", "save_mesh_selection", "load_mesh_selection",
-         "replay_mesh_selection"), ""),
+        ("select_mesh_patch", "replay_mesh_selection"),
+        "the studio picks; in a script, surface.select_linked_by_face_angle(surface.nearest_triangle(point).triangle_id, angle)"),
     "pyvcad_attribute_resolver": dict.fromkeys(
         ("register_pla_conversions", "register_tpu_conversions", "register_foaming_conversions",
          "register_j750_shore_hardness_conversions", "register_j750_modulus_toughness_conversions",
@@ -42,11 +38,18 @@ MISSING: dict[str, dict[str, str]] = {
          "register_stratasys_radiomatrix_conversions"), _tables),
 }
 
+_cells = "points are in the list that sample_points_in_host gives, and properties.characterize measures the whole"
+
 # Methods of nodes that are missing, with what to use instead.
 _methods = {
-    "set_attribute_conflict_resolver": "it is a method of Union, Intersection and BBoxUnion",
-    "attribute_conflict_resolvers": "it is a method of Union, Intersection and BBoxUnion", "get_gradient_epsilon": "",
-    "set_gradient_epsilon": "", "component_parameter": "", "segment_info": ""}
+    "set_attribute_conflict_resolver": "it is a method of nodes with several children, such as Union",
+    "attribute_conflict_resolvers": "it is a method of nodes with several children, such as Union",
+    "component_parameter": "it is an attribute of what pyvcad_metamaterials.octet and other struts give",
+    "segment_info": "struts[i].direction, struts.with_tag(tag) and struts.where(condition) tell struts apart",
+    "save_openvdb_sdf_grid": "pyvcad_rendering.Export(node, path=\"part.vdb\") writes the grid \"distance\"",
+    "save_openvdb_occupancy_grid": "TreeSampler(node, voxel_size).save_openvdb_occupancy_grid(path) writes it",
+} | dict.fromkeys(("boundary_caps", "boundary_contact_patches", "boundary_seams", "tessellation_edges", "tessellation_faces",
+                   "confined_edges", "delaunay_cells", "voronoi_cells"), _cells)
 
 
 class _Absent(type):

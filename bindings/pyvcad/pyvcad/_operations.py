@@ -6,6 +6,7 @@ from typing import Any
 import ombre
 
 from ._arguments import Optional, Point, boolean, length, material, number, radius_of_blend, read, vector
+from ._errors import WrongValue
 from ._functions import expression
 from ._resolvers import given
 from ._tree import Binary, NAry, Node, Unary, as_node, as_nodes
@@ -30,8 +31,10 @@ class Scale(Unary):
         values = read("Scale", (*_moves, {"k": number, **_child}), arguments, named)
         super().__init__(values.get("child"))
         self._by: Point = tuple(values.get(axis, values.get("k", 1.0)) for axis in "xyz")  # type: ignore[assignment]
+        if values.get("k", 1.0) <= 0:
+            raise WrongValue(f"Scale: expected a factor above 0, found {values['k']:g}; Mirror gives mirror images")
         if 0 in self._by:
-            raise ValueError(f"Scale: expected factors other than 0, found {self._by}")
+            raise WrongValue(f"Scale: expected factors other than 0, found {self._by}")
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return ombre.scale(solids[0], self._by)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ._attributes import ReturnType
 from ._vectors import Vec3, Vec4
 
 
@@ -20,9 +21,9 @@ class AttributeSamples:
             raise RuntimeError(f"get_sample: there is no sample of {name!r} here")
         return self._values[name]
 
-    def get_type(self, name: str) -> str:
+    def get_type(self, name: str) -> ReturnType:
         value = self.get_sample(name)
-        return {Vec3: "vec3", Vec4: "vec4", dict: "vfm_ptr"}.get(type(value), "dbl")
+        return {Vec3: ReturnType.vec3, Vec4: ReturnType.vec4, dict: ReturnType.vfm_ptr}.get(type(value), ReturnType.dbl)
 
     def set_sample(self, name: str, value: Any) -> None:
         self._values[name] = value

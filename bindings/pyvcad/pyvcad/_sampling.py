@@ -8,7 +8,12 @@ import numpy
 import ombre
 
 from . import _grids
+from ._arguments import number
 from ._arguments import voxel_size as read_voxel
+from ._attributes import FloatAttribute
+from ._colour_maps import ColorMap
+from ._defined import FRACTIONS, are_everywhere, marked, marker
+from ._errors import WrongValue
 from ._materials import expect_table
 from ._samples import AttributeSamples
 from ._tree import Node, as_node
@@ -36,16 +41,33 @@ def _distributions(design: ombre.Design, fractions: dict[str, numpy.ndarray]) ->
     return [{material: share for material, share in zip(ids, row) if share > 0} for row in rows]
 
 
-def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSamples | None]]:
-    """The distance at each point, of the shape (N, 3), and the attributes there; None outside."""
+def _marked_design(node: Node, names: list[str]) -> ombre.Design:
+    """The design with markers of attributes, kept until the tree changes; without them where the root gives them all."""
     design = node._design()
+    if are_everywhere(node, names):
+        return design
+    if node._marked is None or node._marked[0] is not node._solid:
+        node._marked = node._solid, marked(node, names)._design()
+    return cast("ombre.Design", node._marked[1])
+
+
+def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSamples | None]]:
+    """The distance at each point, of the shape (N, 3), and the attributes that are given there; None outside."""
+    own = node.attribute_list()
+    design = _marked_design(node, own)
     found = design.sample(points)
-    columns = {name: _values(values) for name, values in found.attribute.items()}
-    if "volume_fractions" in node.attribute_list():
-        columns["volume_fractions"] = _distributions(design, found.material)
-    names = list(columns)
-    rows = zip(*columns.values()) if columns else [()] * len(points)
-    return [(distance, AttributeSamples(dict(zip(names, row))) if distance <= 0 else None)
+    given = {name: found.attribute[marker(name)] > 0.5 for name in own if marker(name) in found.attribute}
+    columns = {name: _values(values) for name, values in found.attribute.items()
+               if name not in map(marker, given)}
+    if FRACTIONS in own:
+        columns[FRACTIONS] = _distributions(design, found.material)
+    rows: list[dict[str, Any]] = [{} for _ in points]
+    for name, values in columns.items():
+        is_given = given.get(name, numpy.ones(len(points), dtype=bool))
+        for row, value, has in zip(rows, values, _listed(is_given)):
+            if has:
+                row[name] = value
+    return [(distance, AttributeSamples(row) if distance <= 0 else None)
             for distance, row in zip(_listed(found.distance), rows)]
 
 
@@ -60,6 +82,9 @@ class TreeSampler:
         self._materials = None if material_defs is None else expect_table("TreeSampler", material_defs)
         self._design: ombre.Design = self._root._ombre_design_(self._materials) if self._materials \
             else self._root._design()
+        self._range: tuple[float, float] | None = None  # of numbers, for colours
+        self._override: tuple[float, float] | None = None
+        self._shows_undefined = True
 
     def _points(self) -> numpy.ndarray:
         axes = _grids.centers(self._design.bounds, self._voxel)
@@ -104,6 +129,84 @@ class TreeSampler:
             result[:, names.index(material)] = values
         return result
 
+    # Colours.
+
+    def get_double_attribute_min_max(self) -> tuple[float, float]:
+        """The numbers of the first and the last colour: those that were set, else the range of the numbers coloured last."""
+        found = self._override or self._range
+        if found is None:
+            raise RuntimeError("TreeSampler: no number has been coloured; call as_rgba_array first")
+        return found
+
+    def set_double_attribute_range_override(self, min: float, max: float) -> None:
+        """Sets the numbers of the first and the last colour."""
+        if not number(min) < number(max):
+            raise WrongValue(f"set_double_attribute_range_override: expected min < max, found {min} and {max}")
+        self._override = float(min), float(max)
+
+    def clear_double_attribute_range_override(self) -> None:
+        self._override = None
+
+    def set_undefined_attribute_pattern_enabled(self, is_enabled: bool) -> None:
+        """Whether places without the attribute are gray; else they are transparent."""
+        self._shows_undefined = bool(is_enabled)
+
+    def as_rgba_array(self, name: str, color_map: Any, blend: bool = True,
+                      progress: Any = None) -> tuple[int, int, int, numpy.ndarray]:
+        """The counts of voxels, and their colours in bytes, x fastest, then y, then z: red, green, blue, opacity; 0 outside.
+
+        Numbers have the colour of the map at 0 to 1, for the least to the greatest of them. Vectors and colours are colours
+        themselves; fractions are those of the materials, mixed or that of the greatest.
+        """
+        nx, ny, nz = self.sample_dimensions()
+        points = self._points().transpose(2, 1, 0, 3).reshape(-1, 3)
+        return nx, ny, nz, self._colours(points, name, color_map, blend).reshape(-1)
+
+    def sample_points_to_colors(self, points: Any, name: str, color_map: Any, blend: bool = True) -> list[Vec4]:
+        """Red, green, blue and opacity of each point, 0 to 1."""
+        return [Vec4(*row) for row in _listed(self._colours(_array(points), name, color_map, blend) / 255)]
+
+    def _colours(self, points: numpy.ndarray, name: str, color_map: Any, blend: bool) -> numpy.ndarray:
+        inside = self._design.inside(points)
+        own = self._root.attribute_list()
+        if name not in own:
+            raise RuntimeError(f"TreeSampler: no node of the tree has the attribute {name!r}; it has {', '.join(own) or 'none'}")
+        is_given = inside.copy()
+        if not are_everywhere(self._root, [name]):
+            is_given &= _marked_design(self._root, own).attribute(marker(name), points) > 0.5
+        colours = self._fraction_colours(points, blend) if name == FRACTIONS else \
+            self._value_colours(name, points, is_given, color_map)
+        colours[inside & ~is_given] = (128, 128, 128, 255) if self._shows_undefined else 0
+        colours[~inside] = 0
+        return numpy.rint(colours).astype(numpy.uint8)
+
+    def _fraction_colours(self, points: numpy.ndarray, blend: bool) -> numpy.ndarray:
+        if self._materials is None:
+            raise RuntimeError("TreeSampler: fractions of materials need material_defs")
+        fractions = self._fractions(points)
+        palette = numpy.array([list(self._materials.color(id)) for id in range(fractions.shape[1])])
+        return fractions @ palette if blend else palette[fractions.argmax(axis=1)].astype(float)
+
+    def _value_colours(self, name: str, points: numpy.ndarray, is_given: numpy.ndarray, color_map: Any) -> numpy.ndarray:
+        values = self._design.attribute(name, points)
+        if values.ndim == 1:
+            values = self._mapped(values, is_given, color_map)
+        opaque = numpy.ones((len(points), 1))
+        return 255 * numpy.clip(values if values.shape[1] == 4 else numpy.concatenate([values, opaque], axis=1), 0, 1)
+
+    def _mapped(self, values: numpy.ndarray, is_given: numpy.ndarray, color_map: Any) -> numpy.ndarray:
+        if not isinstance(color_map, ColorMap):
+            raise TypeError(f"TreeSampler: expected a ColorMap, found {type(color_map).__name__}")
+        shown = values[is_given & numpy.isfinite(values)]
+        self._range = (float(shown.min()), float(shown.max())) if len(shown) else (0.0, 1.0)
+        low, high = self.get_double_attribute_min_max()
+        return color_map._colors((values - low) / (high - low or 1.0))
+
+    def save_openvdb_occupancy_grid(self, path: Any) -> None:
+        """Writes a grid "occupancy" of OpenVDB: 1 in voxels whose middle is inside."""
+        with_occupancy(self._root)._design().write_voxels(str(path), voxel=",".join(map(repr, self._voxel)), what=OCCUPANCY,
+                                                          force=True)
+
     def evaluate_points(self, points: Any) -> list[float]:
         return [float(d) for d in self._design.distance(_array(points))]
 
@@ -129,6 +232,16 @@ class TreeSampler:
         if self._materials is None:
             raise RuntimeError("TreeSampler: fractions of materials need material_defs")
         return self._fractions(_array(points))
+
+
+OCCUPANCY = "occupancy"
+
+
+def with_occupancy(root: Node) -> Node:
+    """A copy of the tree with an attribute that is 1 inside; grids have 0 outside."""
+    tree = root.clone()
+    tree._attributes[OCCUPANCY] = FloatAttribute(1)
+    return tree
 
 
 def _array(points: Any) -> numpy.ndarray:

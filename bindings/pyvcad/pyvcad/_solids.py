@@ -46,7 +46,7 @@ class RectPrism(_Leaf):
         super().__init__()
         values = read("RectPrism", ({}, {"center": vector, "size": size, "material": _one}), arguments, named)
         self._center: Point = values.get("center", (0, 0, 0))
-        self._size: Point = values.get("size", (10, 10, 10))
+        self._size: Point = values.get("size", (1, 1, 1))
         self._material = values.get("material", _unset)
 
     @staticmethod
@@ -70,7 +70,7 @@ class Sphere(_Leaf):
                       arguments, named)
         self._center: Point = values.get("center") or (
             values.get("cx", 0.0), values.get("cy", 0.0), values.get("cz", 0.0))
-        self._radius = values.get("radius", 5.0)
+        self._radius = values.get("radius", 1.0)
         self._material = values.get("material", _unset)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
@@ -98,7 +98,7 @@ class Cylinder(_Leaf):
         form = {"center": vector, "radius": length, "height": length, "material": _one}
         values = read("Cylinder", ({}, form), arguments, named)
         self._center: Point = values.get("center", (0, 0, 0))
-        self._radius, self._height = values.get("radius", 5.0), values.get("height", 10.0)
+        self._radius, self._height = values.get("radius", 1.0), values.get("height", 1.0)
         self._material = values.get("material", _unset)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
@@ -180,28 +180,47 @@ def _sample_size(value: Any) -> Point | float:
     return length(value) if isinstance(value, float) else size(value)
 
 
-class Mesh(_Leaf):
-    """Solid of a file's triangles: Mesh(path, material=1, disable_validation=False), or of a SurfaceMesh.
+def _maybe_size(value: Any) -> Any:
+    return None if value is None else _sample_size(value)
 
-    A second argument that is a float or a Vec3 is a sample size: it is accepted, and nothing is sampled, since rows of
-    voxels are found exactly. Without validation open meshes are closed by their winding number.
+
+class Mesh(_Leaf):
+    """Solid of a file's triangles: Mesh(path, material=1, disable_validation=False), or of a SurfaceMesh; or without the
+    material: Mesh(path, center=False, disable_validation=False, override_voxel_size=None, compensate_slicer_ras=False).
+
+    `center` puts the middle of the box on the origin, `compensate_slicer_ras` mirrors along y. A second argument that is a
+    float or a Vec3 is a sample size: it is accepted, as override_voxel_size is, and nothing is sampled, since rows of voxels
+    are found exactly. Without validation open meshes are closed by their winding number.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
         options = {"material": _one, "disable_validation": Optional(boolean, False)}
+        placed = {"center": Optional(boolean, False), "disable_validation": Optional(boolean, False),
+                  "override_voxel_size": Optional(_maybe_size, None), "compensate_slicer_ras": Optional(boolean, False)}
         if arguments and hasattr(arguments[0], "_stl_path"):  # a SurfaceMesh, whose file stays as long as it is held
             self._surface = arguments[0]
             arguments = (self._surface._stl_path(), *arguments[1:])
-        values = read("Mesh", ({"path": text, **options}, {"path": text, "sample_size": _sample_size, **options}),
-                      arguments, named)
+        sampled = {"path": text, "sample_size": _sample_size}
+        values = read("Mesh", ({"path": text, **options}, {**sampled, **options}, {"path": text, **placed},
+                               {**sampled, **placed}), arguments, named)
         self._path = _find("Mesh", values["path"])
-        self._material, self._any_winding = values["material"], values["disable_validation"]
+        self._material, self._any_winding = values.get("material", _unset), values["disable_validation"]
+        self._is_centered = values.get("center", False)
+        self._is_mirrored = values.get("compensate_slicer_ras", False)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        if self._any_winding:
-            return ombre.mesh(self._path, self._material, inside="generalized")
-        return ombre.mesh(self._path, self._material)
+        winding: dict[str, Any] = {"inside": "generalized"} if self._any_winding else {}
+        solid: ombre.Solid = ombre.mesh(self._path, self._material, **winding)
+        if self._is_mirrored:
+            solid = ombre.mirror(solid, (0.0, 1.0, 0.0))
+        return _centered(solid) if self._is_centered else solid
+
+
+def _centered(solid: ombre.Solid) -> ombre.Solid:
+    """The solid with the middle of its box on the origin."""
+    low, high = solid.bounds
+    return ombre.translate(solid, tuple(-(a + b) / 2 for a, b in zip(low, high)))
 
 
 class CAD(_Leaf):
@@ -213,6 +232,7 @@ class CAD(_Leaf):
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
         form = {"path": text, "use_fast_mode": Optional(boolean, True), "material": _one}
+        self._model: Any = None
         values = read("CAD", (form,), arguments, named)
         self._path = _find("CAD", values["path"])
         self._is_fast, self._material = values["use_fast_mode"], values["material"]

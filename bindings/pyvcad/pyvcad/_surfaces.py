@@ -11,6 +11,7 @@ import ombre
 
 from ._arguments import number, vector
 from ._cell_maps import CellMap, TrimMode, inverted_from, whole_counts
+from ._errors import missing
 from ._triangles import Triangles
 
 _methods = ("lscm", "arap", "authalic")
@@ -77,6 +78,10 @@ class TriangleMeshSurface(OpenSurface, Triangles):
         chosen = numpy.asarray(mesh.triangles)[sorted(int(n) for n in ids)]
         used, numbers = numpy.unique(chosen, return_inverse=True)
         return TriangleMeshSurface(numpy.asarray(mesh.vertices)[used], numbers.reshape(-1, 3), u_axis_hint, method)
+
+    @property
+    def uv_bounds(self) -> Any:
+        raise missing("TriangleMeshSurface.uv_bounds", "u and v of a map on it run from 0 to its counts of cells")
 
     def _longest_direction(self) -> tuple[float, float, float]:
         centred = self._vertices - self._vertices.mean(axis=0)

@@ -16,13 +16,17 @@ from ombre._materials import current_factory, using
 from ombre._solid import made_at, wrap
 
 from . import _grids
+from ._arguments import length
 from ._attributes import Attribute, checked
+from ._errors import WrongDesign, WrongValue
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
 from ._vectors import Vec3
 
 # The names of files of these packages begin with this: .../pyvcad/, .../pyvcad_metamaterials/ and so on.
 _packages = os.path.dirname(os.path.abspath(__file__))
 
+
+_usual_epsilon = 1e-4  # mm
 
 Place = tuple[str, int]  # a file, and a line of it
 
@@ -44,12 +48,14 @@ class Node:
         self._built_from: list[ombre.Solid] = []  # solids of the children
         self._checked_at = -1  # _Changes.count at the last check that nothing below had changed
         self._attributes: dict[str, Attribute] = {}
+        self._marked: Any = None  # the design with markers of attributes, and the solid that it is of
+        self._epsilon: float | None = None  # the step of gradients, if it was set
         self._place = _call_place()
         self._home: Any = current_factory()  # the materials in use where it was made
 
     def __getstate__(self) -> dict[str, Any]:
         """Returns the state for copies, which build their own solids."""
-        return {**self.__dict__, "_solid": None, "_factory": None, "_built_from": [], "_checked_at": -1, "_home": None}
+        return {**self.__dict__, "_solid": None, "_factory": None, "_built_from": [], "_marked": None, "_checked_at": -1, "_home": None}
 
     # Properties of a kind of node.
 
@@ -79,6 +85,17 @@ class Node:
         attribute = self._attributes.get("volume_fractions")
         return attribute._materials() if attribute else None
 
+    def _computed(self) -> dict[str, list[str]]:
+        """The attributes that it computes, each with those that it takes."""
+        return {}
+
+    def _part_names(self) -> set[str]:
+        """The attributes that parts of it have."""
+        return set()
+
+    def _mark_parts(self, marker: Callable[[str], str], mark: Attribute) -> None:
+        """Gives the parts an attribute of the name marker(name) beside each of their own."""
+
     # Attributes.
 
     def set_attribute(self, name: str, attribute: Any) -> None:
@@ -95,8 +112,9 @@ class Node:
         return self._attributes[name]
 
     def attribute_list(self) -> list[str]:
-        """The names that the node and those below it have."""
-        return sorted({name for node in in_order(self) for name in node._attributes})
+        """The names that the node and those below it have or compute."""
+        return sorted({name for node in in_order(self)
+                       for name in (*node._attributes, *node._computed(), *node._part_names())})
 
     # Building.
 
@@ -136,9 +154,9 @@ class Node:
         """The solid that Tile repeats, from the node's own."""
         return solid
 
-    def _error(self, text: str) -> ombre.DesignError:
+    def _error(self, text: str) -> WrongDesign:
         file, line = self._place
-        return ombre.DesignError(f"{file}:{line}: {self.type()}: {text}")
+        return WrongDesign(f"{file}:{line}: {self.type()}: {text}")
 
     def _design(self) -> ombre.Design:
         """Returns the design for questions, which need ids but no materials."""
@@ -192,11 +210,27 @@ class Node:
         if voxel_size is None:
             low, high = design.bounds
             voxel_size = max(b - a for a, b in zip(low, high)) / 128
-        return float(design.volume(_voxel_size(voxel_size)))
+        try:
+            return float(design.volume(_voxel_size(voxel_size)))
+        except ValueError as error:
+            raise WrongValue(f"volume: {error}") from None
 
     def gradient(self, *point: Any) -> Vec3:
-        """Gradient of the distance at (x, y, z) or a Vec3."""
-        return Vec3(*map(float, self._design().gradient(_point("gradient", point))))
+        """Gradient of the distance at (x, y, z) or a Vec3; by central differences once their step has been set."""
+        place = _point("gradient", point)
+        if self._epsilon is None:
+            return Vec3(*map(float, self._design().gradient(place)))
+        steps = self._epsilon * numpy.eye(3)
+        distances = self._design().distance(numpy.concatenate([place + steps, place - steps]))
+        return Vec3(*map(float, (distances[:3] - distances[3:]) / (2 * self._epsilon)))
+
+    def get_gradient_epsilon(self) -> float:
+        """The step of differences, mm."""
+        return _usual_epsilon if self._epsilon is None else self._epsilon
+
+    def set_gradient_epsilon(self, epsilon: float) -> None:
+        """Makes gradients differences over this step to both sides, mm."""
+        self._epsilon = length(epsilon)
 
     def snap(self, point: Any) -> Vec3:
         """The nearest point of the surface, mm."""
@@ -315,7 +349,30 @@ class Unary(Node):
             self._child = of(self._child)
 
 
-class Binary(Node):
+class _Resolving(Node):
+    """A node whose children may have an attribute by the same name."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._rules: dict[str, Any] = {}  # resolvers, by attributes
+
+    def set_attribute_conflict_resolver(self, name: str, resolver: Any) -> None:
+        """How an attribute combines where children overlap, in place of the first child that has it. Of a difference no
+        children overlap."""
+        if not isinstance(name, str) or not hasattr(resolver, "_combine"):
+            raise TypeError("set_attribute_conflict_resolver: expected a name and a resolver such as "
+                            "resolvers.AverageConflictResolver()")
+        self._rules[name] = resolver
+        self._changed()
+
+    def attribute_conflict_resolvers(self) -> dict[str, Any]:
+        return dict(self._rules)
+
+    def _take_copies(self) -> None:
+        self._rules = dict(self._rules)
+
+
+class Binary(_Resolving):
     """A node with a left and a right child."""
 
     def __init__(self, left: Any = None, right: Any = None) -> None:
@@ -351,18 +408,19 @@ class Binary(Node):
             self._right = of(self._right)
 
 
-class NAry(Node):
+class NAry(_Resolving):
     """A node with any number of children."""
 
     def __init__(self, children: Any = None) -> None:
         super().__init__()
-        self._rules: dict[str, Any] = {}  # resolvers, by attributes
         self._is_given = children is not None  # an empty list is nothing, no list a mistake
         self._children: list[Node] = list(children or ())
 
-    def add_child(self, child: Any) -> None:
+    def add_child(self, child: Any) -> bool:
+        """Adds a child behind the others, and returns True."""
         self._children.append(as_node(child))
         self._changed()
+        return True
 
     def child(self, index: int) -> Node:
         return self._children[index]
@@ -372,17 +430,6 @@ class NAry(Node):
 
     def num_children(self) -> int:
         return len(self._children)
-
-    def set_attribute_conflict_resolver(self, name: str, resolver: Any) -> None:
-        """How an attribute combines where children overlap, in place of the first child that has it."""
-        if not isinstance(name, str) or not hasattr(resolver, "_combine"):
-            raise TypeError("set_attribute_conflict_resolver: expected a name and a resolver such as "
-                            "resolvers.AverageConflictResolver()")
-        self._rules[name] = resolver
-        self._changed()
-
-    def attribute_conflict_resolvers(self) -> dict[str, Any]:
-        return dict(self._rules)
 
     def _attribute_rules(self) -> list[tuple[str, str]]:
         return [(name, resolver._rule) for name, resolver in self._rules.items()

@@ -11,11 +11,13 @@ from ._simulation import (InpWriter, SimulationBackend, SimulationCellType, Simu
                           SimulationTetFixedMeshSettings)
 from ._inkjet import (ColorInkjetCompiler, ColorInkjetExportMode, ColorPipeline, ColorPipelineOptions,
                       MaterialInkjetCompiler, MaterialInkjetExportMode)
+from ._full_spectrum import FullSpectrumSlicerProjectCompiler
 from ._material_vats import MultiMaterialVatCompiler, MultiMaterialVatOutputMode, MultiMaterialVatSystem
 from ._myerson import MyersonCompiler
 from ._slicer_projects import PrusaSlicerProjectCompiler
 
-__all__ = ["ColorInkjetCompiler", "ColorInkjetExportMode", "ColorPipeline", "ColorPipelineOptions", "PrusaSlicerProjectCompiler",
+__all__ = ["ColorInkjetCompiler", "ColorInkjetExportMode", "ColorPipeline", "ColorPipelineOptions",
+           "FullSpectrumSlicerProjectCompiler", "PrusaSlicerProjectCompiler",
            "MaterialInkjetCompiler", "MaterialInkjetExportMode", "MultiMaterialVatCompiler", "MultiMaterialVatOutputMode",
            "MultiMaterialVatSystem", "MyersonCompiler", "VatCompiler", "VdbCompiler",
            "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler",

@@ -10,7 +10,9 @@ import numpy
 
 from pyvcad._arguments import number, size
 from pyvcad._attributes import FloatAttribute
+from pyvcad._defined import are_everywhere, marked, marker
 from pyvcad._grids import centers, slabs
+from pyvcad._sampling import OCCUPANCY, with_occupancy
 from pyvcad._materials import expect_table
 from pyvcad._tree import Node, as_node, in_order
 
@@ -33,6 +35,21 @@ class _AttributeCompiler(_Compiler):
         """Makes places of the part without the attribute an error, before anything is written."""
         self._is_strict = bool(strict)
 
+    def _check_given(self, name: str) -> None:
+        """Raises RuntimeError at the first voxel of the part where nothing gives the attribute."""
+        if are_everywhere(self._root, [name]):
+            return
+        design = marked(self._root, self._root.attribute_list())._design()
+        for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
+            bad = design.inside(points) & ~(design.attribute(marker(name), points) > 0.5)
+            if bad.any():
+                raise self._nothing_gives(name, points[bad][0])
+
+    def _nothing_gives(self, name: str, point: Any) -> RuntimeError:
+        x, y, z = (float(c) for c in point)
+        return RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g}); set it on a node above, or "
+                            "on each child")
+
     def _check_everywhere(self, name: str, lacks: Callable[[Node], bool], has: Callable[[Node], bool]) -> None:
         """Raises RuntimeError at the first voxel of nodes that lack the attribute, where none above has it."""
         tree = self._root.clone()
@@ -47,8 +64,7 @@ class _AttributeCompiler(_Compiler):
         for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
             bad = design.inside(points) & (design.attribute(_is_undefined, points) > 0.5)
             if bad.any():
-                x, y, z = (float(c) for c in points[bad][0])
-                raise RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g})")
+                raise self._nothing_gives(name, points[bad][0])
 
     def _check_attributes(self) -> None:
         absent = [name for name in self._required if name not in self._root.attribute_list()]
@@ -94,7 +110,7 @@ class VatCompiler(_AttributeCompiler):
 
     def _check_strictly(self) -> None:
         if self._is_strict:
-            self._check_everywhere("intensity", lambda node: not node._inputs(), lambda node: "intensity" in node._attributes)
+            self._check_given("intensity")
 
     def set_fallback_intensity(self, value: float) -> None:
         self._fallback = min(1.0, max(0.0, number(value)))
@@ -132,20 +148,22 @@ class VatCompiler(_AttributeCompiler):
 
 
 class VdbCompiler(_AttributeCompiler):
-    """Writes grids of OpenVDB: "distance" (a narrow band), and one for each number of the attributes."""
+    """Writes grids of OpenVDB: "distance" (a narrow band), one for each number of the attributes, and "occupancy", which is 1
+    inside, if it is to be included. Without names all attributes are written."""
 
     def __init__(self, root: Any, voxel_size: Any, path: Path, attributes_to_export: Any = None,
                  include_occupancy: bool = False) -> None:
         self._root, self._voxel = as_node(root), _voxel("VdbCompiler", voxel_size)
         self._path, self._names = os.fspath(path), list(attributes_to_export or [])
+        self._has_occupancy = bool(include_occupancy)
 
     def compile(self) -> None:
         self._is_stopped = False
-        design = self._root._design()
+        design = (with_occupancy(self._root) if self._has_occupancy else self._root)._design()
         names = self._names or [name for name in self._root.attribute_list() if name != "volume_fractions"]
         absent = [name for name in names if name not in design.attributes]
         if absent:
             raise RuntimeError(f"VdbCompiler: no node of the tree has the attribute {', '.join(absent)}")
-        design.write_voxels(self._path, voxel=",".join(map(repr, self._voxel)), what=",".join(["distance", *names]),
+        design.write_voxels(self._path, voxel=",".join(map(repr, self._voxel)), what=",".join(["distance", *names, *([OCCUPANCY] if self._has_occupancy else [])]),
                             force=True, progress=self._share)
         self._report(1.0)

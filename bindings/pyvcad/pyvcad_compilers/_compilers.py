@@ -1,8 +1,10 @@
 """The compilers, over Ombre's jobs."""
 from __future__ import annotations
 
+import functools
 import os
 import tempfile
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -23,9 +25,25 @@ from ._png import write_gray
 Path = str | os.PathLike[str]
 
 
+def _timed(compile: Callable[[Any], None]) -> Callable[[Any], None]:
+    """The method, which keeps how long it took."""
+    @functools.wraps(compile)
+    def run(self: Any) -> None:
+        begin = time.perf_counter()
+        compile(self)
+        self._seconds = time.perf_counter() - begin
+    return run
+
+
 class _Compiler:
     _callback: Callable[[float], Any] | None = None
     _is_stopped = False
+    _seconds: float | None = None  # what the last compile() took, once it has ended well
+
+    def __init_subclass__(cls, **named: Any) -> None:
+        super().__init_subclass__(**named)
+        if "compile" in vars(cls):
+            setattr(cls, "compile", _timed(vars(cls)["compile"]))
 
     def setProgressCallback(self, callback: Callable[[float], Any] | None) -> None:
         """A function of the share that is done, 0 to 1."""
@@ -40,10 +58,17 @@ class _Compiler:
         return []
 
     def report_stats(self) -> None:
-        """Prints the settings and results of the last compile()."""
+        """Prints the settings and results of the last compile(): the box, the size of voxels, seconds and so on."""
+        if self._seconds is None:
+            print(f"{type(self).__name__}: compile() has not ended yet")
+            return
+        root = getattr(self, "_root", None)
+        if root is not None:
+            print("box:", *root.bounding_box())
         for name, value in sorted(vars(self).items()):
             if isinstance(value, (int, float, str, tuple)) and not isinstance(value, bool):
                 print(f"{name.strip('_').replace('_', ' ')}: {value}")
+        print(f"threads: {os.cpu_count()}")
 
     def _report(self, share: float) -> None:
         if self._callback:

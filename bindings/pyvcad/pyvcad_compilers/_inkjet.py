@@ -237,7 +237,7 @@ class ColorInkjetCompiler(_InkjetCompiler):
         self._fallback = tuple(color)
 
     def _check_strictly(self) -> None:
-        self._check_everywhere("color_rgba", lambda node: not node._inputs(), lambda node: "color_rgba" in node._attributes)
+        self._check_given("color_rgba")
 
     def _tree(self) -> Node:
         tree = self._root.clone()

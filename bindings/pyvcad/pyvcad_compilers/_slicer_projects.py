@@ -2,15 +2,16 @@
 from __future__ import annotations
 
 import os
-import zipfile
 from typing import Any
 
+from pyvcad._arguments import not_negative
 from pyvcad._attributes import DefaultAttributes
-from pyvcad._errors import missing
 from pyvcad._tree import as_node
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path, _voxel
+from ._filaments import RecipeRules
+from ._mixed_projects import BY_COLOUR, BY_FRACTIONS, MixedProject, rewrite
 
 _settings = ("INFILL_DENSITY FUZZY_SKIN_POINT_DISTANCE FUZZY_SKIN_THICKNESS BRIDGE_SPEED EXTERNAL_PERIMETER_SPEED "
              "GAP_FILL_SPEED INFILL_SPEED IRONING_SPEED PERIMETER_SPEED SMALL_PERIMETER_SPEED SOLID_INFILL_SPEED "
@@ -30,32 +31,51 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         output_file_path: a file of that name is replaced.
         num_regions: bands of each attribute.
         printer_profile_path, filament_profile_path: .ini files that PrusaSlicer has exported; the project gets their settings.
+        enable_color_mix: mixes filaments by "color_rgb", or by "volume_fractions" with `volume_fraction_materials`, as
+            FullSpectrumSlicerProjectCompiler does. So does a part with one of them and none of the slicers' attributes.
+        color_mix_filaments, color_mix_recipe_preset, max_palette_size, min_component_percent, max_recipe_components,
+        direct_physical_delta_e, region_overlap_mm, volume_fraction_materials, material_defs_path: as there.
+        total_physical_extruders: mixtures are numbered after it.
     """
 
     def __init__(self, root: Any, voxel_size: Any, output_file_path: Path, num_regions: int = 10,
-                 printer_profile_path: Path = "", filament_profile_path: Path = "", **options: Any) -> None:
+                 printer_profile_path: Path = "", filament_profile_path: Path = "", enable_color_mix: bool = False,
+                 color_mix_filaments: Any = None, total_physical_extruders: int = 5, color_mix_recipe_preset: str = "expanded",
+                 max_palette_size: int = 32, min_component_percent: float = 15, max_recipe_components: int = 3,
+                 direct_physical_delta_e: float = 1.0, region_overlap_mm: float = 0.2, volume_fraction_materials: Any = None,
+                 material_defs_path: Path = "") -> None:
         name = type(self).__name__
         if isinstance(num_regions, bool) or not isinstance(num_regions, int) or num_regions < 2:
             raise ValueError(f"{name}, num_regions: expected 2 or more, found {num_regions!r}")
-        for option in options:
-            if option not in _mixing:
-                raise TypeError(f"{name} has no argument {option!r}")
-        if any(options.get(option) for option in ("enable_color_mix", "color_mix_filaments", "volume_fraction_materials")):
-            raise missing(f"{name} with mixed colours", "ombre.Design.mesh(path, bands=4, mix_layers=4, flavour=\"prusa\") mixes "
-                          "two filaments layer by layer")
+        not_negative(region_overlap_mm)
+        rules = RecipeRules(name, color_mix_recipe_preset, max_palette_size, min_component_percent, max_recipe_components,
+                            direct_physical_delta_e)
+        self._mixed = MixedProject(self, color_mix_filaments, total_physical_extruders, rules, volume_fraction_materials,
+                                   material_defs_path)
+        self._is_mixing = bool(enable_color_mix or color_mix_filaments or volume_fraction_materials)
         self._profiles = [_profile(name, os.fspath(path)) for path in (printer_profile_path, filament_profile_path) if path]
         self._root, self._voxel, self._bands = as_node(root), _voxel(name, voxel_size), num_regions
         self._path = os.fspath(output_file_path)
 
     def supported_attributes(self) -> list[str]:
+        return [*self._banded(), BY_COLOUR, BY_FRACTIONS]
+
+    @staticmethod
+    def _banded() -> list[str]:
         return [*(getattr(DefaultAttributes, name) for name in _settings), *_tools]
 
     def compile(self) -> None:
+        self._is_stopped = False
         has = self._root.attribute_list()
-        chosen = [name for name in self.supported_attributes() if name in has]
+        chosen = [name for name in self._banded() if name in has]
+        if self._is_mixing or not chosen and (BY_COLOUR in has or BY_FRACTIONS in has):
+            return self._mix(chosen)
         if not chosen:
             raise RuntimeError("PrusaSlicerProjectCompiler: no node of the tree has one of the attributes "
                                f"{', '.join(self.supported_attributes())}")
+        if BY_COLOUR in has:
+            raise RuntimeError(f"PrusaSlicerProjectCompiler: the tree has {BY_COLOUR} and {', '.join(chosen)}; a project is "
+                               "made of bodies of mixed filaments, or of bodies with settings. Write two projects")
         tools = [name for name in chosen if name in _tools]
         if tools and len(self._profiles) < 2:
             raise RuntimeError(f"PrusaSlicerProjectCompiler: {' and '.join(tools)} of tools need printer_profile_path and "
@@ -63,16 +83,27 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         os.makedirs(os.path.dirname(os.path.abspath(self._path)), exist_ok=True)
         self._root._design().mesh(self._path, by=",".join(chosen), bands=self._bands, flavour="prusa", force=True,
                                   tolerance=min(self._voxel) / 8, virtual_tools=bool(tools), progress=self._share)
+        self._finish()
+
+    def _mix(self, banded: list[str]) -> None:
+        if banded:
+            raise RuntimeError(f"PrusaSlicerProjectCompiler: filaments are mixed by colours or fractions, and the tree has "
+                               f"{', '.join(banded)} as well; write two projects")
+        self._mixed.write(self._root, self._voxel, self._path, "prusa")
+        self._finish()
+
+    def _finish(self) -> None:
         if self._profiles:
-            _add_settings(self._path, {key: value for profile in self._profiles for key, value in profile.items()})
+            settings = {key: value for profile in self._profiles for key, value in profile.items()}
+            rewrite(self._path, lambda name, content: _extended(content, settings) if name == _config else content)
         self._report(1.0)
+
+    def recipes(self) -> list[dict[str, Any]]:
+        """The mixtures and filaments of bodies after compile(), each with its part of the whole and how far it is off."""
+        return self._mixed.recipes
 
 
 _tools = ("temperature", "flow_rate")
-# Arguments of mixed colours, which Ombre does not have; without enable_color_mix they mean nothing.
-_mixing = ("enable_color_mix", "color_mix_filaments", "total_physical_extruders", "color_mix_recipe_preset", "max_palette_size",
-           "min_component_percent", "max_recipe_components", "direct_physical_delta_e", "region_overlap_mm",
-           "volume_fraction_materials", "material_defs_path")
 _config = "Metadata/Slic3r_PE.config"
 
 
@@ -84,17 +115,6 @@ def _profile(what: str, path: str) -> dict[str, str]:
     if not settings:
         raise ValueError(f"{what}: {path} has no settings; export it in PrusaSlicer by File, Export, Export Config")
     return settings
-
-
-def _add_settings(path: str, settings: dict[str, str]) -> None:
-    """Gives a project the settings that it does not have of its own."""
-    with zipfile.ZipFile(path) as archive:
-        entries = [(entry, archive.read(entry)) for entry in archive.infolist()]
-    beside = f"{path}.{os.getpid()}.part"
-    with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
-        for entry, content in entries:
-            archive.writestr(entry, _extended(content, settings) if entry.filename == _config else content)
-    os.replace(beside, path)
 
 
 def _extended(config: bytes, settings: dict[str, str]) -> bytes:

@@ -8,5 +8,6 @@
     entries = med.color_maps.create_linear_gradient_hu_map(-200, 800, palette="jet")
 """
 from . import color_maps, imaging
+from .color_maps import raw_color_palettes
 
-__all__ = ["color_maps", "imaging"]
+__all__ = ["color_maps", "imaging", "raw_color_palettes"]

@@ -18,13 +18,14 @@ from pyvcad._tree import as_node
 
 from . import vtk_export
 from ._diagram_files import Render_Tree_Diagram, Render_Tree_Legend
+from ._mesh_selections import load_mesh_selection, resolve_selection_mesh, save_mesh_selection
 from ._pictures import (Render_Image, Render_Sweep_Animation, Render_Turntable_Animation, RenderSettings, VisualizeSDF,
-                        first_scaled_attribute)
+                        first_scaled_attribute, shown_attribute)
 from .vtk_export import export_iso_surface_vtk, export_volume_vtk
 
 __all__ = ["Render", "Export", "RenderSettings", "Render_Image", "Render_Sweep_Animation", "Render_Tree_Diagram",
            "Render_Tree_Legend", "Render_Turntable_Animation", "VisualizeSDF", "export_iso_surface_vtk",
-           "export_volume_vtk", "vtk_export"]
+           "export_volume_vtk", "load_mesh_selection", "resolve_selection_mesh", "save_mesh_selection", "vtk_export"]
 
 # The methods of a design that are not called as their kinds of jobs.
 _methods = {"voxels": "write_voxels"}
@@ -58,9 +59,9 @@ def Render(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
         return
     node = as_node(root)
     design = node._ombre_design_(materials)
-    # A part with attributes in place of materials has the colours of the first one that varies.
+    # A part with attributes in place of materials has their colours, or those of the first one that varies.
     if "by" not in options and node.attribute_list() and "volume_fractions" not in node.attribute_list():
-        if name := first_scaled_attribute(node):
+        if name := shown_attribute(node):
             options["by"] = name
             options.setdefault("legend", True)
     design.show(None if path is None else os.fspath(path), **options)
@@ -101,6 +102,7 @@ def Export(root: Any, materials: Any = None, path: str | os.PathLike[str] | None
 render, export, render_image = Render, Export, Render_Image
 render_sweep_animation, render_turntable_animation = Render_Sweep_Animation, Render_Turntable_Animation
 render_tree_diagram, render_tree_legend = Render_Tree_Diagram, Render_Tree_Legend
+visualize_sdf = VisualizeSDF
 
 
 def __getattr__(name: str) -> object:

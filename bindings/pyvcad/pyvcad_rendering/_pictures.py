@@ -9,10 +9,11 @@ import subprocess
 import tempfile
 from typing import Any
 
-from pyvcad._arguments import length, number
+import ombre
+from pyvcad._arguments import Point, length, number, vector
 from pyvcad._errors import missing
 from pyvcad._materials import expect_table
-from pyvcad._tree import Node, as_node
+from pyvcad._tree import Node, Unary, as_node
 
 _rays = {"low": 1, "medium": 2, "high": 3, "ultra": 4}
 _palettes = {"auto": None, "viridis": "viridis", "plasma": "plasma", "inferno": "inferno", "magma": "magma",
@@ -52,6 +53,12 @@ def first_scaled_attribute(node: Node) -> str | None:
     return None
 
 
+def shown_attribute(node: Node) -> str | None:
+    """The attribute that parts are coloured by: a colour, else the first number that is not the same everywhere."""
+    own = node.attribute_list()
+    return next((name for name in ("color_rgba", "color_rgb") if name in own), None) or first_scaled_attribute(node)
+
+
 # Places in a box, off its planes of symmetry.
 _places = [((0.31 + 7 * n % 17) / 17, (0.43 + 11 * n % 19) / 19, (0.57 + 5 * n % 23) / 23) for n in range(200)]
 
@@ -64,9 +71,9 @@ def options_of(node: Node, settings: Any, width: int, height: int) -> dict[str, 
         raise ValueError(f"quality: expected {', '.join(_rays)}, found {quality!r}")
     options["aa"] = _rays[quality]
     _add_colours(node, settings, options)
-    if _setting(settings, "clipping_plane", False):
-        options["cut"] = _cut(_setting(settings, "clipping_plane_origin", (0, 0, 0)),
-                              _setting(settings, "clipping_plane_normal", (1, 0, 0)))
+    plane = _plane(settings)
+    if plane and len(_axes_of(plane[1])) == 1:
+        options["cut"] = _cut(*plane)
     position, focus = _setting(settings, "camera_position"), _setting(settings, "camera_focal_point", (0, 0, 0))
     if position is not None:
         options["from_"] = _direction([number(a) - number(b) for a, b in zip(position, focus or (0, 0, 0))])
@@ -78,7 +85,7 @@ def options_of(node: Node, settings: Any, width: int, height: int) -> dict[str, 
 def _add_colours(node: Node, settings: Any, options: dict[str, Any]) -> None:
     name = _setting(settings, "visualized_attribute")
     if name is None and "volume_fractions" not in node.attribute_list():
-        name = first_scaled_attribute(node)
+        name = shown_attribute(node)
     if name and name not in ("none", "Signed Distance", "volume_fractions"):
         options["by"] = name
         options["legend"] = bool(_setting(settings, "scale_bar_visible", True))
@@ -97,13 +104,43 @@ def _add_colours(node: Node, settings: Any, options: dict[str, Any]) -> None:
         options["background"] = "#" + "".join(f"{c:02x}" for c in channels[:3])
 
 
-def _cut(origin: Any, normal: Any) -> str:
-    """The cut that takes away the side to which the normal points."""
-    along = [n for n, c in enumerate(normal) if abs(number(c)) > 1e-9]
-    if len(along) != 1:
-        raise missing("a clipping plane that is not across x, y or z", "a normal along an axis")
-    axis = along[0]
-    return f"{'xyz'[axis]}{'>' if normal[axis] > 0 else '<'}{number(list(origin)[axis]):g}"
+def _plane(settings: Any) -> tuple[Point, Point] | None:
+    """A point of the clipping plane and its normal, which points to the side that is taken away."""
+    if not _setting(settings, "clipping_plane", False):
+        return None
+    normal = vector(_setting(settings, "clipping_plane_normal", None) or (1, 0, 0))
+    if not any(normal):
+        raise ValueError("clipping_plane_normal: expected a direction, found (0, 0, 0)")
+    return vector(_setting(settings, "clipping_plane_origin", None) or (0, 0, 0)), normal
+
+
+def _axes_of(normal: Point) -> list[int]:
+    return [n for n, c in enumerate(normal) if abs(c) > 1e-9 * max(abs(other) for other in normal)]
+
+
+def _cut(origin: Point, normal: Point) -> str:
+    """The cut across an axis that takes away the side to which the normal points."""
+    axis = _axes_of(normal)[0]
+    return f"{'xyz'[axis]}{'>' if normal[axis] > 0 else '<'}{origin[axis]:g}"
+
+
+class _Clipped(Unary):
+    """The child behind a plane."""
+
+    def __init__(self, child: Node, origin: Point, normal: Point) -> None:
+        super().__init__(child)
+        self._origin, self._normal = origin, normal
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        size = math.sqrt(sum(c * c for c in self._normal))
+        offset = sum(a * b for a, b in zip(self._origin, self._normal)) / size
+        return ombre.intersection([solids[0], ombre.half_space(self._normal, offset)], materials="first")
+
+
+def _clipped(root: Any, settings: Any) -> Node:
+    """The part, without what lies before a clipping plane that is not across an axis; the others are cuts of pictures."""
+    node, plane = as_node(root), _plane(settings)
+    return node if plane is None or len(_axes_of(plane[1])) == 1 else _Clipped(node, *plane)
 
 
 def _direction(way: list[float]) -> str:
@@ -118,10 +155,10 @@ def Render_Image(root: Any, file: str | os.PathLike[str], settings: Any = None, 
                  materials: Any = None) -> None:
     """Writes a picture (.png). `settings` is a RenderSettings or a dict.
 
-    Parts with attributes but no materials have the colours of the first attribute that varies.
+    Parts with attributes but no materials have their colours, or those of the first attribute that varies.
     """
     expect_table("Render_Image", materials)
-    node = as_node(root)
+    node = _clipped(root, settings)
     node._ombre_design_(materials).render(os.fspath(file), **options_of(node, settings, width, height))
 
 
@@ -178,7 +215,7 @@ def Render_Turntable_Animation(root: Any, output_dir: Any, duration: float = 3.0
     A distance_multiplier of 1.5 shows the part as large as pictures do.
     """
     expect_table("Render_Turntable_Animation", materials)
-    node = as_node(root)
+    node = _clipped(root, settings)
     design, count = node._ombre_design_(materials), max(2, round(length(float(duration)) * fps))
     options = options_of(node, settings, width, height)
 

@@ -29,7 +29,9 @@ inline bool is_of_orca(SlicerFlavour flavour) {
 }
 inline bool is_of_bambu(SlicerFlavour flavour) { return flavour == SlicerFlavour::bambu || is_of_orca(flavour); }
 
-// Number of filaments that a project can have, with mixtures.
+// Number of filaments that a project can have.
 inline constexpr size_t most_filaments = 16;
+// Number of filaments and mixtures together that the program takes in a project with mixtures.
+size_t most_extruders(SlicerFlavour flavour);
 
 }  // namespace ombre::formats

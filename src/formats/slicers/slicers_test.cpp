@@ -161,6 +161,20 @@ TEST(SnapmakerProject, PatternsHaveTheSharesOfTheirMixtures) {
     }
 }
 
+// In the programs, 1 and 2 stand for the filaments that begin the row, and greater numbers for the filaments themselves
+// (their own tests: physical_filament_from_token).
+TEST(SnapmakerProject, TheThirdFilamentHasItsOwnNumber) {
+  const std::vector<FilamentMixture> one{{"", {}, {{2, 2}, {4, 1}, {5, 1}}}};
+  const std::string text = snapmaker_mixtures(one), row = text.substr(0, text.find(';'));
+  EXPECT_TRUE(row.starts_with("2,4,1,1,25,")) << row;  // one layer of four has the second filament
+  const std::string pattern = row.substr(row.rfind(',') + 1);
+  EXPECT_EQ(pattern.size(), 4U);
+  EXPECT_EQ(std::ranges::count(pattern, '1'), 2);
+  EXPECT_EQ(std::ranges::count(pattern, '2'), 1);
+  EXPECT_EQ(std::ranges::count(pattern, '5'), 1);
+  EXPECT_EQ(pattern.find("11"), std::string::npos) << "equal layers lie apart";
+}
+
 TEST(HeightRanges, HaveTheWordsOfTheirSlicer) {
   MeshDocument document = pair();
   EXPECT_EQ(height_ranges(document, SlicerFlavour::prusa, 1), "");

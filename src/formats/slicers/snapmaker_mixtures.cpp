@@ -1,5 +1,6 @@
 #include "formats/slicers/snapmaker_mixtures.h"
 
+#include "base/system/assert.h"
 #include "base/text/text.h"
 
 namespace ombre::formats {
@@ -15,19 +16,37 @@ std::string row(uint32_t first, uint32_t second, bool is_used, long percent, siz
          std::to_string(percent) + ",0,g,w,m2,z0,xa0,xb0,d" + unused + ",o" + unused + ",u" + std::to_string(identity);
 }
 
-// Returns which filament of the mixture each layer of a cycle has, 1 or 2, spread evenly.
-std::string pattern_of(int first, int layers) {
+// Returns how a pattern names a part of the mixture.
+char name_of(const FilamentMixture& mixture, size_t part) {
+  constexpr size_t parts_of_row = 2;
+  const auto number = part < parts_of_row ? static_cast<uint32_t>(part + 1) : mixture.parts[part].extruder;
+  ASSERT(number <= most_in_pattern);
+  return static_cast<char>('0' + number);
+}
+
+int layers_from(const FilamentMixture& mixture, size_t part) {
+  int layers = 0;
+  for (; part < mixture.parts.size(); ++part) layers += mixture.parts[part].layers;
+  return layers;
+}
+
+// Returns which filament each layer of a cycle has, of this part of the mixture and those after it, spread evenly.
+std::string pattern_from(const FilamentMixture& mixture, size_t part) {
+  const int layers = layers_from(mixture, part), own = mixture.parts[part].layers;
+  const std::string others = own < layers ? pattern_from(mixture, part + 1) : "";
   std::string pattern;
-  for (int layer = 0; layer < layers; ++layer)
-    pattern += (layer + 1) * first / layers > layer * first / layers ? '1' : '2';
+  for (int layer = 0, other = 0; layer < layers; ++layer) {
+    const bool is_own = (layer + 1) * own / layers > layer * own / layers;
+    pattern += is_own ? name_of(mixture, part) : others[static_cast<size_t>(other++)];
+  }
   return pattern;
 }
 
 std::string row_of(const FilamentMixture& mixture, size_t identity) {
   const FilamentMixture::Part &one = mixture.parts[0], &two = mixture.parts[1];
-  const int layers = one.layers + two.layers;
+  const int layers = layers_from(mixture, 0);
   const long percent = (200L * two.layers + layers) / (2L * layers);  // to the nearest
-  return row(one.extruder, two.extruder, true, percent, identity) + ',' + pattern_of(one.layers, layers);
+  return row(one.extruder, two.extruder, true, percent, identity) + ',' + pattern_from(mixture, 0);
 }
 
 }  // namespace

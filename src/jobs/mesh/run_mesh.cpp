@@ -20,6 +20,7 @@
 #include "jobs/mesh/beam_document.h"
 #include "jobs/mesh/exact_bodies.h"
 #include "jobs/mesh/height_bands.h"
+#include "jobs/mesh/material_filaments.h"
 #include "jobs/mesh/mesh_choices.h"
 #include "jobs/mesh/mixed_filaments.h"
 #include "jobs/mesh/painted_surfaces.h"
@@ -282,14 +283,51 @@ bool add_ranges(const MeshChoices& a, const compile::Loaded& loaded, formats::Me
   return true;
 }
 
+bool may_take_material_filaments(const MeshChoices& a, const compile::Loaded& loaded) {
+  return formats::is_project(a.flavour) && describes_filaments(loaded.design.materials);
+}
+
+bool have_good_filaments(const MeshChoices& a, const compile::Loaded& loaded, Diagnostics& diagnostics) {
+  if (may_take_material_filaments(a, loaded)) check_material_filaments(loaded.design.materials, a.flavour, diagnostics);
+  return !diagnostics.has_errors();
+}
+
+void refuse_extruder(const MeshChoices& a) {
+  for (const std::string& setting : a.settings)
+    if (SlicerSetting(setting).key() == "extruder")
+      throw WrongArgument(spelled::option("--setting", setting) +
+                          " and the members \"extruder\" and \"mix_layers\" of materials both choose extruders; leave "
+                          "one of the two out");
+}
+
+void choose_filaments(const MeshChoices& a, const compile::Loaded& loaded, const compile::MeshedDesign& made,
+                      const Events& events, formats::MeshDocument& document) {
+  if (!may_take_material_filaments(a, loaded)) return;
+  const auto is_of_material = [](const compile::RegionBody& body) { return body.region.material.has_value(); };
+  const bool is_free = a.mix_layers == 0 && !a.virtual_tools && a.colour_by.empty();
+  if (!is_free || !std::ranges::all_of(made.bodies, is_of_material))
+    return events.warn(
+        "\"extruder\" and \"mix_layers\" of materials are for bodies of materials, so they are not used here");
+  refuse_extruder(a);
+  add_material_filaments(loaded.design.materials, made, events, document);
+}
+
 void check_filaments(const MeshChoices& a, const formats::MeshDocument& document) {
   if (!formats::is_project(a.flavour)) return;
-  for (const formats::MeshBody& body : document.bodies)
-    if (formats::body_extruder(body) > formats::most_filaments)
-      throw WrongArgument(std::to_string(document.bodies.size()) +
-                          " bodies have a filament each, and a project has at most " +
-                          std::to_string(formats::most_filaments) + "; write " +
-                          spelled::option("--setting", "extruder=1") + " for one filament");
+  const formats::SlicerProject& project = document.project;
+  const bool mixes = !project.mixtures.empty();
+  const size_t most = mixes ? formats::most_extruders(a.flavour) : formats::most_filaments;
+  for (const formats::MeshBody& body : document.bodies) {
+    if (formats::body_extruder(body) <= most) continue;
+    if (mixes)
+      throw WrongArgument(std::to_string(project.filaments.size()) + " filaments and " +
+                          std::to_string(project.mixtures.size()) + " mixtures are more than the " +
+                          std::to_string(most) + " that a project of " + std::string(formats::program_of(a.flavour)) +
+                          " has; use fewer materials with \"mix_layers\"");
+    throw WrongArgument(std::to_string(document.bodies.size()) +
+                        " bodies have a filament each, and a project has at most " + std::to_string(most) + "; write " +
+                        spelled::option("--setting", "extruder=1") + " for one filament");
+  }
 }
 
 int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made, const MeshOutput& output,
@@ -298,6 +336,7 @@ int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDe
   if (a.virtual_tools) add_virtual_tools(made, session.events, document);
   Diagnostics& diagnostics = printed.diagnostics();
   if (a.mix_layers > 0) add_mixed_filaments(loaded, made, a.mix_layers, session.events, diagnostics, document);
+  choose_filaments(a, loaded, made, session.events, document);
   check_filaments(a, document);
   tell_equal_bands(session.events, made, a, document);
   const bool good = colour(a, loaded, made.tolerance_mm, document, diagnostics, session) &&
@@ -341,7 +380,7 @@ int mesh(const MeshChoices& a, Session& session) {
   };
   steps.plan = [&](Diagnostics& diagnostics) -> std::optional<compile::LoadedPtr> {
     const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
-    return loaded ? std::optional(loaded) : std::nullopt;
+    return loaded && have_good_filaments(a, *loaded, diagnostics) ? std::optional(loaded) : std::nullopt;
   };
   steps.run = [&](const compile::LoadedPtr& loaded) {
     const MakeMesh make = [&](PrintedDiagnostics& printed, Progress& progress) {
@@ -379,7 +418,7 @@ SharedJobPtr share(const void* job, Session& session, Diagnostics& diagnostics) 
   request.usual = usual_regions(a, *output.format);
   refuse_options(a, request, output);
   const compile::LoadedPtr loaded = load_design(a.design, session, diagnostics, a.work.threads);
-  if (!loaded) return nullptr;
+  if (!loaded || !have_good_filaments(a, *loaded, diagnostics)) return nullptr;
   refuse_exact(*loaded, request, session);
   auto planned = compile::plan_mesh(*loaded, request, diagnostics, nullptr, &session.stop);
   if (!planned || diagnostics.has_errors()) return nullptr;

@@ -1,0 +1,4 @@
+"""Another place of pyvcad: from libvcad import pyvcad."""
+import pyvcad
+
+__all__ = ["pyvcad"]
