@@ -121,6 +121,13 @@ def numbers_are_complete(found):
     return f"rows without a call: {missing}" if missing else ""
 
 
+def operators_are_called(found):
+    """Each operator of the library has a row with numbers."""
+    scripts = "\n".join(line for _, _, lines in found for line in lines if not line.startswith("# "))
+    missing = [name for name, _, _ in examples() if not re.search(rf"\b{name}\(", scripts)]
+    return f"operators without a row: {missing}" if missing else ""
+
+
 def main():
     given = program.arguments("Calls each operator: those of the given rows.", int,
                               evaluators="compare ways to compute the same")
@@ -132,6 +139,7 @@ def main():
         checks += [(f"example of {name}", lambda library=library, example=example: example_works(ombre, library, example))
                    for name, library, example in examples()]
         checks.append(("all rows", lambda: numbers_are_complete(found)))
+        checks.append(("all operators", lambda: operators_are_called(found)))
     return program.check_all(checks)
 
 

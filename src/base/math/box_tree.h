@@ -36,6 +36,8 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(const std::vector<Box>& boxes);
 
+  bool empty() const { return order_.empty(); }
+
   // Calls visit(number) for each box that intersects `box`.
   template <class Visit>
   void each_that_meets(const Box& box, const Visit& visit) const {
@@ -43,6 +45,13 @@ class BoxTree {
   }
 
   bool meets_any(const Box& box) const { return !order_.empty() && is_met(levels_.size() - 1, 0, box); }
+
+  // Calls visit(number) for each box within `reach` of a point, until it returns false. Returns whether all were
+  // visited.
+  template <class Visit>
+  bool each_within(Vec3 point, double reach, const Visit& visit) const {
+    return order_.empty() || ask_within(levels_.size() - 1, 0, point, reach * reach, visit);
+  }
 
   // Returns the least distance(number), or any distance that is at most `enough`; infinity if all exceed `reach`. The
   // distance to an element must be at least the distance to its box.
@@ -75,6 +84,16 @@ class BoxTree {
     if (level == 0) return visit(node);
     const size_t begin = node * width, end = std::min(begin + width, levels_[level - 1].size());
     for (size_t n = std::max(begin, first >> (2 * (level - 1))); n < end; ++n) ask(level - 1, n, box, first, visit);
+  }
+
+  template <class Visit>
+  bool ask_within(size_t level, size_t node, Vec3 point, double squared, const Visit& visit) const {
+    if (squared_distance(point, levels_[level][node]) > squared) return true;
+    if (level == 0) return visit(order_[node]);
+    const size_t begin = node * width, end = std::min(begin + width, levels_[level - 1].size());
+    for (size_t n = begin; n < end; ++n)
+      if (!ask_within(level - 1, n, point, squared, visit)) return false;
+    return true;
   }
 
   bool is_met(size_t level, size_t node, const Box& box) const {

@@ -54,6 +54,22 @@ TEST(BoxTree, FindsTheNearest) {
   }
 }
 
+TEST(BoxTree, FindsWhatIsWithinAReach) {
+  for (const size_t count : {0, 1, 4, 5, 17, 300}) {
+    const std::vector<Box> boxes = scattered_boxes(count);
+    const BoxTree tree(boxes);
+    const Vec3 point{3, 4, 2};
+    std::set<uint32_t> found, expected;
+    EXPECT_TRUE(tree.each_within(point, 3, [&](uint32_t n) { return found.insert(n).second; }));
+    for (uint32_t n = 0; n < boxes.size(); ++n)
+      if (squared_distance(point, boxes[n]) <= 9) expected.insert(n);
+    EXPECT_EQ(found, expected) << count;
+    size_t visits = 0;
+    EXPECT_EQ(tree.each_within(point, 3, [&](uint32_t) { return ++visits < 2; }), expected.size() < 2);
+    EXPECT_EQ(visits, std::min<size_t>(2, expected.size()));
+  }
+}
+
 TEST(BoxTree, FindsEachPairOnce) {
   for (const size_t count : {0, 1, 4, 5, 17, 300}) {
     const std::vector<Box> boxes = scattered_boxes(count);

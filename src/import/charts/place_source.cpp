@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "base/math/box_tree.h"
+#include "base/math/nearest_of_all.h"
 #include "import/fields/triangle_distance.h"
 
 namespace ombre::importing {
@@ -43,10 +43,24 @@ class PlaceSource final : public program::NamedSource {
   }
   void sample_channels(std::span<const int> channels, std::span<const Vec3> points,
                        std::span<double* const> values) const override {
-    for (size_t n = 0; n < points.size(); ++n) {
+    static thread_local Search search;
+    search.points.clear();
+    for (const Vec3 p : points)
+      if (is_finite(p)) search.points.push_back(p);
+    find_places(search);
+    if (std::ranges::find(channels, static_cast<int>(border_channel)) != channels.end()) find_borders(search);
+    for (size_t n = 0, found = 0; n < points.size(); ++n) {
       const bool is_place = is_finite(points[n]);
-      const Place place = is_place ? nearest(points[n]) : Place{};
-      for (size_t c = 0; c < channels.size(); ++c) values[c][n] = is_place ? value(channels[c], points[n], place) : 0;
+      for (size_t c = 0; c < channels.size(); ++c) {
+        double& to = values[c][n];
+        if (!is_place)
+          to = 0;
+        else if (channels[c] == border_channel)
+          to = search.from_border[found];
+        else
+          to = value(channels[c], points[n], search.places[found]);
+      }
+      if (is_place) ++found;
     }
   }
 
@@ -99,6 +113,40 @@ class PlaceSource final : public program::NamedSource {
     Place place;
   };
 
+  // Squared distances from points to triangles and to segments of the border.
+  auto to_triangles() const {
+    return [this](Vec3 p, uint32_t n) { return squared_distance(p, corners(n)); };
+  }
+  auto to_border() const {
+    return [this](Vec3 p, uint32_t n) {
+      return squared_distance_to_segment(p, patch_.points[border_[n][0]], patch_.points[border_[n][1]]);
+    };
+  }
+
+  // Points that are sampled together, and what belongs to them.
+  struct Search {
+    NearestOfAll all;
+    std::vector<Vec3> points, nearest_points;
+    std::vector<NearestOfAll::Nearest> nearest;
+    std::vector<Place> places;
+    std::vector<double> from_border;  // mm
+  };
+
+  void find_places(Search& search) const {
+    search.nearest.resize(search.points.size());
+    search.all.find(tree_, search.points, to_triangles(), search.nearest);
+    search.places.clear();
+    for (size_t n = 0; n < search.points.size(); ++n)
+      search.places.push_back(place_in(search.nearest[n], search.points[n]));
+  }
+  void find_borders(Search& search) const {
+    search.nearest_points.clear();
+    for (const Place& place : search.places) search.nearest_points.push_back(mean(patch_.points, place));
+    search.all.find(border_tree_, search.nearest_points, to_border(), search.nearest);
+    search.from_border.clear();
+    for (const auto& [squared, segment] : search.nearest) search.from_border.push_back(std::sqrt(squared));
+  }
+
   // Returns the nearest point, in the first of the nearest triangles.
   Place nearest(Vec3 p) const {
     static thread_local Last last;
@@ -108,14 +156,10 @@ class PlaceSource final : public program::NamedSource {
     return last.place;
   }
   Place nearest_within(Vec3 p, double reach) const {
-    Place best;
-    tree_.nearest(p, reach, -1, [&](uint32_t n) {
-      const double squared = squared_distance(p, corners(n));
-      if (squared < best.squared || (squared == best.squared && n < best.triangle)) best = {squared, n, {}};
-      return std::sqrt(squared);
-    });
-    best.shares = nearest_shares(corners(best.triangle), p);
-    return best;
+    return place_in(NearestOfAll::find_one(tree_, p, reach, to_triangles()), p);
+  }
+  Place place_in(const NearestOfAll::Nearest& triangle, Vec3 p) const {
+    return {triangle.squared, triangle.number, nearest_shares(corners(triangle.number), p)};
   }
 
   double distance(Vec3 p) const { return std::sqrt(nearest(p).squared); }
@@ -126,18 +170,50 @@ class PlaceSource final : public program::NamedSource {
     const Vec3 middle = box.center();
     const double farthest = (distance(middle) + length(box.size())) * (1 + 1e-9) + 1e-9;
     if (farthest > farthest_listed * mean_size_) return false;
-    tree_.each_that_meets(Box{middle, middle}.expanded(farthest), visit);
-    return true;
+    return tree_.each_within(middle, farthest, [&](uint32_t n) {
+      if (squared_distance(middle, corners(n)) <= farthest * farthest) visit(n);
+      return true;
+    });
   }
 
-  // The side changes only where the surface lies between, or beyond its border.
   Interval range_of_distance(const Box& box) const {
     const double reach = 0.5 * length(box.size()) + 1e-9, least = distance(box.center());
-    bool meets_border = false;
-    const bool is_known = least > reach && each_near(box, [&](uint32_t n) { meets_border |= at_border_[n]; });
-    if (!is_known || meets_border) return {-(least + reach), least + reach};
-    const double middle = sample(distance_channel, box.center());
-    return {middle - reach, middle + reach};
+    const double most = least + reach;
+    if (least <= reach) return {-most, most};
+    bool meets_border = false, is_outer = true, is_inner = true;
+    const bool is_listed = each_near(box, [&](uint32_t n) {
+      meets_border |= at_border_[n];
+      if (is_outer || is_inner) {
+        const Interval side = side_of(box.center(), reach, n);
+        is_outer &= side.lo > 0;
+        is_inner &= side.hi < 0;
+      }
+    });
+    if (!is_listed) return {-most, most};
+    // Without a border, the side changes only where the surface lies between.
+    if (!meets_border) (sample(distance_channel, box.center()) < 0 ? is_inner : is_outer) = true;
+    return is_outer ? Interval(least - reach, most) : is_inner ? Interval(-most, reach - least) : Interval(-most, most);
+  }
+  // Returns the range of what decides the side of points within `reach` of p whose nearest point lies in a triangle: of
+  // its heights above the planes that `normal_of_place` chooses from.
+  Interval side_of(Vec3 p, double reach, uint32_t triangle) const {
+    const auto t = corners(triangle);
+    Interval found{Box::inf, -Box::inf};
+    const auto add = [&](Vec3 normal, Vec3 q) {
+      const double height = dot(p - q, normal), room = (reach + 1e-9) * length(normal);
+      found = joined(found, {height - room, height + room});
+    };
+    const Vec3 own = face_normal(triangle);
+    add(own, t[0]);
+    for (size_t n = 0; n < 3; ++n) {
+      add(corner_normals_[patch_.triangles[triangle][n]], t[n]);
+      const uint32_t beyond = neighbours_[triangle][n];
+      if (beyond == no_triangle) continue;
+      const Vec3 sum = own + face_normal(beyond);
+      for (size_t end = 0; end < 3; ++end)
+        if (end != n) add(sum, t[end]);
+    }
+    return found;
   }
 
   // Returns the sum of values of the corners, weighted by the shares.
@@ -178,9 +254,7 @@ class PlaceSource final : public program::NamedSource {
   }
 
   double from_border(Vec3 q) const {
-    return border_tree_.nearest(q, Box::inf, 0, [&](uint32_t n) {
-      return std::sqrt(squared_distance_to_segment(q, patch_.points[border_[n][0]], patch_.points[border_[n][1]]));
-    });
+    return std::sqrt(NearestOfAll::find_one(border_tree_, q, Box::inf, to_border()).squared);
   }
 
   void make_border() {

@@ -55,6 +55,16 @@ SurfacePatch tent() {
   return patch;
 }
 
+// A pyramid without its base, whose tip is at (0, 0, 5).
+SurfacePatch pyramid() {
+  SurfacePatch patch;
+  patch.points = {{4, 4, 0}, {-4, 4, 0}, {-4, -4, 0}, {4, -4, 0}, {0, 0, 5}};
+  patch.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  patch.places = {{4, 4}, {-4, 4}, {-4, -4}, {4, -4}, {0, 0}};
+  make_normals(patch);
+  return patch;
+}
+
 }  // namespace
 
 // Above a plane the place is the point; beside it, that of the nearest point of its border.
@@ -109,13 +119,7 @@ TEST_F(PlaceSourceTest, EdgesHaveTheSideOfBothFaces) {
 }
 
 TEST_F(PlaceSourceTest, CornersHaveTheSideOfAllFaces) {
-  // A pyramid without its base, whose tip is at (0, 0, 5).
-  SurfacePatch patch;
-  patch.points = {{4, 4, 0}, {-4, 4, 0}, {-4, -4, 0}, {4, -4, 0}, {0, 0, 5}};
-  patch.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
-  patch.places = {{4, 4}, {-4, 4}, {-4, -4}, {4, -4}, {0, 0}};
-  make_normals(patch);
-  const auto source = make_place_source("pyramid", std::move(patch), {});
+  const auto source = make_place_source("pyramid", pyramid(), {});
   for (int n = 0; n < 200; ++n) {
     const Vec3 up = random_point({-0.3, -0.3, 0.5}, {0.3, 0.3, 2});
     EXPECT_NEAR(at(source, "distance", Vec3{0, 0, 5} + up), length(up), 1e-12);
@@ -126,7 +130,8 @@ TEST_F(PlaceSourceTest, CornersHaveTheSideOfAllFaces) {
 TEST_F(PlaceSourceTest, RangesEncloseValues) {
   SurfacePatch patch = sphere_patch(10, -0.5, 0.7, 12, 12);
   for (const Vec3& p : patch.points) patch.places.push_back({10 * std::atan2(p.y, p.x), p.z});
-  for (const auto& source : {make_place_source("sphere", patch, {}), make_place_source("tent", tent(), {}), plane()})
+  for (const auto& source : {make_place_source("sphere", patch, {}), make_place_source("tent", tent(), {}),
+                             make_place_source("pyramid", pyramid(), {}), plane()})
     for (int n = 0; n < 300; ++n) {
       const Vec3 low = random_point({-12, -12, -12}, {14, 14, 12});
       const double size = std::exp(random_point({-4, 0, 0}, {2, 1, 1}).x);
@@ -140,6 +145,18 @@ TEST_F(PlaceSourceTest, RangesEncloseValues) {
         }
       }
     }
+}
+
+// The border of the plane z = 3 lies at x = 20: boxes of 1 mm beside it are 1 mm above or below the plane, or around
+// it.
+TEST_F(PlaceSourceTest, RangesOfDistancesHaveOneSideAlsoBeyondTheBorder) {
+  const auto source = plane();
+  const auto range = [&](Vec3 low) { return source->range(source->channel("distance"), {low, low + Vec3{1, 1, 1}}); };
+  EXPECT_GT(range({19.5, 4, 4}).lo, 0);
+  EXPECT_GT(range({21, 4, 4}).lo, 0);
+  EXPECT_LT(range({21, 4, 1}).hi, 0);
+  EXPECT_LT(range({21, 4, 2.5}).lo, 0);
+  EXPECT_GT(range({21, 4, 2.5}).hi, 0);
 }
 
 TEST_F(PlaceSourceTest, ChannelsAtOnceAreThoseOneByOne) {
