@@ -82,6 +82,23 @@ def walls_have_their_thickness(folder):
     near(frame["wall"]["mm"], 1.0, 0.11, "the wall of a frame")
 
 
+def folded_sheets_have_their_slope(folder):
+    """A sheet of the thickness t fills t times the slope of its function: 1/c up and down, 2 d/a along the fold, and 4 d s/b across
+    where creases zigzag. Sheets along waves are longer than the length from trough to trough."""
+    cells = "m = box_cells((6, 8, 5), min=(0, 0, 0), max=(6, 8, 5)); "
+
+    def density(rest):
+        return characteristics(folder, cells + f'folds(m, 0.5, 0.4, material="red"{rest});', "--voxel", "0.125", "--periodic", "xyz")["density"]
+    near(density(""), 0.5 * math.hypot(1 / 5, 0.8 / 6), 2e-3, "a folded sheet")
+    near(density(', creases="zigzag", swing=0.5'), 0.5 * math.hypot(1 / 5, 0.8 / 6, 0.8 / 8), 2e-3, "Miura's fold")
+    steps = [2 * math.pi * (n + 0.5) / 1000 for n in range(1000)]
+    rise = 0.4 * math.pi * 5 / 6
+    length = sum(math.hypot(1, rise * math.cos(a)) for a in steps) / 1000
+    near(density(', profile="round"'), 0.5 * length / 5, 4e-3, "a corrugated sheet")
+    curved = sum(math.hypot(1 / 5, 0.8 / 6, 0.8 * 0.25 * math.pi * math.cos(a) / 8) for a in steps) / 1000
+    near(density(', creases="curved"'), 0.5 * curved, 2e-3, "curved creases")
+
+
 def thin_struts_have_their_length(folder):
     """Struts of an octet truss with the radius r have about pi r^2 times their length, 12 sqrt 2 cells, less the joints."""
     found = characteristics(folder, CELLS + 'lattice("octet", radius=0.24, map=m, material="red");', "--voxel", "0.08",
@@ -143,8 +160,38 @@ def random_cells_are_counted(folder):
     expect("128 points" in folder.run("characterise", "foam.vcad", "--voxel", "0.4").stderr, "no cells in the text")
 
 
-CHECKS = [random_cells_are_counted, balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
-          walls_have_their_thickness, thin_struts_have_their_length, stiffness_is_that_of_homogenise, curves_are_tables,
+def graphs_of_cells_are_counted(folder):
+    """Coordination numbers and Maxwell numbers b - 3 j + 6 of single cells: Deshpande, Ashby, Fleck 2001; octet 36 - 3*14 + 6,
+    bcc 8 - 3*9 + 6, cubic 12 - 3*8 + 6. In each repeating cell there are as many struts as half the degrees of its joints."""
+    wanted = {"cubic": (1, 6, 1, -6), "bcc": (2, 8, 3 ** 0.5 / 2, -13), "octet": (4, 12, 0.5 ** 0.5, 0),
+              "kelvin": (12, 4, 0.125 ** 0.5, -30), "diamond": (8, 4, 3 ** 0.5 / 4, None)}
+    for name, (joints, degree, length, maxwell) in wanted.items():
+        (found,) = characteristics(folder, CELLS + f'lattice("{name}", radius=0.5, map=m, material="red");', "--voxel", "0.5")["lattices"]
+        expect((found["joints"], found["joints_of_degree"]) == (joints, {str(degree): joints}), found)
+        expect(found["struts"] == joints * degree / 2 and found["repeats"], found)
+        near(found["length_mm"]["mean"], 6 * length, 1e-9, "the length of a strut")
+        near(found["slenderness"]["least"], 2 * 6 * length / 0.5, 1e-9, "the slenderness of a strut")
+        expect(maxwell is None or found["maxwell"] == maxwell, found)
+    pipe = 'p = cylinder_cells(4, 8, 4, count=(8, 1, 1)); lattice("bcc", radius=0.6, map=p, material="red");'
+    (bent,) = characteristics(folder, pipe, "--voxel", "0.8")["lattices"]
+    expect((bent["joints"], bent["struts"], bent["maxwell"]) == (2, 8, -13) and "length_mm" not in bent, bent)
+
+
+def graphs_of_edges_are_counted(folder):
+    """A tetrahedron is just rigid: 6 - 3*4 + 6 = 0. A strut in two pieces is one strut."""
+    design = """corners = [[0, 0, 0], [8, 0, 0], [0, 8, 0], [0, 0, 8]];
+lattice(edges=[for (i = [0:3]) for (j = [i + 1:3]) [corners[i], corners[j]]], radius=0.5, material="red");
+translate(20, 0, 0) lattice(edges=[[(0, 0, 0), (3, 0, 0)], [(3, 0, 0), (8, 0, 0)]], radius="0.5 + 0.1*sin(10*t)", material="red");"""
+    tetrahedron, line = characteristics(folder, design, "--voxel", "0.5")["lattices"]
+    expect((tetrahedron["joints"], tetrahedron["struts"], tetrahedron["maxwell"]) == (4, 6, 0), tetrahedron)
+    expect(tetrahedron["joints_of_degree"] == {"3": 4} and not tetrahedron["repeats"], tetrahedron)
+    expect((line["joints"], line["struts"], line["length_mm"]["mean"]) == (2, 1, 8) and "slenderness" not in line, line)
+    folder.write("graph.vcad", design)
+    expect("4 joints and 6 struts" in folder.run("characterise", "graph.vcad", "--voxel", "0.5").stderr, "no graph in the text")
+
+
+CHECKS = [graphs_of_cells_are_counted, graphs_of_edges_are_counted, random_cells_are_counted, balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
+          walls_have_their_thickness, folded_sheets_have_their_slope, thin_struts_have_their_length, stiffness_is_that_of_homogenise, curves_are_tables,
           wrong_use_is_reported]
 
 

@@ -4,6 +4,7 @@
     python3 tests/run_homogenise.py build/dev/apps/ombre/ombre
 """
 import json
+import math
 import xml.etree.ElementTree as ElementTree
 
 import program
@@ -77,6 +78,45 @@ def sizes_are_compared(folder):
         expect(error < 0.01, f"a block has an error of {error}")
 
 
+def cell(solid):
+    return f"m = box_cells((1, 1, 1), min=(0, 0, 0), max=(1, 1, 1)); {solid}"
+
+
+def moduli_scale_as_published(folder):
+    """E goes with the density where struts are stretched (octet: Deshpande, Fleck, Ashby 2001), and with its square where they bend
+    (Gibson, Ashby 1997); both exponents are somewhat greater at finite densities."""
+    def exponent(name, *radii):
+        found = [homogenised(folder, cell(f'lattice("{name}", radius={r}, map=m, material="red");'), "--cell", "0.05") for r in radii]
+        (e0, e1), (d0, d1) = ([f[key] if key == "solid_share" else f[key][0] for f in found] for key in ("modulus_mpa", "solid_share"))
+        return math.log(e1 / e0) / math.log(d1 / d0)
+    octet, bcc = exponent("octet", 0.05, 0.09), exponent("bcc", 0.06, 0.12)
+    expect(1 < octet < 1.5, f"the exponent of an octet truss is {octet}")
+    expect(1.9 < bcc < 2.5, f"the exponent of a body-centred lattice is {bcc}")
+
+
+def plates_are_as_stiff_as_their_plane_stress(folder):
+    """Thin plates of thickness t on the faces of cubes of side 1, with k = E t / (1 - nu^2): C11 = 2 k, C12 = nu k."""
+    modulus, nu, thickness = 2850, 0.39, 0.05
+    k = modulus * thickness / (1 - nu ** 2)
+    found = homogenised(folder, cell(f'plates(m, "cubic", {thickness}, "red");'), "--cell", "0.025")
+    near(found["modulus_mpa"][0], k * (2 - 2 * nu ** 2 / (2 + nu)), 0.04, "Young's modulus of plates")
+
+
+def reentrant_cells_widen(folder):
+    """Beams of length l and thickness t in hexagons with upright walls of h (Gibson, Ashby 1997, 4.15a with shear and stretch)."""
+    length, upright, thickness, degrees, nu = 5, 8, 0.5, -20, 0.39
+    sine, cosine = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
+    share = (thickness / length) ** 2
+    wanted = (cosine ** 2 / ((upright / length + sine) * sine) * (1 + (1.4 + 1.5 * nu) * share)
+              / (1 + (2.4 + 1.5 * nu + (cosine / sine) ** 2) * share))
+    design = (f"w = {2 * length * cosine}; v = {2 * (upright + length * sine)};\n"
+              "m = box_cells((w, v, 0.5), min=(0, 0, 0), max=(w, v, 0.5));\n"
+              f'honeycomb(m, {thickness}, {degrees}, {upright / length}, "red");')
+    found = homogenised(folder, design, "--cell", "0.25")
+    expect(wanted < -1.8, f"the formula gives {wanted}")
+    near(found["poissons_ratio"][0], wanted, 0.15, "Poisson's ratio of a re-entrant honeycomb")
+
+
 def densities_find_a_thickness(folder):
     """A rod that fills a quarter of a box of 4 mm is 2 mm thick."""
     rod = 'thickness = 1; rectprism([thickness, thickness, 8], material="red");'
@@ -141,7 +181,7 @@ def wrong_use_is_reported(folder):
 
 
 CHECKS = [plain_blocks_are_their_material, layers_share_strain_in_the_plane, boxes_cut_and_repeat, shares_are_those_of_the_design, sizes_are_compared,
-          densities_find_a_thickness,
+          densities_find_a_thickness, moduli_scale_as_published, plates_are_as_stiff_as_their_plane_stress, reentrant_cells_widen,
           draws_are_softer_than_means, charts_are_written, layers_conduct_in_series_and_parallel,
           wrong_use_is_reported]
 

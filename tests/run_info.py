@@ -192,9 +192,35 @@ def maps_on_surfaces_are_reported(folder):
     expect("stretched by 1 to 1," in folder.run("info", "cells.vcad").stdout, "no report in the text")
 
 
+def maps_are_reported(folder):
+    """Cells of a pipe are as long around as their share of the circle: 2 pi r / 16 between the radii 12 and 18, else 5 and 6 mm. Cells
+    whose lengths grow along x by u = x - x^2/64 have the volume 1/(1 - x/32)."""
+    folder.write("pipe.vcad", "p = cylinder_cells(12, 18, 40, count=(16, 8, 1));\n"
+                 'tpms("gyroid", map=p, thickness=0.5, material="red");')
+    (pipe,) = folder.info("pipe.vcad")["maps"]
+    around = 2 * math.pi / 16
+    expect((pipe["node"], pipe["line"]) == ("cylinder_cells", 1) and pipe["points"] > 500, pipe)
+    expect(30 * 12 * around <= pipe["volume_mm3"]["least"] < 30 * 12.6 * around, pipe)
+    expect(30 * 17.4 * around < pipe["volume_mm3"]["greatest"] <= 30 * 18 * around, pipe)
+    x, y, _ = pipe["volume_mm3"]["greatest_at"]
+    expect(abs(math.hypot(x, y) * 30 * around - pipe["volume_mm3"]["greatest"]) < 1e-9, "the volume is not that of its place")
+    least = 12 * around  # around, at the inner wall; along the axis cells are 5 mm long, outward 6 mm
+    expect(least <= pipe["stretch_mm"]["least"] < 1.05 * least and abs(pipe["stretch_mm"]["greatest"] - 18 * around) < 0.3, pipe)
+    expect(6 / 5 < pipe["aspect"]["greatest"] < 18 / 12, pipe)
+    folder.write("graded.vcad", "m = formula_cells(u=\"x - x^2/64\", v=\"y\", w=\"z\", region=cube(8));\n"
+                 'tpms("gyroid", map=m, thickness=0.1, material="red");')
+    (graded,) = folder.info("graded.vcad")["maps"]
+    for end in ("least", "greatest"):
+        place = graded["volume_mm3"][f"{end}_at"][0]
+        expect(abs(graded["volume_mm3"][end] - 1 / (1 - place / 32)) < 1e-9, graded)
+    expect(abs(graded["aspect"]["greatest"] - 1 / (1 - 4 / 32)) < 0.01, graded)
+    expect("times as long in one direction as in another" in folder.run("info", "graded.vcad").stdout, "no map in the text")
+
+
+
 CHECKS = [meshes_are_described, drawings_are_described, tables_are_described, images_are_described,
           cad_files_are_described, faces_of_cad_files_are_described, sets_of_decks_are_described, steps_of_results_are_chosen,
-          choices_of_volumes_are_taken, maps_on_surfaces_are_reported]
+          choices_of_volumes_are_taken, maps_on_surfaces_are_reported, maps_are_reported]
 
 
 if __name__ == "__main__":

@@ -17,9 +17,14 @@ bool Node::is_mixture() const {
 std::vector<std::string> Node::output_names() const {
   std::vector<std::string> names;
   const NodePtr not_held(NodePtr(), this);
-  for (const Node* node : topological({not_held}))
-    for (size_t n = 0; n < node->type().outputs.size(); ++n)
-      if (node->type().is_solid() && node->gives(n)) names.push_back(node->type().outputs[n].name);
+  // Constants, such as lists of points, are those of the node alone, whose frame they are in.
+  const auto is_passed_up = [](const OutputInfo& output) { return output.type.form == OutputForm::numbers; };
+  for (const Node* node : topological({not_held})) {
+    if (!node->type().is_solid()) continue;
+    const auto& outputs = node->type().outputs;
+    for (size_t n = 0; n < outputs.size(); ++n)
+      if (node->gives(n) && (node == this || is_passed_up(outputs[n]))) names.push_back(outputs[n].name);
+  }
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;

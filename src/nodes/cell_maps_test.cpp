@@ -276,10 +276,14 @@ TEST_F(CellMaps, BentWallsHaveTheirThickness) {
                                                                                        {"height", Data(24.0)},
                                                                                        {"count", list({12, 3, 1})}});
   for (const NodePtr& map : {bent, cone})
-    for (const std::string type : {"tpms", "plates"}) {
+    for (const std::string type : {"tpms", "plates", "folds"}) {
       const double thickness = 0.2;
       Named sheet{{"map", object(map)}, {"thickness", Data(thickness)}};
       if (type == "plates") sheet.push_back({"kind", Data("octet")});
+      if (type == "folds") {
+        sheet.push_back({"profile", Data("round")});
+        sheet.push_back({"creases", Data("curved")});
+      }
       const NodePtr wall = make(type, sheet);
       int tried = 0;
       while (tried < 12) {

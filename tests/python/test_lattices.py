@@ -1,4 +1,5 @@
 """Lattices, tiles and smooth booleans: pyvcad's interface and ombre's."""
+import itertools
 import math
 import pathlib
 
@@ -75,6 +76,23 @@ def test_ombre_takes_arrays_of_edges():
     assert graph.inside([5, 5, 0]) and not graph.inside([3, 3, 3])
     graded = graph.fgrade([ombre.t, 1 - ombre.t], ["red", "blue"])
     assert graded.material([[2.5, 0, 0]])["red"][0] == pytest.approx(0.75)  # that edge begins at (10, 0, 0)
+
+
+def test_struts_are_lists_of_edges():
+    """An octet truss has 36 struts in a cell: 24 halves of diagonals of faces, and 12 between centres of faces."""
+    cells = ombre.box_cells(size=(4, 4, 4), min=(0, 0, 0), max=(8, 8, 8))
+    octet = numpy.array(ombre.lattice("octet", map=cells, radius=0.3).struts)
+    assert octet.shape == (36, 2, 3) and octet.min() == 0 and octet.max() == 1
+    assert numpy.allclose(numpy.linalg.norm(octet[:, 1] - octet[:, 0], axis=1), math.sqrt(0.5))
+    level = [strut for strut in octet if strut[0][2] == strut[1][2]]
+    layers = ombre.lattice(edges=level, map=cells, radius=0.3)
+    assert list(layers.inside([(1, 1, 0.05), (0.05, 1, 1)])) == [True, False]
+    corners = [(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6), (1, 1, 1)]  # of a tetrahedron, and a point in it
+    edges = ombre.delaunay_struts(corners, 0.5).struts
+    assert sorted(map(sorted, edges)) == sorted(sorted([list(a), list(b)]) for a, b in itertools.combinations(corners, 2))
+    moved = ombre.lattice("bcc").translate(1, 0, 0)  # its struts are in another frame
+    with pytest.raises(AttributeError):
+        moved.struts
 
 
 def test_cells_know_their_indices():

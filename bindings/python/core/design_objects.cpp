@@ -233,9 +233,17 @@ py::object constant(const NodeHandle& handle, const std::string& output) {
   return to_python(handle.node->constant(handle.node->type().output(output).value()));
 }
 
-// True if the solid, or a solid inside it, has the output.
+// True if the solid, or a solid inside it, has the output, which varies in space.
 bool has_output(const NodeHandle& handle, const std::string& output) {
-  return handle.node->type().is_solid() && handle.node->output_type(output);
+  const design::OutputType* type = handle.node->type().is_solid() ? handle.node->output_type(output) : nullptr;
+  return type && type->form == design::OutputForm::numbers;
+}
+
+// True if the node itself has the output, which is a constant.
+bool has_constant(const NodeHandle& handle, const std::string& output) {
+  const auto number = handle.node->type().output(output);
+  return number && handle.node->gives(*number) &&
+         handle.node->type().outputs[*number].type.form == design::OutputForm::constant;
 }
 
 std::vector<NodeHandle> inputs(const NodeHandle& handle) {
@@ -419,6 +427,7 @@ void add_designs(py::module_& module, const CachePtr& cache) {
       .def_property_readonly("outputs", &outputs)
       .def("constant", &constant)
       .def("has_output", &has_output)
+      .def("has_constant", &has_constant)
       .def("names_materials_of",
            [](const NodeHandle& h, const FactoryPtr& factory) {
              return &h.factory->materials().all() == &factory->materials().all();

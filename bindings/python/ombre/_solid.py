@@ -243,6 +243,8 @@ class Solid:
         from ._design import Design
         if name.startswith("_"):
             raise AttributeError(name)
+        if self._node.has_constant(name):
+            return self._node.constant(name)
         if self._node.has_output(name):
             made = _classes["output_of"](self, name)
             return getattr(made, made._node.outputs[0][0])

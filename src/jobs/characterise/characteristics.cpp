@@ -159,6 +159,9 @@ DataMembers Characteristics::data() const {
   DataList foams;
   for (const RandomCells& foam : random_cells) foams.emplace_back(foam.data());
   if (!foams.empty()) members.emplace_back("random_cells", foams);
+  DataList graphs;
+  for (const LatticeGraph& lattice : lattices) graphs.emplace_back(lattice.data());
+  if (!graphs.empty()) members.emplace_back("lattices", graphs);
   return members;
 }
 
@@ -200,6 +203,7 @@ std::optional<Characteristics> characteristics_of(const LoadedPtr& loaded, const
   found.wall = thinnest_place(*grid, request.periodic, false, request.stop);
   found.gap = thinnest_place(*grid, request.periodic, true, request.stop);
   found.random_cells = random_cells_of(loaded->design);
+  found.lattices = lattice_graphs_of(loaded->design);
   return found;
 }
 

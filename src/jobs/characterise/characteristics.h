@@ -10,6 +10,7 @@
 #include "base/text/diagnostic.h"
 #include "jobs/characterise/random_cells.h"
 #include "jobs/characterise/solid_grid.h"
+#include "jobs/characterise/strut_graphs.h"
 #include "load/loaded.h"
 
 namespace ombre::compile {
@@ -34,6 +35,7 @@ struct Characteristics {
   int64_t euler = 0, coarse_euler = 0;
   ThinPlace wall, gap;
   std::vector<RandomCells> random_cells;
+  std::vector<LatticeGraph> lattices;
 
   double box_mm3() const;
   double density() const { return volume_mm3.value / box_mm3(); }

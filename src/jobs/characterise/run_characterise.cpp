@@ -147,6 +147,7 @@ void tell(const Events& events, const Characteristics& found) {
                 spelled::option("--voxel"));
   warn_of_coarse_voxels(events, found);
   for (const compile::RandomCells& foam : found.random_cells) events.say(foam.text());
+  for (const compile::LatticeGraph& lattice : found.lattices) events.say(lattice.text());
   events.say("least wall " + place_text(found.wall) + "; least gap " + place_text(found.gap));
 }
 

@@ -11,6 +11,7 @@
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
 #include "jobs/info/file_summary.h"
+#include "jobs/info/map_reports.h"
 #include "jobs/info/mesh_coverage.h"
 #include "jobs/info/result_files.h"
 #include "jobs/info/volume_info.h"
@@ -106,11 +107,26 @@ std::vector<NodeReport> reports_of(const design::Design& design) {
   return reports;
 }
 
+std::string report_text(const std::string& node, int line, const std::string& text) {
+  return node + (line > 0 ? ", line " + std::to_string(line) : "") + "  " + text + "\n";
+}
+
 std::string reports_text(const std::vector<NodeReport>& reports) {
   std::string text;
-  for (const NodeReport& report : reports)
-    text += report.node + (report.line > 0 ? ", line " + std::to_string(report.line) : "") + "  " + report.text + "\n";
+  for (const NodeReport& report : reports) text += report_text(report.node, report.line, report.text);
   return text;
+}
+
+std::string maps_text(const std::vector<compile::MapReport>& maps) {
+  std::string text;
+  for (const compile::MapReport& map : maps) text += report_text(map.node, map.line, map.text());
+  return text;
+}
+
+DataList maps_data(const std::vector<compile::MapReport>& maps) {
+  DataList list;
+  for (const compile::MapReport& map : maps) list.emplace_back(map.data());
+  return list;
 }
 
 DataList reports_data(const std::vector<NodeReport>& reports) {
@@ -129,16 +145,18 @@ int show_design(const std::string& path, Session& session) {
   session.events.diagnose(diagnostics);
   if (!coverage) return wrong_input;
   const std::vector<NodeReport> reports = reports_of(loaded->design);
+  const std::vector<compile::MapReport> maps = compile::map_reports_of(loaded->design);
   DataList list;
   for (const compile::SurveyedAttribute& attribute : *attributes) list.push_back(attribute_data(attribute));
   if (session.events.wants_data())
     session.events.event("design", {{"file", path},
                                     {"attributes", std::move(list)},
                                     {"results", coverage_data(*coverage)},
-                                    {"reports", reports_data(reports)}});
+                                    {"reports", reports_data(reports)},
+                                    {"maps", maps_data(maps)}});
   else
     session.events.print((attributes->empty() ? "the design has no attributes\n" : attributes_text(*attributes)) +
-                         coverage_text(*coverage) + reports_text(reports));
+                         coverage_text(*coverage) + reports_text(reports) + maps_text(maps));
   return done;
 }
 

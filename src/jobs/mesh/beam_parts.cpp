@@ -126,7 +126,7 @@ class Splitter {
         maker_{design, diagnostics, root_->where()} {
     for (const Node* node : design::topological({root_})) {
       const auto has_struts = [&](const NodePtr& input) { return with_struts_.contains(input.get()); };
-      if (nodes::strut_count(*node) > 0 || std::ranges::any_of(node->inputs(), has_struts)) with_struts_.insert(node);
+      if (nodes::makes_struts(*node) || std::ranges::any_of(node->inputs(), has_struts)) with_struts_.insert(node);
     }
   }
 
@@ -175,7 +175,7 @@ class Splitter {
 
   // Returns nothing if struts below this node are not beams.
   std::optional<Split> split_known(const NodePtr& node, const Affine& design_from_here) {
-    if (nodes::strut_count(*node) > 0) return split_lattice(*node, design_from_here);
+    if (nodes::makes_struts(*node)) return split_lattice(*node, design_from_here);
     if (const auto copies = nodes::tile_copies_of(*node)) return split_tile(*node, *copies, design_from_here);
     if (node->keeps_shape()) return split_input(node, design_from_here);
     if (const auto map = here_from_input(*node)) {
@@ -190,18 +190,28 @@ class Splitter {
   }
 
   std::optional<Split> split_lattice(const Node& node, const Affine& design_from_here) {
-    auto struts = nodes::struts_of(node);
-    if (!struts) return std::nullopt;
+    auto made = nodes::struts_of(node).struts;
+    if (!made) return std::nullopt;
     // Ends that floats cannot distinguish would make no beam.
     constexpr double rounding = 1e-6;
-    for (const StrutShape& strut : *struts) {
+    for (const StrutShape& strut : made->struts) {
       const Vec3 start = design_from_here(strut.start), end = design_from_here(strut.end);
       if (length(end - start) < rounding * (1 + length(start))) return std::nullopt;
     }
-    strut_count_ += static_cast<double>(struts->size());
+    strut_count_ += static_cast<double>(made->struts.size());
     Split split;
-    split.pieces.push_back({std::move(*struts), std::nullopt, design_from_here, {}});
+    split.pieces.push_back({std::move(made->struts), made->copies, design_from_here, {}});
+    if (!made->region.node) return split;
+    NodePtr region = in_design(region_of(node, made->region), design_from_here);
+    if (!region) return std::nullopt;
+    clip_pieces(split, {{std::move(region)}, {}});
     return split;
+  }
+
+  // Returns a solid that a parameter of the node holds.
+  NodePtr region_of(const Node& node, const design::SolidName& name) const {
+    const Data given = design::write_solid({name.node, name.output});
+    return maker_.make("solid_of", {{"solid", design::with_held_nodes(given, node.values())}}, {});
   }
 
   std::optional<Split> split_input(const NodePtr& node, const Affine& design_from_input) {
@@ -375,7 +385,7 @@ class Splitter {
   // first use.
   double count_struts(const Node& node, const Box& where) {
     if (!with_struts_.contains(&node)) return 0;
-    if (const size_t own = nodes::strut_count(node)) return static_cast<double>(own);
+    if (nodes::makes_struts(node)) return static_cast<double>(nodes::strut_count(node));
     if (const auto known = counts_.find(&node); known != counts_.end()) return known->second;
     double copies = 1;
     Box below = node.bounds(where);
@@ -403,15 +413,17 @@ class Splitter {
       const auto found = counts.find(reason_of(*lost.cause));
       if (found == counts.end()) continue;
       const auto count = static_cast<unsigned long long>(found->second);
-      diagnostics_.warning(lost.cause->where(), (count == 1 ? "1 strut is" : format_count(count) + " struts are") +
-                                                    " written as triangles, because " + found->first);
+      const std::string struts = count == 0   ? "struts are"
+                                 : count == 1 ? "1 strut is"
+                                              : format_count(count) + " struts are";
+      diagnostics_.warning(lost.cause->where(), struts + " written as triangles, because " + found->first);
       counts.erase(found);
     }
   }
 
   static std::string reason_of(const Node& cause) {
-    if (nodes::strut_count(cause) > 0) return "the radius is not linear along the struts";
-    return "beams cannot have the shape that \"" + cause.type().name + "\" makes of them";
+    const std::string own = nodes::struts_of(cause).reason;
+    return !own.empty() ? own : "beams cannot have the shape that \"" + cause.type().name + "\" makes of them";
   }
 
   program::Point origin() { return program::Point::origin_frame(builder_); }

@@ -112,6 +112,66 @@ TEST(BeamParts, TilesAreEnumeratedAndJoined) {
   EXPECT_EQ(cubic.vertices.size(), 64u + 3 * 3 * 16);
 }
 
+TEST(BeamParts, CellsThatAreBoxesAreEnumerated) {
+  const BeamSet set =
+      only_set("lattice(\"bcc\", radius=0.3, map=box_cells((4, 4, 5), min=(1, 0, 0), max=(9, 12, 10)));");
+  EXPECT_EQ(set.struts.size(), 8u * 2 * 3 * 2);
+  EXPECT_EQ(set.clipping, formats::LatticeClipping::inside);
+  expect_near(bounds(set.clip), Box{{1, 0, 0}, {9, 12, 10}});
+  const BeamBody body = beams_of(set);
+  EXPECT_EQ(body.vertices.size(), 12u + 3 * 4 * 3);
+  for (const nodes::StrutShape& strut : set.struts)
+    EXPECT_NEAR(length(strut.end - strut.start), std::sqrt(4 + 4 + 6.25), 1e-12);
+}
+
+// Struts that are no mirror images reach in from the cells around.
+TEST(BeamParts, GraphsReachInFromNeighbours) {
+  const BeamSet set = only_set(
+      "lattice(edges=[[(0, 0, 0), (1, 1, 1)]], radius=0.5, map=box_cells((4, 4, 4), min=(0, 0, 0), max=(8, 8, 8)));");
+  // The struts of the cells -1 and 2 count if they touch the box.
+  const auto has_corner = [&](Vec3 corner) {
+    return std::ranges::any_of(set.struts, [&](const auto& strut) { return length(strut.start - corner) < 1e-12; });
+  };
+  EXPECT_TRUE(has_corner({4, 4, 4}));
+  EXPECT_TRUE(has_corner({-4, -4, -4}));
+  EXPECT_TRUE(has_corner({8, 8, 8}));
+  EXPECT_FALSE(has_corner({12, 12, 12}));
+}
+
+TEST(BeamParts, CellsWithoutEndAreCutByOthers) {
+  const BeamSet set = only_set(
+      "intersection() { translate(4, 4, 4) rectprism((7.9, 7.9, 7.9)); lattice(\"bcc\", radius=\"0.3 - 0.1*t\","
+      " map=box_cells((4, 4, 4))); }");
+  // There are 2 cells along each axis and halves of the next ones.
+  EXPECT_EQ(beams_of(set).beams.size(), 8u * 2 * 2 * 2 + 6u * 4 * 2 * 2 + 12u * 2 * 2 + 8u);
+  EXPECT_DOUBLE_EQ(set.struts[0].end_radius, 0.2);
+}
+
+TEST(BeamParts, StrutsBetweenPointsAreBeams) {
+  // The corners of a tetrahedron, and a point in it.
+  const std::string points = "points=[(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6), (1, 1, 1)], radius=0.5";
+  EXPECT_EQ(only_set("delaunay_struts(" + points + ");").struts.size(), 10u);
+  const BeamSet cut = only_set("translate(1, 0, 0) delaunay_struts(" + points + ", region=sphere(5));");
+  EXPECT_EQ(cut.struts.size(), 10u);
+  EXPECT_EQ(cut.clipping, formats::LatticeClipping::inside);
+  expect_near(bounds(cut.clip), Box{{-4, -5, -5}, {6, 5, 5}});
+  // Around the middle of eight corners and itself there is a truncated octahedron: 36 edges.
+  const BeamSet foam = only_set(
+      "voronoi_struts(points=[for (i = [-2:2], j = [-2:2], k = [-2:2], h = [0, 2]) [4*i + h, 4*j + h, 4*k + h]],"
+      " radius=0.1, region=rectprism((4, 4, 4)));");
+  EXPECT_GE(foam.struts.size(), 36u);
+  for (const nodes::StrutShape& strut : foam.struts) EXPECT_LT(length(strut.end - strut.start), std::sqrt(2) + 1e-9);
+}
+
+TEST(BeamParts, SaysWhyStrutsAreNoBeams) {
+  expect_lost("lattice(\"bcc\", radius=0.3, map=cylinder_cells(8, 12, 20, count=(12, 4, 1)));", "no equal boxes");
+  expect_lost("lattice(\"bcc\", radius=0.3, joint=0.5, map=box_cells((4, 4, 4), min=(0, 0, 0), max=(8, 8, 8)));",
+              "balls at their ends");
+  expect_lost(
+      "delaunay_struts([(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6), (1, 1, 1)], 0.5, region=sphere(5), closed=true);",
+      "10 struts are written as triangles, because struts along the surface of a region are not straight");
+}
+
 TEST(BeamParts, BeamsOfOtherRadiiStay) {
   const BeamBody body = beams_of(only_set(
       "lattice(edges=[[(0, 0, 0), (1, 0, 0), 0.3], [(1, 0, 0), (0, 0, 0), 0.2], [(1, 0, 0), (0, 0, 0), 0.3]]);"));

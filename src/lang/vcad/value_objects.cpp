@@ -213,8 +213,11 @@ class SolidObject final : public Object, NotCopied {
   std::string describe() const override { return "a " + node_->type().name; }
   std::string text() const override { return node_->type().name; }
   Data data() const override { return Data(HostObjectPtr(std::make_shared<design::NodeObject>(node_))); }
-  // Its parts are its outputs, and those of the solids inside it.
+  // Its parts are its outputs, and those of the solids inside it that vary in space.
   std::optional<Value> part(const std::string& name, std::string& names, Meter& meter) const override {
+    const auto own = node_->type().output(name);
+    if (own && node_->gives(*own) && node_->type().outputs[*own].type.form == OutputForm::constant)
+      return from_data(node_->constant(*own), meter);
     const design::OutputType* type = node_->output_type(name);
     if (!type || type->form != OutputForm::numbers) {
       const std::vector<std::string> outputs = node_->output_names();

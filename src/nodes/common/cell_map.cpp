@@ -41,6 +41,38 @@ Field squared_slope(const CellMap& map, const Slope& by, const Point& p) {
   return sum;
 }
 
+namespace {
+
+// Returns the value that a number has everywhere in the box, or nothing.
+std::optional<double> value_everywhere(const Number& number, const Box& where) {
+  constexpr double rounding = 1e-12;
+  const Interval range = number.range(where);
+  const double middle = 0.5 * (range.lo + range.hi);
+  const bool is_value = range.is_bounded() && range.hi - range.lo <= rounding * std::abs(middle);
+  return is_value ? std::optional(middle) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<EqualBoxes> equal_boxes(const CellMap& map) {
+  const Box where = map.reach(design_space(), 0);
+  const Vec3 at = map.region.node ? where.lo : Vec3{};
+  EqualBoxes found;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto part = [axis](const Numbers3& numbers) -> const Number& {
+      return axis == 0 ? numbers.x : axis == 1 ? numbers.y : numbers.z;
+    };
+    for (int by = 0; by < 3; ++by) {
+      const auto slope = value_everywhere(part(map.slopes[static_cast<size_t>(by)]), where);
+      if (!slope || (by == axis ? *slope <= 0 : *slope != 0)) return std::nullopt;
+      if (by == axis) found.steps[axis] = 1 / *slope;
+    }
+    const Interval place = part(map.place).range({at, at});
+    found.corner[axis] = at[axis] - 0.5 * (place.lo + place.hi) * found.steps[axis];
+  }
+  return found;
+}
+
 }  // namespace ombre::nodes
 
 namespace ombre::design {

@@ -38,6 +38,14 @@ struct CellMap {
   }
 };
 
+// Cells that are equal boxes along x, y and z.
+struct EqualBoxes {
+  Vec3 corner;  // where u, v and w are 0, mm
+  Vec3 steps;   // lengths of a cell, mm
+};
+// Returns nothing if cells of the map are bent, turned or mirrored, or change their size.
+std::optional<EqualBoxes> equal_boxes(const CellMap& map);
+
 // Returns the squared length of the gradient, per mm^2, of a function with the derivatives `by` u, v and w.
 Field squared_slope(const CellMap& map, const Slope& by, const Point& p);
 

@@ -1,6 +1,8 @@
 // Functions of the node families that struts.h combines.
 #pragma once
 
+#include <functional>
+
 #include "design/values.h"
 #include "nodes/common/struts.h"
 
@@ -10,10 +12,18 @@ namespace ombre::nodes {
 // or not above 0 at both ends.
 std::optional<std::array<double, 2>> end_radii(const design::Number& radius);
 
-// For nodes that are not a lattice, or not a strut, these functions return 0, false or nothing.
-size_t lattice_strut_count(const design::Node& node);
-std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node);
-bool is_single_strut(const design::Node& node);
-std::optional<StrutShape> single_strut(const design::Node& node);
+// Why struts are no beams if end_radii returns nothing.
+inline constexpr const char* radius_is_not_linear = "the radius is not linear along the struts";
+
+// StrutMaker makes the struts of one node of a family.
+struct StrutMaker {
+  size_t count = 0;  // 0: not known
+  std::function<StrutsOrReason()> make;
+};
+
+// These functions return nothing for nodes of other families.
+std::optional<StrutMaker> lattice_struts(const design::Node& node);
+std::optional<StrutMaker> point_struts(const design::Node& node);
+std::optional<StrutMaker> single_strut(const design::Node& node);
 
 }  // namespace ombre::nodes

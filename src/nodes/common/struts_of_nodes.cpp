@@ -4,6 +4,15 @@
 #include "nodes/common/strut_families.h"
 
 namespace ombre::nodes {
+namespace {
+
+std::optional<StrutMaker> maker_of(const design::Node& node) {
+  for (const auto family : {&single_strut, &lattice_struts, &point_struts})
+    if (auto found = family(node)) return found;
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::optional<std::array<double, 2>> end_radii(const design::Number& radius) {
   std::array<double, 2> radii{};
@@ -14,12 +23,16 @@ std::optional<std::array<double, 2>> end_radii(const design::Number& radius) {
   return radii[0] > 0 && radii[1] > 0 ? std::optional(radii) : std::nullopt;
 }
 
-size_t strut_count(const design::Node& node) { return is_single_strut(node) ? 1 : lattice_strut_count(node); }
+bool makes_struts(const design::Node& node) { return maker_of(node).has_value(); }
 
-std::optional<std::vector<StrutShape>> struts_of(const design::Node& node) {
-  if (!is_single_strut(node)) return lattice_struts(node);
-  const auto strut = single_strut(node);
-  return strut ? std::optional(std::vector{*strut}) : std::nullopt;
+size_t strut_count(const design::Node& node) {
+  const auto maker = maker_of(node);
+  return maker ? maker->count : 0;
+}
+
+StrutsOrReason struts_of(const design::Node& node) {
+  const auto maker = maker_of(node);
+  return maker ? maker->make() : StrutsOrReason{};
 }
 
 }  // namespace ombre::nodes

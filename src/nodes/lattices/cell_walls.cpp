@@ -1,4 +1,4 @@
-// Walls in the cells of a map: plates along planes of a crystal, and honeycombs.
+// Walls in the cells of a map: plates along planes of a crystal, honeycombs, folded sheets, and rims.
 #include <cmath>
 #include <numbers>
 
@@ -132,6 +132,85 @@ struct Honeycomb {
   }
 };
 
+// A function of one variable of period 1, between -1/2 and 1/2, and its derivative.
+struct Periodic {
+  Field value, slope;
+
+  // Straight lines up and down.
+  static Periodic zigzag(Field at) {
+    const Field from_start = at - floor_of(at), off = from_start * 2.0 - 1;
+    return {limited(abs(off), 0, 1) - 0.5,
+            select(less(off, at.builder->constant(0)), at.builder->constant(-2), at.builder->constant(2))};
+  }
+  static Periodic wave(Field at) {
+    const Field phase = at * (2 * std::numbers::pi);
+    program::Builder& builder = *at.builder;
+    return {builder.apply(program::Op::sin, phase) * 0.5, builder.apply(program::Op::cos, phase) * std::numbers::pi};
+  }
+};
+
+// With creases that zigzag, facets are those of the fold of K. Miura, "Method of packaging and deployment of large
+// membranes in space", 1985. Creases along a wave lie in planes of constant w, so that facets mirror each other there.
+struct Folds {
+  CellMap map;
+  Number thickness = 0.5;
+  double depth = 0.5;
+  Choice profile = "sharp", creases = "straight";
+  double swing = 0.25;
+  MaterialName material;
+
+  static Spec<Folds> spec() {
+    return {
+        "folds",
+        "Sheets along u and v of a map of cells, one for each cell along w, that rise and fall once in each cell "
+        "along u: corrugated or folded sheets, also with creases that zigzag (Miura's fold) or are curved.",
+        {{"map", &Folds::map, "A map of cells, such as box_cells", required()},
+         {"thickness", &Folds::thickness, "Thickness of the sheets", unit::positive_mm},
+         {"depth", &Folds::depth, "Rise from trough to crest, as a share of the cell's length along w", from_to(0, 1)},
+         {"profile", &Folds::profile, "sharp: flat between creases; round: a wave", one_of({"sharp", "round"})},
+         {"creases", &Folds::creases,
+          "Way of crests and troughs: straight along v, zigzag, or curved along a wave of period 1 in v",
+          one_of({"straight", "zigzag", "curved"})},
+         {"swing", &Folds::swing, "How far creases that are not straight run to and fro along u, in cells",
+          from_to(0, 10)},
+         {"material", &Folds::material, "Its material"}},
+        no_inputs,
+        "folds(box_cells((6, 6, 6), min=(0, 0, 0), max=(18, 18, 12)), 0.5, creases=\"zigzag\", "
+        "material=\"red\");"};
+  }
+
+  Metric metric() const { return Metric::implicit(); }
+  Box reach(const Inputs&, const Box& where, double margin) const { return map.reach(where, margin); }
+
+  Field distance(const Inputs& in, const Point& p) const {
+    const auto [off, squared] = level(p);
+    return map.cut(off / sqrt(squared) - thickness(p) * 0.5, in, p);
+  }
+  Field membership(const Inputs& in, const Point& p, Border border) const {
+    const auto [off, squared] = level(p);
+    return map.cut_membership(at_most(square(off), square(thickness(p) * 0.5) * squared, border), in, p, border);
+  }
+
+ private:
+  struct Level {
+    Field off, squared_slope;  // distance from the sheet in cells along w, and the squared slope of that function
+  };
+
+  Periodic crease(Field v) const {
+    if (creases == "straight") return {v.builder->constant(0), v.builder->constant(0)};
+    return creases == "zigzag" ? Periodic::zigzag(v) : Periodic::wave(v);
+  }
+
+  Level level(const Point& p) const {
+    const Slope at = map.place_at(p);
+    const Periodic moved = crease(at[1]);
+    const Field along = at[0] + moved.value * swing;
+    const Periodic rise = profile == "sharp" ? Periodic::zigzag(along) : Periodic::wave(along);
+    const Field by_u = rise.slope * -depth, by_v = by_u * moved.slope * swing;
+    return {from_whole(at[2] - rise.value * depth - 0.5), squared_slope(map, {by_u, by_v, p.constant(1)}, p)};
+  }
+};
+
 struct Rim {
   CellMap map;
   Number width = 1;
@@ -164,6 +243,6 @@ struct Rim {
 
 }  // namespace
 
-void add_cell_walls(Registry& registry) { registry.add<Plates, Honeycomb, Rim>("lattices"); }
+void add_cell_walls(Registry& registry) { registry.add<Plates, Honeycomb, Folds, Rim>("lattices"); }
 
 }  // namespace ombre::nodes

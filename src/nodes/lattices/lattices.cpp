@@ -55,13 +55,16 @@ struct Lattice {
         {{"along", &Lattice::along, "Position along the nearest strut, from 0 at its start to 1 at its end",
           Interval(0, 1)},
          {"struts", &Lattice::struts,
-          "Its struts as edges: of the unit cell, whose centre is the origin, or as they were given"}}};
+          "Its struts as edges: of the unit cell, whose centre is the origin, or as they were given; with a map, "
+          "points of a "
+          "cell from 0 to 1, as edges takes them"}}};
   }
 
   std::vector<Edge> struts() const {
     if (cell == "none") return edges.value_or(std::vector<Edge>{});
     std::vector<Edge> found;
-    for (const Strut& strut : of_cell()) found.push_back({strut.start, strut.end});
+    const Vec3 centre = map.is_given() ? Vec3{0.5, 0.5, 0.5} : Vec3{};
+    for (const Strut& strut : of_cell()) found.push_back({strut.start + centre, strut.end + centre});
     return found;
   }
 
@@ -109,18 +112,32 @@ struct Lattice {
     return traits;
   }
 
-  // Returns the struts as conical frusta, or nothing if they are not.
-  std::optional<std::vector<StrutShape>> shapes() const {
-    if (map.is_given()) return std::nullopt;
+  // Returns the struts as conical frusta, or why they are not.
+  StrutsOrReason beams() const {
+    if (joint || blend) return {{}, "struts have balls at their ends, or fillets"};
     const auto common = end_radii(radius);
-    std::vector<StrutShape> shapes;
-    for (const Strut& strut : segments_) {
-      if (strut.own_radius == 0 && !common) return std::nullopt;
-      const auto radii = strut.own_radius > 0 ? std::array{strut.own_radius, strut.own_radius} : *common;
-      shapes.push_back({strut.start, strut.end, radii[0], radii[1]});
-    }
-    return shapes;
+    if (!common && !all_have_own_radii()) return {{}, radius_is_not_linear};
+    const auto shapes = [&](const std::vector<Strut>& struts, const auto& placed) {
+      std::vector<StrutShape> all;
+      for (const Strut& strut : struts) {
+        const auto radii = strut.own_radius > 0 ? std::array{strut.own_radius, strut.own_radius} : *common;
+        all.push_back({placed(strut.start), placed(strut.end), radii[0], radii[1]});
+      }
+      return all;
+    };
+    if (!map.is_given()) return {NodeStruts{shapes(segments_, [](Vec3 p) { return p; })}};
+    const auto boxes = equal_boxes(map);
+    if (!boxes) return {{}, "the cells of their map are no equal boxes along x, y and z"};
+    const auto placed = [&](Vec3 p) {
+      const Vec3 from_corner = p + Vec3{0.5, 0.5, 0.5};
+      return boxes->corner +
+             Vec3{from_corner.x * boxes->steps.x, from_corner.y * boxes->steps.y, from_corner.z * boxes->steps.z};
+    };
+    return {NodeStruts{shapes(cell == "none" ? of_edges() : of_cell(), placed), copies_on(*boxes), map.region}};
   }
+
+  // Returns the number of struts, or 0 on a map, where it is not known.
+  size_t count_of_struts() const { return map.is_given() ? 0 : segments_.size(); }
 
   Box reach(const Inputs&, const Box& where, double margin) const {
     if (map.is_given()) return map.reach(where, margin);
@@ -211,6 +228,26 @@ struct Lattice {
    private:
     const Lattice& lattice_;
   };
+
+  bool all_have_own_radii() const {
+    return std::ranges::all_of(segments_, [](const Strut& strut) { return strut.own_radius > 0; });
+  }
+
+  // Returns the cells whose struts reach into the region. Struts of mirrored cells do not leave them by more than those
+  // of the next cell come to meet them.
+  TileCopies copies_on(const EqualBoxes& boxes) const {
+    constexpr double rounding = 1e-9;
+    TileCopies copies{boxes.steps, {Interval::everything(), Interval::everything(), Interval::everything()}};
+    if (!map.region.node) return copies;
+    const Box where = map.reach(design_space(), 0);
+    const double beyond = is_mirrored() ? 0 : 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto cells = [&](double at) { return (at - boxes.corner[axis]) / boxes.steps[axis]; };
+      copies.indices[static_cast<size_t>(axis)] = {std::floor(cells(where.lo[axis]) + rounding) - beyond,
+                                                   std::ceil(cells(where.hi[axis]) - rounding) - 1 + beyond};
+    }
+    return copies;
+  }
 
   bool is_mirrored() const {
     if (cell == "none") return is_mirrored_graph_;
@@ -445,14 +482,10 @@ struct Lattice {
 
 }  // namespace
 
-size_t lattice_strut_count(const design::Node& node) {
+std::optional<StrutMaker> lattice_struts(const design::Node& node) {
   const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
-  return lattice && !lattice->data.map.is_given() ? lattice->data.traits().instances : 0;
-}
-
-std::optional<std::vector<StrutShape>> lattice_struts(const design::Node& node) {
-  const auto* lattice = dynamic_cast<const NodeOf<Lattice>*>(&node);
-  return lattice ? lattice->data.shapes() : std::nullopt;
+  if (!lattice) return std::nullopt;
+  return StrutMaker{lattice->data.count_of_struts(), [lattice] { return lattice->data.beams(); }};
 }
 
 void add_lattices(Registry& registry) { registry.add<Lattice>("lattices"); }

@@ -10,6 +10,7 @@
 #include "design/spec.h"
 #include "nodes/common/child_distance.h"
 #include "nodes/common/made_fields.h"
+#include "nodes/common/strut_families.h"
 
 namespace ombre::nodes {
 namespace {
@@ -81,6 +82,7 @@ struct PointStruts : PointLattice {
   std::optional<double> blend;
   program::SourceField struts;  // made with the node, and walls if closed
   size_t most_at_once = 1;      // greatest number of struts whose fillets meet
+  size_t count = 0;             // of struts
 
   static Spec<PointStruts> spec() {
     constexpr bool is_voronoi = kind == Between::voronoi;
@@ -99,7 +101,8 @@ struct PointStruts : PointLattice {
             is_voronoi ? "voronoi_struts(scattered_points(sphere(8), distance=5).points, 0.5, region=sphere(8), "
                          "closed=true, material=\"red\");"
                        : "delaunay_struts(scattered_points(sphere(8), distance=5).points, 0.5, material=\"red\");",
-            {{"points", &PointStruts::points, "The points"}}};
+            {{"points", &PointStruts::points, "The points"},
+             {"struts", &PointStruts::edges, "Its struts as edges, of which some may lie outside of the region"}}};
   }
 
   bool complete(const Reader& reader) {
@@ -107,8 +110,26 @@ struct PointStruts : PointLattice {
     const OfPoints<Edge3> edges = edges_here();
     if (!edges.problem.empty()) return refuse_points(reader, edges.problem);
     if (edges.list.empty()) return refuse_points(reader, "there are no edges between cells here");
+    count = edges.list.size();
     if (!(blend ? load_with_fillets(edges.list, reader) : load_struts(edges.list, 0, reader))) return false;
     return !closed || load_walls(kind, points, walls, reader);
+  }
+
+  std::vector<Edge> edges() const {
+    std::vector<Edge> all;
+    for (const auto& [start, end] : edges_here().list) all.push_back({start, end});
+    return all;
+  }
+
+  // Returns the struts as cylinders, or why they are not.
+  StrutsOrReason beams() const {
+    if (closed) return {{}, "struts along the surface of a region are not straight"};
+    if (blend) return {{}, "struts have fillets"};
+    if (!radius.constant()) return {{}, radius_is_not_linear};
+    NodeStruts made{.struts = {}, .region = region};
+    for (const auto& [start, end] : edges_here().list)
+      made.struts.push_back({start, end, *radius.constant(), *radius.constant()});
+    return {std::move(made)};
   }
 
   Metric metric() const {
@@ -207,7 +228,19 @@ struct PointWalls : PointLattice {
   }
 };
 
+template <Between kind>
+std::optional<StrutMaker> maker_of(const Node& node) {
+  const auto* made = dynamic_cast<const NodeOf<PointStruts<kind>>*>(&node);
+  if (!made) return std::nullopt;
+  return StrutMaker{made->data.count, [made] { return made->data.beams(); }};
+}
+
 }  // namespace
+
+std::optional<StrutMaker> point_struts(const Node& node) {
+  const auto voronoi = maker_of<Between::voronoi>(node);
+  return voronoi ? voronoi : maker_of<Between::delaunay>(node);
+}
 
 void add_point_lattices(Registry& registry) {
   registry.add<PointStruts<Between::voronoi>, PointWalls<Between::voronoi>, PointStruts<Between::delaunay>,

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/math/math.h"
+#include "base/text/text.h"
 #include "design/spec.h"
 #include "nodes/common/cell_map.h"
 
@@ -57,8 +58,8 @@ struct Surface {
   const char* name;
   std::vector<Term> terms;
 
-  // Returns samples at side^3 points of a cell.
-  std::vector<Sample> samples(size_t side) const;
+  // Returns samples at points of a cell, of which there are so many along each axis.
+  std::vector<Sample> samples(const std::array<size_t, 3>& counts) const;
 };
 
 // Returns the value of a wave at a phase, and its derivative.
@@ -79,26 +80,28 @@ std::array<double, 2> value_and_slope(Wave wave, double phase) {
   return {1, 0};
 }
 
-std::vector<Surface::Sample> Surface::samples(size_t side) const {
+std::vector<Surface::Sample> Surface::samples(const std::array<size_t, 3>& counts) const {
   constexpr std::array<double, 3> off{0.31, 0.43, 0.57};  // parts of a step, different along each axis
   constexpr size_t waves = 5;
-  std::vector<std::array<std::array<std::array<double, 2>, waves>, 3>> table(side);
-  for (size_t n = 0; n < side; ++n)
-    for (size_t axis = 0; axis < 3; ++axis)
+  std::array<std::vector<std::array<std::array<double, 2>, waves>>, 3> table;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    table[axis].resize(counts[axis]);
+    for (size_t n = 0; n < counts[axis]; ++n)
       for (size_t wave = 0; wave < waves; ++wave)
-        table[n][axis][wave] =
-            value_and_slope(static_cast<Wave>(wave),
-                            2 * std::numbers::pi * (static_cast<double>(n) + off[axis]) / static_cast<double>(side));
+        table[axis][n][wave] =
+            value_and_slope(static_cast<Wave>(wave), 2 * std::numbers::pi * (static_cast<double>(n) + off[axis]) /
+                                                         static_cast<double>(counts[axis]));
+  }
   std::vector<Sample> all;
-  all.reserve(side * side * side);
-  for (size_t k = 0; k < side; ++k)
-    for (size_t j = 0; j < side; ++j)
-      for (size_t i = 0; i < side; ++i) {
+  all.reserve(counts[0] * counts[1] * counts[2]);
+  for (size_t k = 0; k < counts[2]; ++k)
+    for (size_t j = 0; j < counts[1]; ++j)
+      for (size_t i = 0; i < counts[0]; ++i) {
         Sample sample{};
         for (const Term& term : terms) {
-          const auto& x = table[i][0][static_cast<size_t>(term.x)];
-          const auto& y = table[j][1][static_cast<size_t>(term.y)];
-          const auto& z = table[k][2][static_cast<size_t>(term.z)];
+          const auto& x = table[0][i][static_cast<size_t>(term.x)];
+          const auto& y = table[1][j][static_cast<size_t>(term.y)];
+          const auto& z = table[2][k][static_cast<size_t>(term.z)];
           sample.value += term.factor * x[0] * y[0] * z[0];
           sample.by[0] += term.factor * x[1] * y[0] * z[0];
           sample.by[1] += term.factor * x[0] * y[1] * z[0];
@@ -255,6 +258,7 @@ struct Tpms {
     if (map.is_given() && cell.along)
       return reader.refuse("tpms has both a map and the size of its cells",
                            "leave out cell: the map says how large cells are");
+    if (equation) warn_if_not_periodic(reader);
     if (!density) return true;
     if (equation)
       return reader.refuse("the density of a formula's surface is not known",
@@ -309,11 +313,11 @@ struct Tpms {
     return axis == 0 ? cell.along->x : axis == 1 ? cell.along->y : cell.along->z;
   }
 
-  // Returns the level, or the thickness of a sheet, for which this share of a cell is filled. Points of a lattice,
-  // which is moved off the planes of symmetry, sample the function; the error of the share is less than 1e-3.
+  // Returns the level, or the thickness of a sheet, for which this share of a cell is filled. Points of a lattice
+  // sample the function. Its numbers of points have no common divisor, and it is moved off the planes of symmetry, so
+  // that no two points are alike by the symmetry of the surface. The error of the share is less than 1e-3.
   double value_below_which(double share) const {
-    constexpr size_t side = 96;
-    const std::vector<Surface::Sample> samples = chosen().samples(side);
+    const std::vector<Surface::Sample> samples = chosen().samples({97, 101, 103});
     std::vector<double> values;
     values.reserve(samples.size());
     for (const auto& [value, by] : samples) {
@@ -330,6 +334,58 @@ struct Tpms {
   }
 
   const Surface& chosen() const { return surface_called(surface); }
+
+  // Returns the number of the equation at a place, if it depends on nothing but u, v and w.
+  std::optional<double> value_of_equation(Vec3 at) const {
+    program::Builder builder;
+    const auto constant = [&](double value) { return builder.constant(value); };
+    const Point p = Point::origin_frame(builder).moved_to(constant(at.x), constant(at.y), constant(at.z));
+    return builder.constant_value(function_value(p, {constant(at.x), constant(at.y), constant(at.z)}));
+  }
+
+  // Returns the size of the region along u, v and w, in cells; unbounded without a region.
+  Vec3 extent() const {
+    if (!map.region.node) return {Box::inf, Box::inf, Box::inf};
+    const Box box = map.reach(design_space(), 0);
+    const auto of = [&](const Number& number) {
+      const Interval range = number.range(box);
+      return range.hi - range.lo;
+    };
+    return {of(map.place.x), of(map.place.y), of(map.place.z)};
+  }
+
+  // Walls of an equation meet at the borders of cells if its period is 1. The walls of a sheet also do if its sign
+  // changes. Equations that depend on space in other ways change from cell to cell on purpose.
+  void warn_if_not_periodic(const Reader& reader) const {
+    const expr::Expression* formula = equation->expression();
+    if (!formula || !formula->inputs().empty() || !level.constant()) return;
+    for (const char* name : {"x", "y", "z", "ci", "cj", "ck"})
+      if (formula->uses(name)) return;
+    constexpr double tolerance = 1e-6, one_cell = 1 + 1e-6;
+    constexpr std::array places{Vec3{0.137, 0.411, 0.773}, Vec3{0.619, 0.283, 0.057}, Vec3{0.871, 0.937, 0.349}};
+    const Vec3 cells = extent();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (cells[axis] <= one_cell) continue;
+      for (const Vec3 place : places) {
+        Vec3 next = place;
+        next[axis] += 1;
+        const auto here = value_of_equation(place), there = value_of_equation(next);
+        if (!here || !there) return;
+        const double allowed = tolerance * (1 + std::abs(*here));
+        if (std::abs(*here - *there) <= allowed) continue;
+        if (kind == "sheet" && *level.constant() == 0 && std::abs(*here + *there) <= allowed) continue;
+        const std::string name(1, "uvw"[axis]);
+        reader.diagnostics.warning(Code::parameters, reader.where,
+                                   "the equation of tpms is " + format_rounded(*here, 4) + " at a place, and " +
+                                       format_rounded(*there, 4) + " one cell farther along " + name +
+                                       ": walls of neighbouring cells may not meet",
+                                   "write functions of period 1, for example sin(2*pi*" + name +
+                                       "); changes from cell to cell may use x, y, z "
+                                       "or values of the map");
+        return;
+      }
+    }
+  }
 
   Field function_value(const Point& p, const Slope& at) const {
     const expr::Variables variables = [&](std::string_view name) -> std::optional<Field> {

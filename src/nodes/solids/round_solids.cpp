@@ -234,11 +234,14 @@ struct Strut {
 
 }  // namespace
 
-bool is_single_strut(const design::Node& node) { return dynamic_cast<const NodeOf<Strut>*>(&node) != nullptr; }
-
-std::optional<StrutShape> single_strut(const design::Node& node) {
+std::optional<StrutMaker> single_strut(const design::Node& node) {
   const auto* strut = dynamic_cast<const NodeOf<Strut>*>(&node);
-  return strut ? strut->data.shape() : std::nullopt;
+  if (!strut) return std::nullopt;
+  return StrutMaker{1, [strut]() -> StrutsOrReason {
+                      const auto shape = strut->data.shape();
+                      if (!shape) return {{}, radius_is_not_linear};
+                      return {NodeStruts{{*shape}}};
+                    }};
 }
 
 void add_round_solids(Registry& registry) {

@@ -30,7 +30,9 @@ struct OutputOf {
       count = std::max<size_t>(1, type->parts.size());
       return true;
     }
-    const std::vector<std::string> known = solid.node->output_names();
+    std::vector<std::string> known = solid.node->output_names();
+    std::erase_if(known,
+                  [&](const std::string& one) { return solid.node->output_type(one)->form != OutputForm::numbers; });
     std::string hint = did_you_mean(name, known);
     if (hint.empty()) hint = known.empty() ? "it has no outputs" : "it has " + join(known, ", ");
     reader.diagnostics.error(Code::unknown_output, reader.where, "the solid has no output \"" + name + '"', hint,
