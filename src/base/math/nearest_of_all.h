@@ -75,7 +75,7 @@ class NearestOfAll {
     for (const Vec3 p : points) box = hull(box, {p, p});
     return {box.center(), 0.5 * length(box.size())};
   }
-  // What is nearest to a point of a ball is not farther from its centre than this.
+  // Returns how far what is nearest to a point of the ball is from its centre at most.
   static double reach_of(const Ball& ball, double least) { return with_room(least + 2 * ball.radius); }
 
   // Divides the points until few elements may be nearest, or few points are left.

@@ -1,4 +1,4 @@
-// What the maps of cells of a design do to cells.
+// Describes what the maps of cells of a design do to cells.
 #pragma once
 
 #include <optional>

@@ -56,8 +56,7 @@ struct Lattice {
           Interval(0, 1)},
          {"struts", &Lattice::struts,
           "Its struts as edges: of the unit cell, whose centre is the origin, or as they were given; with a map, "
-          "points of a "
-          "cell from 0 to 1, as edges takes them"}}};
+          "points of a cell from 0 to 1, as edges takes them"}}};
   }
 
   std::vector<Edge> struts() const {
