@@ -124,7 +124,7 @@ def test_colours_become_the_nearest_mixture(tmp_path):
     assert set(found) == {((1, 1),), ((3, 1),), ((1, 1), (3, 1))}
     for recipe in found.values():
         assert recipe["share_of_part"] == pytest.approx(1 / 3, abs=0.01)
-        assert recipe["mean_delta_e"] < 0.6  # the colours are counted in 255 steps of their range
+        assert recipe["mean_delta_e"] < 0.01
     assert found[(1, 1), (3, 1)]["color_hex"] == "#BC00BC"
     settings = entry(path, "Metadata/model_settings.config")
     assert {int(n) for n in re.findall(r'key="extruder" value="(\d+)"', settings)} >= {1, 3, 4}

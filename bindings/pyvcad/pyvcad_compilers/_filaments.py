@@ -162,7 +162,7 @@ def palette_of(values: numpy.ndarray, counts: numpy.ndarray, candidates: numpy.n
 
     Where more than `most` are nearest to some value, the ones that stand for least are left out one by one.
     """
-    distances = numpy.linalg.norm(values[:, None, :] - candidates[None, :, :], axis=2)
+    distances = numpy.stack([numpy.linalg.norm(values - candidate, axis=1) for candidate in candidates], axis=1)
     nearest = distances.argmin(axis=1)
     use = numpy.bincount(nearest, counts, minlength=len(candidates))
     while numpy.count_nonzero(use) > most:

@@ -21,7 +21,7 @@ from ._compilers import Path
 from ._filaments import Recipe, RecipeRules, colour_of, filaments_of, hex_of, lab_of, light_of, palette_of, shares_of
 
 _report = "Metadata/ombre_recipes.json"
-_steps = 255  # values are counted in so many steps of their range
+_steps = 127  # values within one of so many steps of their range count as their mean
 BY_COLOUR, BY_FRACTIONS = "color_rgb", "volume_fractions"
 
 
@@ -165,10 +165,10 @@ class MixedProject:
 
     def _values(self, scored: Node, voxel: Any, points: numpy.ndarray,
                 progress: Callable[[float], Any]) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """The different values within the part, rounded, and how often each occurs."""
+        """The different values within the part, and how often each occurs."""
         design = scored._ombre_design_(self._table)
         scale = numpy.ptp(points, axis=0).max() / _steps or 1.0
-        found: dict[tuple[int, ...], int] = {}
+        found: dict[tuple[int, ...], numpy.ndarray] = {}  # sums of values, and their counts
         for _, places in slabs(centers(design.bounds, voxel), progress):
             inside = places[design.inside(places)]
             if len(inside) == 0:
@@ -178,14 +178,16 @@ class MixedProject:
             if bad.any():
                 x, y, z = (float(c) for c in inside[bad][0])
                 raise RuntimeError(f"{self._what}: there is no colour, or no filament's material, at ({x:g}, {y:g}, {z:g})")
-            steps, counts = numpy.unique(numpy.rint(values / scale).astype(int), axis=0, return_counts=True)
-            for row, count in zip(steps.tolist(), counts.tolist()):
+            steps, places_of = numpy.unique(numpy.rint(values / scale).astype(int), axis=0, return_inverse=True)
+            sums = numpy.zeros((len(steps), points.shape[1] + 1))
+            numpy.add.at(sums, places_of.reshape(-1), numpy.concatenate([values, numpy.ones((len(values), 1))], axis=1))
+            for row, total in zip(steps.tolist(), sums):
                 step = tuple(int(n) for n in row)
-                found[step] = found.get(step, 0) + int(count)
+                found[step] = found[step] + total if step in found else total
         if not found:
             raise RuntimeError(f"{self._what}: no voxel's centre lies in the part; choose a smaller voxel_size")
-        keys = sorted(found)
-        return numpy.array(keys) * scale, numpy.array([found[key] for key in keys], dtype=float)
+        totals = numpy.array([found[key] for key in sorted(found)])
+        return totals[:, :-1] / totals[:, -1:], totals[:, -1]
 
     def _materials(self, recipes: list[Recipe]) -> tuple[MaterialDefs, list[str]]:
         """A table of the tree's materials, the filaments and mixtures, and the names of the recipes' materials in it."""
