@@ -18,7 +18,7 @@ from pyvcad._tree import Node, Unary
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path
-from ._filaments import Recipe, RecipeRules, colour_of, filaments_of, hex_of, lab_of, light_of, palette_of, shares_of
+from ._filaments import USUAL_NOZZLE, Filament, Recipe, RecipeRules, colour_of, filaments_of, hex_of, lab_of, light_of, palette_of, shares_of
 
 _report = "Metadata/ombre_recipes.json"
 _steps = 127  # values within one of so many steps of their range count as their mean
@@ -124,8 +124,8 @@ class MixedProject:
         mixed._ombre_design_(table).mesh(path, by="materials", flavour=flavour, force=True, tolerance=min(voxel) / 8,
                                          progress=lambda done: share(0.5 + done / 2))
         measure = "mean_delta_e" if kind == BY_COLOUR else "mean_difference_of_shares"
-        self.recipes = [{"name": name, "layers": {self.filaments[place].name: layers for place, layers in recipe},
-                         "slots": [self.filaments[place].slot for place, _ in recipe],
+        self.recipes = [{"name": name, "slots": [self.filaments[place].slot for place, _ in recipe],
+                         "layers": [layers for _, layers in recipe],
                          "color_hex": hex_of(self._colours([recipe])[0]), "share_of_part": round(part, 6),
                          measure: round(off, 4)}
                         for name, recipe, part, off in zip(names, chosen, palette.shares, palette.differences)]
@@ -217,19 +217,27 @@ class MixedProject:
         rewrite(path, lambda name, content: self._extended(name, content, flavour), {_report: report})
 
     def _extended(self, name: str, content: bytes, flavour: str) -> bytes:
-        nozzles = {filament.slot: filament.nozzle for filament in self.filaments}
+        by_slot = {filament.slot: filament for filament in self.filaments}
+        slots = [by_slot.get(slot, Filament(slot, f"filament {slot}", (128, 128, 128), "", USUAL_NOZZLE))
+                 for slot in range(1, self._total + 1)]
+        nozzles, names = [f"{filament.nozzle:g}" for filament in slots], [filament.name for filament in slots]
         if name == "Metadata/Slic3r_PE.config":
-            usual = ",".join("0.4" for _ in range(self._total))
-            own = ",".join(f"{nozzles.get(slot, 0.4):g}" for slot in range(1, self._total + 1))
-            return content.replace(f"nozzle_diameter = {usual}\n".encode(), f"nozzle_diameter = {own}\n".encode())
+            quoted = [name.replace("\\", "\\\\").replace('"', '\\"') for name in names]
+            own = {"nozzle_diameter": ",".join(nozzles), "filament_settings_id": ";".join(f'"{name}"' for name in quoted)}
+            return "".join(_with_value(line, own) for line in content.decode().splitlines(keepends=True)).encode()
         if name != "Metadata/project_settings.config":
             return content
         settings = json.loads(content)
-        settings["nozzle_diameter"] = [f"{nozzles.get(slot, 0.4):g}" for slot in range(1, self._total + 1)]
-        ids = {filament.slot: filament.id for filament in self.filaments}
-        if any(ids.values()):
-            settings["filament_ids"] = [ids.get(slot, "") for slot in range(1, self._total + 1)]
+        settings["nozzle_diameter"], settings["filament_settings_id"] = nozzles, names
+        if any(filament.id for filament in slots):
+            settings["filament_ids"] = [filament.id for filament in slots]
         return json.dumps(settings, indent=2).encode() + b"\n"
+
+
+def _with_value(line: str, values: dict[str, str]) -> str:
+    """A line of PrusaSlicer's settings, with its value of these."""
+    key = line.removeprefix("; ").split(" = ", 1)[0]
+    return f"; {key} = {values[key]}\n" if key in values else line
 
 
 def _channels(colour: Any) -> dict[str, int]:
