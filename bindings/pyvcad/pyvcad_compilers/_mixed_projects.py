@@ -18,7 +18,8 @@ from pyvcad._tree import Node, Unary
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path
-from ._filaments import USUAL_NOZZLE, Filament, Recipe, RecipeRules, colour_of, filaments_of, hex_of, lab_of, light_of, palette_of, shares_of
+from ._filaments import (USUAL_NOZZLE, Filament, Recipe, RecipeRules, colour_of, filaments_of, hex_of, lab_of, light_of,
+                         palette_of, shares_of)
 
 _report = "Metadata/ombre_recipes.json"
 _steps = 127  # values within one of so many steps of their range count as their mean
