@@ -193,6 +193,10 @@ def materials_are_mixed_of_filaments(designs):
     expect(sorted(rows[1][-1]) == ["1", "1", "2", "4"], str(rows))
     designs.mesh("three.vcad", *use)  # a file for any program has the materials as they are
 
+    (designs.path / "one.vcad").write_text("rectprism((10, 10, 8), purple);\n")
+    said = designs.mesh("one.vcad", "--flavour", "prusa", *use)
+    expect("purple: layers 2 of red, 1 of blue" in said and "not used" not in said, said)
+    expect('key="extruder" value="5"' in designs.entry("Metadata/Slic3r_PE_model.config"), "the extruder of one material")
     said = designs.mesh("three.vcad", "--flavour", "prusa", "--by", "whole", *use)
     expect('"mix_layers" of materials are for bodies of materials' in said, said)
     said = designs.mesh("three.vcad", "--flavour", "prusa", "--setting", "extruder=1", *use, status=1)

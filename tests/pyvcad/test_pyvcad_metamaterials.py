@@ -393,6 +393,20 @@ def test_walls_lie_between_scattered_points():
         mm.voronoi_graph_lattice(host, points, 0.6, boundary="shut")
 
 
+def test_struts_go_from_the_middles_of_triangles_to_their_corners():
+    # Four points around a fifth: four tetrahedra with ten faces, one of which is the triangle of the first three.
+    points = [(0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12), (2, 2, 2)]
+    host = pv.RectPrism.FromMinAndMax(pv.Vec3(-2, -2, -2), pv.Vec3(14, 14, 14))
+    lattice = mm.delaunay_graph_lattice(host, points, 0.6, mode="vertex_centroid")
+    assert lattice.evaluate(4, 4, 0) < 0  # the middle of that triangle
+    assert lattice.evaluate(8, 2, 0) < 0 and lattice.evaluate(2, 2, 0) < 0  # half way to its corners
+    assert lattice.evaluate(6, 0, 0) > 0  # the middle of an edge
+    with pytest.raises(pv.MissingFeature, match='boundary="open"'):
+        mm.delaunay_graph_lattice(host, points, 0.6, mode="vertex_centroid", boundary="closed")
+    with pytest.raises(pv.MissingFeature, match="voronoi_graph_lattice"):
+        mm.delaunay_graph_lattice(host, points, 0.6, mode="dual")
+
+
 # Struts run along the surface where it is as near to a second point as to the first.
 def test_closed_struts_run_along_the_surface():
     host = pv.Sphere(pv.Vec3(0, 0, 0), 6)

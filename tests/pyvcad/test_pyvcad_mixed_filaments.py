@@ -120,11 +120,11 @@ def test_colours_become_the_nearest_mixture(tmp_path):
     compiler = pvc.FullSpectrumSlicerProjectCompiler(part, 0.5, path, red_and_blue)
     assert compiler.supported_attributes() == ["color_rgb", "volume_fractions"]
     compiler.compile()
-    found = {tuple(sorted(zip(recipe["slots"], recipe["layers"].values()))): recipe for recipe in compiler.recipes()}
+    found = {tuple(sorted(zip(recipe["slots"], recipe["layers"]))): recipe for recipe in compiler.recipes()}
     assert set(found) == {((1, 1),), ((3, 1),), ((1, 1), (3, 1))}
     for recipe in found.values():
         assert recipe["share_of_part"] == pytest.approx(1 / 3, abs=0.01)
-        assert recipe["mean_delta_e"] < 0.6  # the colours are counted in 255 steps of their range
+        assert recipe["mean_delta_e"] < 0.01
     assert found[(1, 1), (3, 1)]["color_hex"] == "#BC00BC"
     settings = entry(path, "Metadata/model_settings.config")
     assert {int(n) for n in re.findall(r'key="extruder" value="(\d+)"', settings)} >= {1, 3, 4}
@@ -137,8 +137,7 @@ def test_three_filaments_are_mixed(tmp_path):
     path = tmp_path / "box.3mf"
     compiler = pvc.FullSpectrumSlicerProjectCompiler(by_colours(srgb), 1.0, path)
     compiler.compile()
-    assert [(recipe["layers"], recipe["slots"]) for recipe in compiler.recipes()] == [
-        ({"cyan": 1, "magenta": 1, "white": 2}, [1, 2, 5])]
+    assert [(recipe["layers"], recipe["slots"]) for recipe in compiler.recipes()] == [([1, 1, 2], [1, 2, 5])]
     row = json.loads(entry(path, "Metadata/project_settings.config"))["mixed_filament_definitions"].split(";")[0].split(",")
     assert sorted(row[-1]) == ["1", "2", "5", "5"]
     conservative = pvc.FullSpectrumSlicerProjectCompiler(by_colours(srgb), 1.0, path, color_mix_recipe_preset="conservative")
@@ -169,6 +168,20 @@ def test_nozzles_and_ids_are_the_filaments_own(tmp_path):
     pvc.PrusaSlicerProjectCompiler(by_colours((1, 0, 0)), 1.0, tmp_path / "b.3mf", color_mix_filaments=own,
                                    total_physical_extruders=3).compile()
     assert "; nozzle_diameter = 0.4,0.4,0.6\n" in entry(tmp_path / "b.3mf", "Metadata/Slic3r_PE.config")
+
+
+def test_filaments_may_have_one_profile(tmp_path):
+    name = 'PLA "matte" \\ é; 2'
+    same = [{**filament, "filament_settings_id": name} for filament in red_and_blue]
+    compiler = pvc.FullSpectrumSlicerProjectCompiler(by_colours((1, 0, 0), (0, 0, 1)), 1.0, tmp_path / "a.3mf", same)
+    compiler.compile()
+    project = json.loads(entry(tmp_path / "a.3mf", "Metadata/project_settings.config"))
+    assert project["filament_settings_id"] == [name, "filament 2", name]
+    assert [recipe["slots"] for recipe in compiler.recipes()] == [[1], [3]]
+    pvc.PrusaSlicerProjectCompiler(by_colours((1, 0, 0)), 1.0, tmp_path / "b.3mf", color_mix_filaments=same,
+                                   total_physical_extruders=3).compile()
+    quoted = '"PLA \\"matte\\" \\\\ é; 2"'
+    assert f'; filament_settings_id = {quoted};"filament 2";{quoted}\n' in entry(tmp_path / "b.3mf", "Metadata/Slic3r_PE.config")
 
 
 def test_colours_alone_are_mixed_in_projects_of_prusa_slicer(tmp_path):

@@ -20,21 +20,21 @@ std::vector<Vec3> points_of(const Coordinates& array) {
   return points;
 }
 
-Coordinates edges_of(const OfPoints<Edge3>& edges) {
-  if (!edges.problem.empty()) throw py::value_error(edges.problem);
-  Coordinates array({static_cast<py::ssize_t>(edges.list.size()), py::ssize_t{2}, py::ssize_t{3}});
-  auto values = array.mutable_unchecked<3>();
+// Returns an array of the shape (edges or faces, corners, 3).
+template <size_t corners>
+Coordinates corners_of(const OfPoints<std::array<Vec3, corners>>& found) {
+  if (!found.problem.empty()) throw py::value_error(found.problem);
+  Coordinates array({static_cast<py::ssize_t>(found.list.size()), static_cast<py::ssize_t>(corners), py::ssize_t{3}});
+  auto values = array.template mutable_unchecked<3>();
   for (py::ssize_t n = 0; n < values.shape(0); ++n)
-    for (size_t end = 0; end < 2; ++end)
+    for (size_t corner = 0; corner < corners; ++corner)
       for (int axis = 0; axis < 3; ++axis)
-        values(n, static_cast<py::ssize_t>(end), axis) = edges.list[static_cast<size_t>(n)][end][axis];
+        values(n, static_cast<py::ssize_t>(corner), axis) = found.list[static_cast<size_t>(n)][corner][axis];
   return array;
 }
 
-Coordinates delaunay(const Coordinates& points) { return edges_of(delaunay_edges(points_of(points))); }
-
 Coordinates voronoi(const Coordinates& points, const std::optional<Box>& box) {
-  return edges_of(voronoi_edges(points_of(points), box));
+  return corners_of(voronoi_edges(points_of(points), box));
 }
 
 Coordinates voronoi_in_box(const Coordinates& points, const Coordinates& corners) {
@@ -48,7 +48,8 @@ Coordinates voronoi_in_box(const Coordinates& points, const Coordinates& corners
 }  // namespace
 
 void add_point_sets(py::module_& module) {
-  module.def("delaunay_edges", &delaunay);
+  module.def("delaunay_edges", [](const Coordinates& points) { return corners_of(delaunay_edges(points_of(points))); });
+  module.def("delaunay_faces", [](const Coordinates& points) { return corners_of(delaunay_faces(points_of(points))); });
   module.def("voronoi_edges", [](const Coordinates& points) { return voronoi(points, std::nullopt); });
   module.def("voronoi_edges", &voronoi_in_box);
 }

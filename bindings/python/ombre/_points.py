@@ -14,6 +14,11 @@ def delaunay_edges(points):
     return _core.delaunay_edges(numpy.asarray(points, dtype=float))
 
 
+def delaunay_faces(points):
+    """The faces of those tetrahedra: an array of shape (m, 3, 3), mm."""
+    return _core.delaunay_faces(numpy.asarray(points, dtype=float))
+
+
 def voronoi_edges(points, min=None, max=None):
     """The edges between the cells of points, each nearest to one: an array of shape (m, 2, 3), mm.
 

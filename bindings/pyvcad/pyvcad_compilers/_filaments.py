@@ -15,7 +15,7 @@ _most_filaments = 16
 _longest_cycle = 6  # layers; slicers keep the shares of such cycles
 _most_parts = 3
 _members = {"color_hex", "slot", "nozzle_diameter_mm", "filament_settings_id", "filament_id"}
-_usual_nozzle = 0.4  # mm
+USUAL_NOZZLE = 0.4  # mm
 
 # Which cycles the words of a preset stand for: numbers of filaments of a mixture in steps of 25 %.
 PRESETS = {"conservative": 2, "expanded": 3}
@@ -61,7 +61,7 @@ def _filament(what: str, entry: Any, place: int) -> Filament:
     slot = entry.get("slot", place)
     if isinstance(slot, bool) or not isinstance(slot, int) or not 1 <= slot <= _most_filaments:
         raise ValueError(f"{where}: expected a slot from 1 to {_most_filaments}, found {slot!r}")
-    nozzle = length(entry.get("nozzle_diameter_mm", _usual_nozzle))
+    nozzle = length(entry.get("nozzle_diameter_mm", USUAL_NOZZLE))
     name = str(entry.get("filament_settings_id") or f"filament {slot}")
     return Filament(slot, name, _colour(where, entry.get("color_hex")), str(entry.get("filament_id") or ""), nozzle)
 
@@ -162,7 +162,7 @@ def palette_of(values: numpy.ndarray, counts: numpy.ndarray, candidates: numpy.n
 
     Where more than `most` are nearest to some value, the ones that stand for least are left out one by one.
     """
-    distances = numpy.linalg.norm(values[:, None, :] - candidates[None, :, :], axis=2)
+    distances = numpy.stack([numpy.linalg.norm(values - candidate, axis=1) for candidate in candidates], axis=1)
     nearest = distances.argmin(axis=1)
     use = numpy.bincount(nearest, counts, minlength=len(candidates))
     while numpy.count_nonzero(use) > most:

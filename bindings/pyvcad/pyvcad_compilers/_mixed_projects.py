@@ -18,10 +18,11 @@ from pyvcad._tree import Node, Unary
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path
-from ._filaments import Recipe, RecipeRules, colour_of, filaments_of, hex_of, lab_of, light_of, palette_of, shares_of
+from ._filaments import (USUAL_NOZZLE, Filament, Recipe, RecipeRules, colour_of, filaments_of, hex_of, lab_of, light_of,
+                         palette_of, shares_of)
 
 _report = "Metadata/ombre_recipes.json"
-_steps = 255  # values are counted in so many steps of their range
+_steps = 127  # values within one of so many steps of their range count as their mean
 BY_COLOUR, BY_FRACTIONS = "color_rgb", "volume_fractions"
 
 
@@ -124,8 +125,8 @@ class MixedProject:
         mixed._ombre_design_(table).mesh(path, by="materials", flavour=flavour, force=True, tolerance=min(voxel) / 8,
                                          progress=lambda done: share(0.5 + done / 2))
         measure = "mean_delta_e" if kind == BY_COLOUR else "mean_difference_of_shares"
-        self.recipes = [{"name": name, "layers": {self.filaments[place].name: layers for place, layers in recipe},
-                         "slots": [self.filaments[place].slot for place, _ in recipe],
+        self.recipes = [{"name": name, "slots": [self.filaments[place].slot for place, _ in recipe],
+                         "layers": [layers for _, layers in recipe],
                          "color_hex": hex_of(self._colours([recipe])[0]), "share_of_part": round(part, 6),
                          measure: round(off, 4)}
                         for name, recipe, part, off in zip(names, chosen, palette.shares, palette.differences)]
@@ -165,10 +166,10 @@ class MixedProject:
 
     def _values(self, scored: Node, voxel: Any, points: numpy.ndarray,
                 progress: Callable[[float], Any]) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """The different values within the part, rounded, and how often each occurs."""
+        """The different values within the part, and how often each occurs."""
         design = scored._ombre_design_(self._table)
         scale = numpy.ptp(points, axis=0).max() / _steps or 1.0
-        found: dict[tuple[int, ...], int] = {}
+        found: dict[tuple[int, ...], numpy.ndarray] = {}  # sums of values, and their counts
         for _, places in slabs(centers(design.bounds, voxel), progress):
             inside = places[design.inside(places)]
             if len(inside) == 0:
@@ -178,14 +179,16 @@ class MixedProject:
             if bad.any():
                 x, y, z = (float(c) for c in inside[bad][0])
                 raise RuntimeError(f"{self._what}: there is no colour, or no filament's material, at ({x:g}, {y:g}, {z:g})")
-            steps, counts = numpy.unique(numpy.rint(values / scale).astype(int), axis=0, return_counts=True)
-            for row, count in zip(steps.tolist(), counts.tolist()):
+            steps, places_of = numpy.unique(numpy.rint(values / scale).astype(int), axis=0, return_inverse=True)
+            sums = numpy.zeros((len(steps), points.shape[1] + 1))
+            numpy.add.at(sums, places_of.reshape(-1), numpy.concatenate([values, numpy.ones((len(values), 1))], axis=1))
+            for row, total in zip(steps.tolist(), sums):
                 step = tuple(int(n) for n in row)
-                found[step] = found.get(step, 0) + int(count)
+                found[step] = found[step] + total if step in found else total
         if not found:
             raise RuntimeError(f"{self._what}: no voxel's centre lies in the part; choose a smaller voxel_size")
-        keys = sorted(found)
-        return numpy.array(keys) * scale, numpy.array([found[key] for key in keys], dtype=float)
+        totals = numpy.array([found[key] for key in sorted(found)])
+        return totals[:, :-1] / totals[:, -1:], totals[:, -1]
 
     def _materials(self, recipes: list[Recipe]) -> tuple[MaterialDefs, list[str]]:
         """A table of the tree's materials, the filaments and mixtures, and the names of the recipes' materials in it."""
@@ -215,19 +218,27 @@ class MixedProject:
         rewrite(path, lambda name, content: self._extended(name, content, flavour), {_report: report})
 
     def _extended(self, name: str, content: bytes, flavour: str) -> bytes:
-        nozzles = {filament.slot: filament.nozzle for filament in self.filaments}
+        by_slot = {filament.slot: filament for filament in self.filaments}
+        slots = [by_slot.get(slot, Filament(slot, f"filament {slot}", (128, 128, 128), "", USUAL_NOZZLE))
+                 for slot in range(1, self._total + 1)]
+        nozzles, names = [f"{filament.nozzle:g}" for filament in slots], [filament.name for filament in slots]
         if name == "Metadata/Slic3r_PE.config":
-            usual = ",".join("0.4" for _ in range(self._total))
-            own = ",".join(f"{nozzles.get(slot, 0.4):g}" for slot in range(1, self._total + 1))
-            return content.replace(f"nozzle_diameter = {usual}\n".encode(), f"nozzle_diameter = {own}\n".encode())
+            quoted = [name.replace("\\", "\\\\").replace('"', '\\"') for name in names]
+            own = {"nozzle_diameter": ",".join(nozzles), "filament_settings_id": ";".join(f'"{name}"' for name in quoted)}
+            return "".join(_with_value(line, own) for line in content.decode().splitlines(keepends=True)).encode()
         if name != "Metadata/project_settings.config":
             return content
         settings = json.loads(content)
-        settings["nozzle_diameter"] = [f"{nozzles.get(slot, 0.4):g}" for slot in range(1, self._total + 1)]
-        ids = {filament.slot: filament.id for filament in self.filaments}
-        if any(ids.values()):
-            settings["filament_ids"] = [ids.get(slot, "") for slot in range(1, self._total + 1)]
+        settings["nozzle_diameter"], settings["filament_settings_id"] = nozzles, names
+        if any(filament.id for filament in slots):
+            settings["filament_ids"] = [filament.id for filament in slots]
         return json.dumps(settings, indent=2).encode() + b"\n"
+
+
+def _with_value(line: str, values: dict[str, str]) -> str:
+    """A line of PrusaSlicer's settings, with its value of these."""
+    key = line.removeprefix("; ").split(" = ", 1)[0]
+    return f"; {key} = {values[key]}\n" if key in values else line
 
 
 def _channels(colour: Any) -> dict[str, int]:

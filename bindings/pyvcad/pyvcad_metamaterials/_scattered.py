@@ -9,6 +9,7 @@ from typing import Any
 import numpy
 
 import ombre
+from ombre._points import delaunay_faces
 from pyvcad import FloatAttribute, Vec3
 from pyvcad._arguments import length, not_negative, vector
 from pyvcad._cell_maps import control
@@ -217,13 +218,31 @@ def voronoi_graph_lattice(host: Any, points: Any, beam_thickness: float, node_ra
 
 def delaunay_graph_lattice(host: Any, points: Any, beam_thickness: float, node_radius: float | None = None,
                            boundary: str = "open", mode: str = "mesh_edges", member_blend_radius: float = 0.0) -> Node:
-    """Struts from each point to its neighbours, cut at the surface of the body; arguments as for voronoi_graph_lattice."""
+    """Struts from each point to its neighbours, cut at the surface of the body; arguments as for voronoi_graph_lattice.
+
+    Args:
+        mode: "mesh_edges", or "vertex_centroid" for struts from the middle of each triangle between neighbours to its corners.
+    """
+    what = "delaunay_graph_lattice"
+    places = _places(what, points)
+    if mode == "vertex_centroid":
+        return _to_middles(what, host, places, beam_thickness, node_radius, boundary, member_blend_radius)
     if mode != "mesh_edges":
-        raise missing(f"delaunay_graph_lattice with the mode {mode!r}", 'mode="mesh_edges"')
-    places = _places("delaunay_graph_lattice", points)
+        raise missing(f"{what} with the mode {mode!r}", 'mode="mesh_edges" or "vertex_centroid", or voronoi_graph_lattice, '
+                      "whose struts join the centres of the balls around tetrahedra")
     edges = ombre.delaunay_edges(numpy.array(places)).tolist()
-    return _struts("delaunay_graph_lattice", host, places, edges, ombre.delaunay_struts, beam_thickness, node_radius,
-                   boundary, member_blend_radius)
+    return _struts(what, host, places, edges, ombre.delaunay_struts, beam_thickness, node_radius, boundary,
+                   member_blend_radius)
+
+
+def _to_middles(what: str, host: Any, places: list[list[float]], beam_thickness: float, node_radius: float | None,
+                boundary: str, blend: float) -> Node:
+    if _is_closed(what, boundary) or blend:
+        raise missing(f"{what} to the middles of faces with closed ends or fillets", 'boundary="open" without fillets')
+    faces = delaunay_faces(numpy.array(places))
+    middles = numpy.broadcast_to(faces.mean(axis=1, keepdims=True), faces.shape)
+    edges = numpy.stack([middles, faces], axis=2).reshape(-1, 2, 3).tolist()
+    return _struts(what, host, places, edges, None, beam_thickness, node_radius, boundary, 0.0)
 
 
 def _walls(what: str, make: Any, host: Any, points: Any, wall_thickness: Any, boundary: str, blend: float) -> Node:

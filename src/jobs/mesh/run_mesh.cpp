@@ -300,9 +300,16 @@ void refuse_extruder(const MeshChoices& a) {
                           "one of the two out");
 }
 
-void choose_filaments(const MeshChoices& a, const compile::Loaded& loaded, const compile::MeshedDesign& made,
+// Gives the one body of a design of one material this material, where nobody chose regions.
+void name_only_material(const compile::Loaded& loaded, compile::MeshedDesign& made) {
+  if (made.bodies.size() == 1 && made.materials.names.size() == 1)
+    made.bodies[0].region.material = loaded.design.materials.find(made.materials.names[0])->id;
+}
+
+void choose_filaments(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made,
                       const Events& events, formats::MeshDocument& document) {
   if (!may_take_material_filaments(a, loaded)) return;
+  name_only_material(loaded, made);
   const auto is_of_material = [](const compile::RegionBody& body) { return body.region.material.has_value(); };
   const bool is_free = a.mix_layers == 0 && !a.virtual_tools && a.colour_by.empty();
   if (!is_free || !std::ranges::all_of(made.bodies, is_of_material))
