@@ -19,6 +19,7 @@ trap 'rm -rf "$scratch"' EXIT
 declare -A options=(
   [auxetic_insole]="--from -50,35"
   [beam_lattice]="--from -30,25"
+  [folded_tube]="--from -30,25"
   [helmet_liner]="--from 120,25"
   [changing_cells]="--from -25,25"
   [joined_lattices]="--from -25,25"

@@ -48,10 +48,9 @@ bool are_in_plane(std::span<const Vec3> points) {
 
 }  // namespace
 
-std::string problem_of_points(std::span<const Vec3> points, size_t least, bool may_repeat) {
+std::string problem_of_points(std::span<const Vec3> points, size_t least, size_t most, bool may_repeat) {
   if (points.size() < least) return counted(least, points.size());
-  if (points.size() > most_set_points)
-    return "at most " + format_count(most_set_points) + " points, found " + format_count(points.size());
+  if (points.size() > most) return "at most " + format_count(most) + " points, found " + format_count(points.size());
   for (size_t n = 0; n < points.size(); ++n)
     if (!is_finite(points[n])) return "point " + std::to_string(n + 1) + " is not finite";
   if (!may_repeat)

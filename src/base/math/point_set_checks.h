@@ -8,10 +8,8 @@
 
 namespace ombre {
 
-inline constexpr size_t most_set_points = 100'000;
-
-// Returns what is wrong with the points, as text for a message, or "" if they can be used. There must be at least
-// `least` points, all finite, not all in one plane, and no two equal unless `may_repeat`.
-std::string problem_of_points(std::span<const Vec3> points, size_t least, bool may_repeat);
+// Returns what is wrong with the points, as text for a message, or "" if they can be used. There must be from `least`
+// to `most` points, all finite, not all in one plane, and no two equal unless `may_repeat`.
+std::string problem_of_points(std::span<const Vec3> points, size_t least, size_t most, bool may_repeat);
 
 }  // namespace ombre

@@ -18,6 +18,9 @@ extern "C" {
 namespace ombre {
 namespace {
 
+// A million cells take some 5 GB while they are made.
+constexpr size_t most_of_hull = 100'000, most_with_cells = 1'000'000;
+
 // A run of Qhull over points. Its facets are valid as long as the object lives.
 class Qhull : NotCopied {
  public:
@@ -137,7 +140,8 @@ Vec3 center_of(const facetT& facet) { return {facet.center[0], facet.center[1], 
 bool knows_point_sets() { return true; }
 
 OfPoints<Plane> hull_planes(std::span<const Vec3> points) {
-  if (std::string problem = problem_of_points(points, 4, true); !problem.empty()) return {{}, std::move(problem)};
+  if (std::string problem = problem_of_points(points, 4, most_of_hull, true); !problem.empty())
+    return {{}, std::move(problem)};
   Qhull hull(points, "qhull Pp");
   if (hull.failed()) return {{}, no_answer};
   OfPoints<Plane> planes;
@@ -158,7 +162,7 @@ namespace {
 // anything is.
 template <class Visit>
 std::string for_tetrahedra(std::span<const Vec3> points, const Visit& visit) {
-  if (std::string problem = problem_of_points(points, 5, false); !problem.empty()) return problem;
+  if (std::string problem = problem_of_points(points, 5, most_with_cells, false); !problem.empty()) return problem;
   Qhull cells(points, "qhull d Qt Qbb Qc Qz Q12 Pp");
   if (cells.failed()) return no_answer;
   cells.for_facets([&](const facetT& facet) {
@@ -212,7 +216,8 @@ OfPoints<std::array<Vec3, 3>> delaunay_faces(std::span<const Vec3> points) {
 }
 
 OfPoints<Edge3> voronoi_edges(std::span<const Vec3> points, const std::optional<Box>& box) {
-  if (std::string problem = problem_of_points(points, 5, false); !problem.empty()) return {{}, std::move(problem)};
+  if (std::string problem = problem_of_points(points, 5, most_with_cells, false); !problem.empty())
+    return {{}, std::move(problem)};
   Qhull cells(points, "qhull v Qbb Qc Qz Q12 Pp");
   if (cells.failed()) return {{}, no_answer};
   qh_setvoronoi_all(cells.handle());

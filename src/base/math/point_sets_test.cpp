@@ -188,6 +188,8 @@ TEST_F(PointSets, SayWhatIsWrong) {
   twins[6] = twins[2];
   EXPECT_EQ(voronoi_edges(twins, std::nullopt).problem, "points 3 and 7 are the same");
   EXPECT_TRUE(hull_planes(twins).problem.empty());
+  EXPECT_EQ(delaunay_edges(std::vector<Vec3>(1'000'001)).problem, "at most 1,000,000 points, found 1,000,001");
+  EXPECT_EQ(hull_planes(std::vector<Vec3>(100'001)).problem, "at most 100,000 points, found 100,001");
   EXPECT_EQ(hull_planes(std::vector<Vec3>(5, Vec3{1, 2, 3})).problem, "all points lie in one plane");
 }
 

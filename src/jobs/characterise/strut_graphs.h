@@ -33,7 +33,7 @@ struct StrutGraph {
 // period.
 StrutGraph graph_of(const std::vector<GraphStrut>& struts, Vec3 period = {});
 
-// The graph of a node of a design.
+// LatticeGraph is the graph of a node of a design.
 struct LatticeGraph {
   std::string node;
   int line = 0;  // of the script; 0 if unknown

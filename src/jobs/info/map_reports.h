@@ -1,4 +1,4 @@
-// Describes what the maps of cells of a design do to cells.
+// Surveys how large the maps of a design make their cells, and how they stretch them.
 #pragma once
 
 #include <optional>

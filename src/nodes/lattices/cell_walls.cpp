@@ -196,6 +196,20 @@ struct Folds {
     Field off, squared_slope;  // distance from the sheet in cells along w, and the squared slope of that function
   };
 
+  // Returns the cells along w that have a sheet: those of the region.
+  Interval layers() const {
+    if (!map.region.node) return Interval::everything();
+    const NodePtr node(NodePtr(), map.from.node);
+    return Number(expression_of({node, *node->type().output("index"), 2})).range(map.reach(design_space(), 0));
+  }
+
+  // Returns the distance, in cells, from a place along w to the nearest sheet, when all are moved to whole numbers.
+  Field from_sheet(Field place) const {
+    const Field off = from_whole(place);
+    const Interval with_sheet = layers();
+    return with_sheet.is_bounded() ? max(off, max(with_sheet.lo - place, place - with_sheet.hi)) : off;
+  }
+
   Periodic crease(Field v) const {
     if (creases == "straight") return {v.builder->constant(0), v.builder->constant(0)};
     return creases == "zigzag" ? Periodic::zigzag(v) : Periodic::wave(v);
@@ -207,7 +221,7 @@ struct Folds {
     const Field along = at[0] + moved.value * swing;
     const Periodic rise = profile == "sharp" ? Periodic::zigzag(along) : Periodic::wave(along);
     const Field by_u = rise.slope * -depth, by_v = by_u * moved.slope * swing;
-    return {from_whole(at[2] - rise.value * depth - 0.5), squared_slope(map, {by_u, by_v, p.constant(1)}, p)};
+    return {from_sheet(at[2] - rise.value * depth - 0.5), squared_slope(map, {by_u, by_v, p.constant(1)}, p)};
   }
 };
 
