@@ -15,11 +15,8 @@ from ._cell_maps import CellMap, CellMapCollection, TrimMode
 from ._converters import (AttributeConverterBase, AttributeModifier, ExpressionConverter, InterpolationMode,
                           LookupTableConverter, LookupTableEntry, ScalarsToVec3Converter, ScalarsToVec4Converter,
                           Vec3ToScalarsConverter, VolumeFractionsExpressionConverter)
-from ._element_meshes import HexahedralMesh, TetrahedralMesh
 from ._enums import FontAspect, HorizontalAlignment, LatticeType, VerticalAlignment
 from ._errors import MissingFeature
-from ._field_datasets import (CoverageFailure, FieldAssociation, FieldCoverage, FieldDomain, FieldMetadata,
-                              UnstructuredFieldDataset)
 from ._filters import Blend, BoxKernel, Convolution, Convolve, CustomKernel, Voxels
 from ._lattices import MappedGraphLattice, MappedImplicitLattice
 from ._materials import MaterialDefs, default_materials, j750_materials, resources_path
@@ -33,7 +30,11 @@ from ._reliefs import FunctionalHeightField, ImageHeightField, SurfaceReliefVolu
 from ._resolvers import Vec4Mode, resolvers
 from ._results import PointMap, SimulationField
 from ._sampling import AttributeSamples, TreeSampler
-from ._simulation_model import SimulationCellType, SimulationModel
+from ._simulation.element_meshes import HexahedralMesh, TetrahedralMesh
+from ._simulation.field_datasets import (CoverageFailure, FieldAssociation, FieldCoverage, FieldDomain, FieldMetadata,
+                                         UnstructuredFieldDataset)
+from ._simulation.simulation_model import SimulationCellType, SimulationModel
+from ._simulation.xdmf_loader import XDMFFieldLoader
 from ._solids import CAD, Cylinder, Function, GraphLattice, Mesh, RectPrism, SignedDistanceField, Sphere, Torus
 from ._selections import MeshSelection
 from ._supports import SupportAnalyzer, SupportAnalyzerParallel
@@ -46,7 +47,6 @@ from ._unit_cells import GraphUnitCell, ImplicitUnitCell
 from ._vectors import Vec2, Vec3, Vec4
 from ._volumes import (DICOMLoader, FloatVolume, PNGColorMode, PNGLoader, Vec2sVolume, Vec3sVolume, Vec4sVolume,
                        vdb_loader)
-from ._xdmf_loader import XDMFFieldLoader
 
 __version__ = version()
 

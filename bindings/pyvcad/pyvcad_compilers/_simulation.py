@@ -11,12 +11,12 @@ from typing import Any
 import numpy
 
 from pyvcad._arguments import boolean, voxel_size
-from pyvcad._element_meshes import described, tetra_criteria
-from pyvcad._elements import Elements, bricks_of, tetrahedra_of
-from pyvcad._hdf5 import h5py
-from pyvcad._inp import write_inp
+from pyvcad._simulation.element_meshes import described, tetra_criteria
+from pyvcad._simulation.elements import Elements, bricks_of, tetrahedra_of
+from pyvcad._simulation.hdf5 import h5py
+from pyvcad._simulation.inp import write_inp
 from pyvcad._materials import MaterialDefs, default_materials, expect_table
-from pyvcad._simulation_model import SimulationCellType, SimulationModel
+from pyvcad._simulation.simulation_model import SimulationCellType, SimulationModel
 from pyvcad._tree import as_node
 
 from ._attribute_compilers import _AttributeCompiler

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy
 
-from ._field_datasets import UnstructuredFieldDataset
-from ._hdf5 import h5py
-from ._solids import _find
+from .field_datasets import UnstructuredFieldDataset
+from .hdf5 import h5py
+from .._solids import _find
 
 
 class XDMFFieldLoader:

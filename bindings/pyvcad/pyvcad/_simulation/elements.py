@@ -11,8 +11,8 @@ import numpy
 
 import ombre
 
-from ._arguments import Point
-from ._vtu import read_grid
+from .._arguments import Point
+from .vtu import read_grid
 
 # Criteria of Ombre's mesher for tetrahedra, as shares of their size: radii of the balls around facets and around cells,
 # and the greatest distance of facets from the surface.

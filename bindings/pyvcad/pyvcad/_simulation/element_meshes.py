@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy
 
-from ._arguments import Optional, Point, length, number, read, text, voxel_size
-from ._elements import Elements, TetraCriteria, bricks_of, tetrahedra_of
-from ._inp import write_inp
-from ._materials import MaterialDefs, default_materials, expect_table
-from ._tree import Node, as_node
-from ._vectors import Vec3
+from .._arguments import Optional, Point, length, number, read, text, voxel_size
+from .elements import Elements, TetraCriteria, bricks_of, tetrahedra_of
+from .inp import write_inp
+from .._materials import MaterialDefs, default_materials, expect_table
+from .._tree import Node, as_node
+from .._vectors import Vec3
 
 
 class _Array(numpy.ndarray):

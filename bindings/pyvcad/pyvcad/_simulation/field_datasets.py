@@ -10,10 +10,10 @@ import numpy
 
 import ombre
 
-from ._arguments import length
-from ._attributes import FloatAttribute, Vec3Attribute
-from ._vectors import Vec3
-from ._vtu import stored_tetrahedra
+from .._arguments import length
+from .._attributes import FloatAttribute, Vec3Attribute
+from .._vectors import Vec3
+from .vtu import stored_tetrahedra
 
 _most_failures = 10
 _share_of_tolerance, _share_of_rounding = 1e-7, 1e-12  # shares of the mesh's longest side

@@ -1,0 +1,1 @@
+"""Meshes of elements for solvers, their files, and fields that solvers have computed."""
