@@ -75,7 +75,7 @@ class NearestOfAll {
     for (const Vec3 p : points) box = hull(box, {p, p});
     return {box.center(), 0.5 * length(box.size())};
   }
-  // What is nearest to a point of a ball is not farther from its centre than this.
+  // Returns the distance from the centre of a ball within which the nearest element of each of its points lies.
   static double reach_of(const Ball& ball, double least) { return with_room(least + 2 * ball.radius); }
 
   // Divides the points until few elements may be nearest, or few points are left.
