@@ -15,7 +15,7 @@ import programs
 
 # Planes of the pictures, which cut the parts where most of them is.
 OBJECTS = {"paddle": "z=0", "ski": "z=4.5", "tweel": "z=0", "bone": "x=0", "helmet": "y=0"}
-COLUMNS = ("object", "nodes", "operations", "coarse s", "fine s", "fine cpu s", "10^9 voxels", "job s", "job cpu s", "most MB")
+COLUMNS = ("object", "nodes", "operations", "coarse s", "coarse cpu s", "fine s", "fine cpu s", "10^9 voxels", "job s", "job cpu s", "most MB")
 
 
 def picture(ombre, name, plane, pixels, scratch):
@@ -40,7 +40,7 @@ def measure(ombre, name, printer, scratch):
     job = programs.run([ombre, "slice", ombre_file(name), "--printer", printer, "-o", scratch / name, "--json"])
     planned = next(event for event in map(json.loads, job.output.splitlines()) if event["event"] == "plan")
     voxels = math.prod(planned["voxels"])
-    return (name, *counts(ombre, name), f"{coarse.seconds:.2f}", f"{fine.seconds:.2f}", f"{fine.cpu_seconds:.2f}",
+    return (name, *counts(ombre, name), f"{coarse.seconds:.2f}", f"{coarse.cpu_seconds:.2f}", f"{fine.seconds:.2f}", f"{fine.cpu_seconds:.2f}",
             f"{voxels / 1e9:.2f}", f"{job.seconds:.1f}", f"{job.cpu_seconds:.1f}",
             f"{max(job.peak_bytes, fine.peak_bytes) / 1e6:.0f}")
 

@@ -1,6 +1,7 @@
 #include "lang/engine/argument_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text/text.h"
 
@@ -9,7 +10,8 @@ namespace {
 
 bool is_object(const Value& value, Object::Form form) { return value.object() && value.object()->form() == form; }
 
-bool is_numeric(const Value& value) { return value.number() || is_object(value, Object::Form::value); }
+bool is_number(const Value& value) { return value.number() && !std::isnan(*value.number()); }
+bool is_numeric(const Value& value) { return is_number(value) || is_object(value, Object::Form::value); }
 
 // Operators take solids for the region inside them (data/library/ombre/regions.vcad).
 bool is_region(const Value& value) {
@@ -21,6 +23,20 @@ bool is_numeric_list(const Value& value) {
   return value.range() || (value.list() && std::ranges::all_of(value.list()->items, is_numeric));
 }
 
+bool is_place(const Value& value) { return is_numeric_list(value) && value.list() && value.list()->items.size() == 3; }
+
+bool is_direction(const Value& value) {
+  const auto is_zero = [](const Value& item) { return item.number() && *item.number() == 0; };
+  return is_place(value) && !std::ranges::all_of(value.list()->items, is_zero);
+}
+
+// Points have two numbers or more.
+bool is_list_of_points(const Value& value) {
+  return value.list() && std::ranges::all_of(value.list()->items, [](const Value& item) {
+           return item.list() && item.list()->items.size() >= 2 && is_numeric_list(item);
+         });
+}
+
 bool is_mixture(const Value& value) { return value.text() || is_object(value, Object::Form::mixture); }
 
 struct PortType {
@@ -29,7 +45,7 @@ struct PortType {
 };
 
 constexpr PortType types[] = {
-    {"number", "a number", [](const Value& value) { return value.number() != nullptr; }},
+    {"number", "a number", is_number},
     {"value", "a number or a value that varies in space", is_numeric},
     {"vector", "a list of numbers", is_numeric_list},
     {"colour", "the name of a colour or a list of numbers",
@@ -41,11 +57,11 @@ constexpr PortType types[] = {
     {"solid", "a solid", [](const Value& value) { return is_object(value, Object::Form::solid); }},
     {"region", "a region: a value that is 1 inside, an object with \"inside\", or a solid", is_region},
     {"frame", "a frame", [](const Value& value) { return value.record() || value.object() || value.list(); }},
-    {"curve", "a list of points", [](const Value& value) { return value.list() || value.record(); }},
-    {"points", "a list of points", [](const Value& value) { return value.list() != nullptr; }},
-    {"point", "a list of numbers", is_numeric_list},
-    {"direction", "a list of numbers", is_numeric_list},
-    {"radius", "a number", [](const Value& value) { return value.number() != nullptr; }},
+    {"curve", "a list of points", [](const Value& value) { return value.record() || is_list_of_points(value); }},
+    {"points", "a list of points", is_list_of_points},
+    {"point", "three numbers", is_place},
+    {"direction", "three numbers that are not all 0", is_direction},
+    {"radius", "a number", is_number},
     {"index", "an index: numbers that count cells",
      [](const Value& value) { return is_numeric(value) || is_numeric_list(value); }},
     {"truth", "true or false", [](const Value& value) { return value.boolean() != nullptr; }},

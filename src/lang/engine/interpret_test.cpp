@@ -474,6 +474,30 @@ TEST(Interpret, DeclaredParametersAreChecked) {
                "show(20,\"soft\",\"flat\",[1,2],3) cube(6) show(undef,\"soft\",\"flat\",[0,0],3)");
 }
 
+// Places, directions and lists of points are checked to their last number, and what is no number is none.
+TEST(Interpret, DeclaredPlacesAreChecked) {
+  const std::string axes = R"(/// Lines from points.
+module axes(
+  from = [0, 0, 0], // point mm: Where they begin
+  along = [1, 0, 0],// direction: Where they go
+  over = [],        // points mm: What they pass
+  length = 1        // number mm: How far
+) { show(from, along, over, length); }
+)";
+  const Cases cases{
+      {"axes([1, 2]);", "8:6: error: axes: from: expected three numbers (mm), found a list of 2"},
+      {"axes(2);", "8:6: error: axes: from: expected three numbers (mm), found 2"},
+      {"axes(along = [0, 0, 0]);",
+       "8:14: error: axes: along: expected three numbers that are not all 0, found a list of 3"},
+      {"axes(over = [1, 2]);", "8:13: error: axes: over: expected a list of points (mm), found a list of 2"},
+      {"axes(over = [[1, 2, 3], [1, \"a\", 3]]);",
+       "8:13: error: axes: over: expected a list of points (mm), found a list of 2"},
+      {"axes(length = 0/0);", "8:15: error: axes: length: expected a number (mm), found nan"},
+      {"axes([0, 0, 0/0]);", "8:6: error: axes: from: expected three numbers (mm), found a list of 3"}};
+  for (const auto& [call, message] : cases) expect_message(axes + call, message);
+  expect_nodes(axes + "axes([1, 2, 3], [0, 0, 2], [[1, 2], [3, 4]], 5);", "show([1,2,3],[0,0,2],[[1,2],[3,4]],5)");
+}
+
 TEST(Interpret, LibrariesAreSearchedLast) {
   std::vector<std::string> tried;
   Options options;
