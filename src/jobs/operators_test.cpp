@@ -67,6 +67,9 @@ class EveryOperator : public testing::TestWithParam<Operator> {
     ASSERT_TRUE(numbers) << to_text(diagnostics);
     numbers_ = std::move(*numbers);
   }
+  void expect_intervals_that_hold_points();
+  void expect_shares_of_one();
+  void expect_the_same_bits();
   double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
   Vec3 place(Vec3 from, double size) { return from + Vec3{number(0, size), number(0, size), number(0, size)}; }
 
@@ -79,9 +82,8 @@ class EveryOperator : public testing::TestWithParam<Operator> {
 constexpr Vec3 least{-9.97, -9.83, -9.71};
 constexpr double extent = 19.6;
 
-}  // namespace
-
-TEST_P(EveryOperator, IntervalsHoldPointsAndShortenThePrograms) {
+// Intervals hold what is found at points, and programs that they shorten give the same.
+void EveryOperator::expect_intervals_that_hold_points() {
   const Program& program = numbers_.program;
   for (int n = 0; n < 12; ++n) {
     const Vec3 low = place(least, extent);
@@ -102,7 +104,7 @@ TEST_P(EveryOperator, IntervalsHoldPointsAndShortenThePrograms) {
   }
 }
 
-TEST_P(EveryOperator, FractionsAreSharesOfOne) {
+void EveryOperator::expect_shares_of_one() {
   size_t inside = 0;
   for (int n = 0; n < 1000; ++n) {
     const auto values = at(numbers_.program, place(least, extent));
@@ -117,8 +119,6 @@ TEST_P(EveryOperator, FractionsAreSharesOfOne) {
   }
   EXPECT_GT(inside, 0);
 }
-
-namespace {
 
 class NoRows : public eval::SourceRows {
  public:
@@ -143,10 +143,9 @@ std::vector<uint32_t> bits_of(const Program& program, const eval::KernelSet& ker
   return bits;
 }
 
-}  // namespace
-
-TEST_P(EveryOperator, EveryInstructionSetGivesTheSameBits) {
-  if (eval::kernel_sets().empty()) GTEST_SKIP() << "no instruction set for batches";
+// Every instruction set gives the same bits.
+void EveryOperator::expect_the_same_bits() {
+  if (eval::kernel_sets().empty()) return;
   const Program program = program::prepare(numbers_.program, program::Purpose::batch);
   constexpr size_t count = 256;
   std::vector<float> xs, ys, zs;
@@ -159,6 +158,14 @@ TEST_P(EveryOperator, EveryInstructionSetGivesTheSameBits) {
   const auto first = bits_of(program, eval::kernel_sets().front(), {xs, ys, zs}, count);
   for (const eval::KernelSet& kernels : eval::kernel_sets())
     EXPECT_EQ(bits_of(program, kernels, {xs, ys, zs}, count), first) << kernels.name;
+}
+
+}  // namespace
+
+TEST_P(EveryOperator, KeepsTheRulesOfNodes) {
+  expect_intervals_that_hold_points();
+  expect_shares_of_one();
+  expect_the_same_bits();
 }
 
 INSTANTIATE_TEST_SUITE_P(Operators, EveryOperator, testing::ValuesIn(operators()),
