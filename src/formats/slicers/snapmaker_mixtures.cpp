@@ -45,6 +45,7 @@ std::string pattern_from(const FilamentMixture& mixture, size_t part) {
 std::string row_of(const FilamentMixture& mixture, size_t identity) {
   const FilamentMixture::Part &one = mixture.parts[0], &two = mixture.parts[1];
   const int layers = layers_from(mixture, 0);
+  ASSERT(layers > 0);
   const long percent = (200L * two.layers + layers) / (2L * layers);  // to the nearest
   return row(one.extruder, two.extruder, true, percent, identity) + ',' + pattern_from(mixture, 0);
 }
