@@ -247,25 +247,29 @@ TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
   EXPECT_EQ(studio.counts().made, made + 1);
 }
 
-TEST_F(StudioTest, ThumbnailsAreMadeOnce) {
-  const auto thumbnail = [&](const std::string& design, int node) {
-    return ask("thumbnail",
-               R"("width": 24, "height": 18, "node": )" + std::to_string(node) + R"(, "design": ")" + design + '"');
-  };
+class ThumbnailTest : public StudioTest {
+ protected:
+  // Asks for a small picture of what `of` names, such as "node": 1.
+  std::pair<Data, std::string> thumbnail(const std::string& design, const std::string& of) {
+    return ask("thumbnail", R"("width": 24, "height": 18, "design": ")" + design + R"(", )" + of);
+  }
+};
+
+TEST_F(ThumbnailTest, AreMadeOnce) {
   const std::string design = load("union() { sphere(3, red); translate(9, 0, 0) rectprism((4, 4, 4), blue); }");
-  const std::string red = thumbnail(design, 1).second;
+  const std::string red = thumbnail(design, R"("node": 1)").second;
   ASSERT_FALSE(red.empty());
   const size_t made = studio.counts().made;
   // An edit of the block leaves the ball as it is.
   const std::string edited = load("union() { sphere(3, red); translate(9, 0, 0) rectprism((5, 4, 4), blue); }");
-  EXPECT_EQ(thumbnail(edited, 1).second, red);
+  EXPECT_EQ(thumbnail(edited, R"("node": 1)").second, red);
   EXPECT_EQ(studio.counts().made, made);
-  EXPECT_NE(thumbnail(edited, 2).second, thumbnail(design, 2).second);
+  EXPECT_NE(thumbnail(edited, R"("node": 2)").second, thumbnail(design, R"("node": 2)").second);
   EXPECT_GT(studio.counts().made, made);
-  EXPECT_EQ(text(thumbnail(design, 9).first, "error"), "request");
+  EXPECT_EQ(text(thumbnail(design, R"("node": 9)").first, "error"), "request");
 }
 
-TEST_F(StudioTest, StatementsThatAreNoNodesShowWhatTheyMake) {
+TEST_F(ThumbnailTest, StatementsThatAreNoNodesShowWhatTheyMake) {
   const std::string script =
       "module pair(r) { sphere(r, red); translate(9, 0, 0) sphere(r, blue); }\n"
       "pair(3);\n"
@@ -287,22 +291,19 @@ TEST_F(StudioTest, StatementsThatAreNoNodesShowWhatTheyMake) {
   EXPECT_EQ(made[script.find("pair(2)")], " sphere translate");  // in the first turn
   EXPECT_EQ(made[script.find("if")], " cube");
   EXPECT_EQ(made.count(script.find("translate(0, 0, 30)")), 0);
-  const auto thumbnail = [&](const Data& design, const std::string& of) {
-    return ask("thumbnail", R"("width": 24, "height": 18, "design": ")" + text(design, "design") + R"(", )" + of);
-  };
   const Data joined =
       ask("load", R"("file": "b.vcad", "text": )" +
                       print_json_line(std::string("union() { sphere(3, red); translate(9, 0, 0) sphere(3, blue); }")))
           .first;
-  const std::string pair = thumbnail(loaded, R"("nodes": )" + numbers[script.find("pair(3)")]).second;
+  const std::string pair = thumbnail(text(loaded, "design"), R"("nodes": )" + numbers[script.find("pair(3)")]).second;
   EXPECT_FALSE(pair.empty());
-  EXPECT_EQ(pair, thumbnail(joined, R"("node": 0)").second);
+  EXPECT_EQ(pair, thumbnail(text(joined, "design"), R"("node": 0)").second);
   for (const std::string wrong : {"[]", "1", "[-1]", "[100000]", "[\"x\"]"})
-    EXPECT_EQ(text(thumbnail(loaded, R"("nodes": )" + wrong).first, "error"), "request") << wrong;
+    EXPECT_EQ(text(thumbnail(text(loaded, "design"), R"("nodes": )" + wrong).first, "error"), "request") << wrong;
 }
 
 // Pictures of the values of expressions, beside those of nodes that give the same.
-TEST_F(StudioTest, ExpressionsShowTheirValues) {
+TEST_F(ThumbnailTest, ExpressionsShowTheirValues) {
   const std::string script =
       "function wave(k) = sin(k * formula(\"x\"));\n"
       "function both(k) = object(first=wave(k), second=mix(red, blue, wave(k)));\n"
@@ -323,12 +324,11 @@ TEST_F(StudioTest, ExpressionsShowTheirValues) {
   for (const char* known : {"wave(30)", "wave(30) * 2 + 1", "both(30)", "wave(60)", "wave(k)"})
     EXPECT_EQ(values.count(known), 1) << known;
   EXPECT_EQ(values.count("1 + 2"), 0);
-  const auto thumbnail = [&](const std::string& of) {
-    return ask("thumbnail",
-               R"("width": 24, "height": 24, "design": ")" + text(loaded, "design") + R"(", "value": )" + of);
+  const auto of_value = [&](const std::string& number) {
+    return thumbnail(text(loaded, "design"), R"("value": )" + number);
   };
   const auto picture = [&](const std::string& expression) {
-    const auto [header, bytes] = thumbnail(values[expression]);
+    const auto [header, bytes] = of_value(values[expression]);
     EXPECT_FALSE(bytes.empty()) << expression << print_json(header);
     return bytes;
   };
@@ -337,8 +337,8 @@ TEST_F(StudioTest, ExpressionsShowTheirValues) {
             formats::decode_png(picture("wave(30) * 2 + 1"), "").pixels);
   EXPECT_NE(picture("wave(30)"), picture("wave(60)"));
   EXPECT_EQ(picture("both(30)"), picture("wave(30)"));  // its first output
-  EXPECT_EQ(text(thumbnail("-1").first, "error"), "request");
-  EXPECT_EQ(text(thumbnail("1000").first, "error"), "request");
+  EXPECT_EQ(text(of_value("-1").first, "error"), "request");
+  EXPECT_EQ(text(of_value("1000").first, "error"), "request");
 }
 
 TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {

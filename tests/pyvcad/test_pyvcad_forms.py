@@ -95,7 +95,7 @@ def test_pictures_have_the_colours_of_the_first_attribute(tmp_path):
     slanted = {"clipping_plane": True, "clipping_plane_normal": (1, -1, 0), "clipping_plane_origin": (2, -2, 0)}
     viz.Render_Image(ball, tmp_path / "d.png", slanted, 64, 48)
     assert (tmp_path / "d.png").read_bytes() not in pictures
-    # What lies before the plane x - y = 4 is taken away.
+    # The picture leaves out everything before the plane x - y = 4.
     half = viz._pictures._clipped(ball, slanted)
     assert half.evaluate(2, -2, 0) == pytest.approx(0, abs=1e-9) and half.evaluate(1.9, -1.9, 0) < 0 < half.evaluate(2.1, -2.1, 0)
     with pytest.raises(ValueError, match="expected a direction"):

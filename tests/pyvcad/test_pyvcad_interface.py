@@ -157,7 +157,7 @@ def test_there_is_no_sample_where_an_attribute_is_not_given():
     assert not samples.has_sample("density")
     with pytest.raises(RuntimeError, match="no sample"):
         samples.get_sample("density")
-    # What a converter computes is there where all that it takes is there.
+    # Outputs of a converter exist where all of its inputs do.
     computed = pv.AttributeModifier(pv.ExpressionConverter(["density"], ["modulus"], ["10*density"]), whole)
     beside = pv.Union(computed, box(center=V(20, 0, 0)))
     assert beside.sample(0, 0, 0)[1].get_sample("modulus") == 30
@@ -356,7 +356,7 @@ def test_selections_are_kept_in_files(tmp_path):
             viz.load_mesh_selection(tmp_path / "wrong.json", surface)
 
 
-# What is missing says what to write.
+# Names that are missing say what to write instead.
 
 @pytest.mark.parametrize("use", [
     lambda: pv.ThreeMFBeamLattice("a.3mf"), lambda: pv.Mix(), lambda: pv.Polygon2(), lambda: pv.FloatGrid(),

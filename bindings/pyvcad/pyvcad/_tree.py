@@ -13,18 +13,18 @@ import numpy
 
 import ombre
 from ombre._materials import current_factory, using
-from ombre._solid import made_at, wrap
+from ombre._solid import made_at
 
 from . import _grids
 from ._arguments import length
 from ._attributes import Attribute, checked
 from ._errors import WrongDesign, WrongValue
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
+from ._other_tables import named_materials, solids_of, with_current_materials
 from ._vectors import Vec3
 
 # The names of files of these packages begin with this: .../pyvcad/, .../pyvcad_metamaterials/ and so on.
 _packages = os.path.dirname(os.path.abspath(__file__))
-
 
 _usual_epsilon = 1e-4  # mm
 
@@ -460,13 +460,13 @@ class Wrapped(Node):
                 self._whole = ombre.union(*parts)
 
     def _own_materials(self) -> set[int]:
-        return {self._given.materials[name]["id"] for solid in _solids_of(self._whole)
-                for name in _named_materials(solid)}
+        return {self._given.materials[name]["id"] for solid in solids_of(self._whole)
+                for name in named_materials(solid)}
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         if self._whole._node.factory is current_factory():
             return self._whole
-        return _with_current_materials(self._whole, {name: i for i, name in enumerate(self._given.materials.names)})
+        return with_current_materials(self._whole, {name: i for i, name in enumerate(self._given.materials.names)})
 
     def _ombre_design_(self, materials: Any = None) -> ombre.Design:
         # As a whole design it keeps its box, its parts and its materials.
@@ -545,65 +545,3 @@ def _point(what: str, values: tuple[Any, ...]) -> list[float]:
     if len(values) != 3:
         raise TypeError(f"{what}: expected x, y and z or a Vec3, found {len(values)} values")
     return [float(v) for v in values]
-
-
-# Solids of one table of materials, made again with those of another: ids stay.
-
-
-def _solids_of(root: ombre.Solid) -> Iterator[ombre.Solid]:
-    """Every solid once, those below first; solids nest a few hundred levels at most."""
-    done: set[int] = set()
-
-    def visit(solid: ombre.Solid) -> Iterator[ombre.Solid]:
-        if solid._node.address in done:
-            return
-        done.add(solid._node.address)
-        for below in solid.inputs:
-            yield from visit(below)
-        yield solid
-    return visit(root)
-
-
-def _material_parameters(solid: ombre.Solid) -> list[str]:
-    info: Any = solid._info
-    return [p["name"] for p in info["parameters"]
-            if p["kind"] in ("material", "material or mixture", "list of materials")]
-
-
-def _names_in(value: Any) -> list[str]:
-    """The materials of a parameter: one, a list, or a mixture of ombre.mix."""
-    if isinstance(value, str):
-        return [value]
-    parts = [value._node.parameters[p] for p in ("a", "b")] if isinstance(value, ombre.Value) else value
-    return [name for part in parts for name in _names_in(part)]
-
-
-def _named_materials(solid: ombre.Solid) -> list[str]:
-    parameters = solid.parameters
-    return [name for p in _material_parameters(solid) for name in _names_in(parameters[p])]
-
-
-def _in_current_table(value: Any, ids: dict[str, int]) -> Any:
-    """Makes the solid again with the current table of materials."""
-    if isinstance(value, str):
-        return ids[value]
-    if not isinstance(value, ombre.Value):
-        return [ids[v] for v in value]
-    names = [entry["name"] for entry in current_factory().materials]
-
-    def named(part: Any) -> Any:
-        return names[ids[part]] if isinstance(part, str) else _in_current_table(part, ids)
-    mixed = value._node.parameters
-    return ombre.mix(named(mixed["a"]), named(mixed["b"]), mixed["t"])
-
-
-def _with_current_materials(root: ombre.Solid, ids: dict[str, int]) -> ombre.Solid:
-    factory = current_factory()
-    made: dict[int, Any] = {}
-    for solid in _solids_of(root):
-        parameters = {name: value for name, value in solid.parameters.items() if value is not None}
-        for name in _material_parameters(solid):
-            parameters[name] = _in_current_table(parameters[name], ids)
-        inputs = [made[below._node.address] for below in solid.inputs]
-        made[solid._node.address] = factory.make(solid.type, (), parameters, inputs)
-    return wrap(made[root._node.address])

@@ -65,7 +65,7 @@ class NearestOfAll {
     bool operator<(const Listed& other) const { return distance < other.distance; }
   };
 
-  // With this room, rounding does not decide which elements are compared.
+  // Returns a distance with room, so that rounding does not decide which elements are compared.
   static double with_room(double distance) { return distance * (1 + 1e-9) + 1e-9; }
   static void take(const Nearest& other, Nearest& best) {
     if (other.squared < best.squared || (other.squared == best.squared && other.number < best.number)) best = other;

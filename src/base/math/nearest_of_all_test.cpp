@@ -55,7 +55,7 @@ TEST_F(NearestOfAllTest, IsTheFirstOfTheNearest) {
   }
 }
 
-// From the middle of a ball, all of its points are as near.
+// All points of a sphere are as near to its middle.
 TEST_F(NearestOfAllTest, ManyAreAsNear) {
   std::vector<Vec3> shell;
   for (int n = 0; n < 700; ++n) {

@@ -161,8 +161,8 @@ TEST(SnapmakerProject, PatternsHaveTheSharesOfTheirMixtures) {
     }
 }
 
-// In the programs, 1 and 2 stand for the filaments that begin the row, and greater numbers for the filaments themselves
-// (their own tests: physical_filament_from_token).
+// The numbers 1 and 2 of a pattern stand for the filaments that begin the row, and greater ones for the filaments of
+// these numbers (the programs' own tests: physical_filament_from_token).
 TEST(SnapmakerProject, TheThirdFilamentHasItsOwnNumber) {
   const std::vector<FilamentMixture> one{{"", {}, {{2, 2}, {4, 1}, {5, 1}}}};
   const std::string text = snapmaker_mixtures(one), row = text.substr(0, text.find(';'));

@@ -17,7 +17,7 @@ struct CharacteriseChoices {
   std::string study;
   std::optional<double> cell_mm;
   std::string sweep, key;
-  std::string output;
+  std::string picture, output;
   WorkOptions work;
   bool force = false;
 
@@ -41,6 +41,9 @@ struct CharacteriseChoices {
                "MM")
             .between(1e-6, 1e6)
             .needs("--stiffness"),
+        option("--picture", &C::picture, kind::file, "A chart of Young's modulus by direction, .svg", "FILE")
+            .needs("--stiffness")
+            .excludes({"--sweep"}),
         option("--sweep", &C::sweep, kind::text,
                "A curve: values of a variable of the design, from LOW to HIGH in N steps of equal length",
                "NAME=LOW..HIGH:N")

@@ -38,7 +38,7 @@ constexpr const char* characterise_footer =
     "outside.\n\n"
     "Examples:\n"
     "  ombre characterise part.vcad --voxel 0.1\n"
-    "  ombre characterise cell.vcad --voxel 0.1 --box 0,0,0,5,5,5 --periodic xyz --stiffness\n"
+    "  ombre characterise cell.vcad --voxel 0.1 --box 0,0,0,5,5,5 --periodic xyz --stiffness --picture cell.svg\n"
     "  ombre characterise cell.vcad --voxel 0.1 --periodic xyz --sweep thickness=0.2..1:9 --key density -o curve.csv\n";
 
 // Values of a variable from a low to a high one.
@@ -81,6 +81,9 @@ Periodic periodic_of(const std::string& axes) {
 void refuse(const CharacteriseChoices& a) {
   periodic_of(a.periodic);
   if (!a.sweep.empty()) curve_of(a.sweep);
+  if (!a.picture.empty() && !to_lower(a.picture).ends_with(".svg"))
+    throw WrongArgument(spelled::option("--picture", a.picture) + " does not say a format; let it end in .svg");
+  if (!a.picture.empty()) refuse_to_overwrite(a.picture, a.force);
   if (a.output.empty()) return;
   const std::string ending = to_lower(a.output);
   if (!ending.ends_with(".csv") && !ending.ends_with(".json"))
@@ -180,6 +183,8 @@ compile::HomogeniseChoices homogenise_choices(const CharacteriseChoices& a) {
   choices.cell_mm = a.cell_mm.value_or(a.voxel_mm);
   choices.box = a.box;
   choices.study = a.study;
+  choices.output = a.picture;
+  choices.force = true;  // an existing file was refused before
   choices.work = a.work;
   choices.work.memory_bytes = std::max(a.work.memory_bytes, choices.work.memory_bytes);
   return choices;
@@ -240,6 +245,7 @@ int run_one(const CharacteriseChoices& a, const Characteristics& found, Session&
     const auto solved = stiffness(a, session);
     if (!solved) return wrong_input;
     members.emplace_back("homogenised", *solved);
+    if (!a.picture.empty()) files.emplace_back(a.picture);
   }
   write_json(a, members, session, files);
   return finish(session, files);

@@ -21,7 +21,7 @@ struct StrutMaker {
   std::function<StrutsOrReason()> make;
 };
 
-// These functions return nothing for nodes of other families.
+// Each returns how the struts of a node of one family are made, and nothing for nodes of other families.
 std::optional<StrutMaker> lattice_struts(const design::Node& node);
 std::optional<StrutMaker> point_struts(const design::Node& node);
 std::optional<StrutMaker> single_strut(const design::Node& node);

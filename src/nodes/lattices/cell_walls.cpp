@@ -149,8 +149,8 @@ struct Periodic {
   }
 };
 
-// With creases that zigzag, facets are those of the fold of K. Miura, "Method of packaging and deployment of large
-// membranes in space", 1985. Creases along a wave lie in planes of constant w, so that facets mirror each other there.
+// Folds has the facets of the fold of K. Miura, "Method of packaging and deployment of large membranes in space", 1985,
+// where creases zigzag. Creases along a wave lie in planes of constant w, so that facets mirror each other there.
 struct Folds {
   CellMap map;
   Number thickness = 0.5;

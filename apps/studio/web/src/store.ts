@@ -77,7 +77,7 @@ export interface MadeValue {
   value: number;
 }
 
-// What a small picture shows: a node, solids together, or the value of an expression.
+// The thing that a small picture shows: a node, solids together, or the value of an expression.
 export type Shown = Pick<MadeSolids, "nodes"> | Pick<MadeValue, "value">;
 
 export interface Design {
