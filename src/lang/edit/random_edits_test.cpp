@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/text/text.h"
 #include "lang/edit/graph_edit.h"
 #include "lang/edit/text_layout.h"
 
@@ -140,13 +141,35 @@ struct Claim {
     return count;
   }
 
-  void check(const SetArgument& edit) const {
-    EXPECT_EQ(before.items().size() >= after.items().size(), true);
-    const auto& arguments = after.items()[edit.item].arguments;
-    const size_t index = edit.index ? *edit.index : arguments.size() - 1;
-    EXPECT_EQ(after.text(arguments[index].value->span), "7.25");
-    EXPECT_EQ(more(), 0);
+  // Expects that the text has changed in nothing but this argument, and in the order of its lines: a variable moves up
+  // to what uses it.
+  void check_argument(size_t item, std::optional<size_t> index, const std::string& value) const {
+    std::string old_text(before.text());
+    if (index) {
+      const ast::Span& span = before.items()[item].arguments[*index].value->span;
+      old_text.replace(span.begin, span.end - span.begin, value);
+    }
+    std::vector<std::string> lost, gained;
+    std::ranges::set_difference(text_lines(old_text), text_lines(after.text()), std::back_inserter(lost));
+    std::ranges::set_difference(text_lines(after.text()), text_lines(old_text), std::back_inserter(gained));
+    ASSERT_EQ(lost.size(), index ? 0u : 1u);
+    ASSERT_EQ(gained.size(), lost.size());
+    if (index) return;
+    const auto [kept, from] = std::ranges::mismatch(lost[0], gained[0]);
+    EXPECT_TRUE(gained[0].ends_with(std::string(kept, lost[0].end())));
+    EXPECT_NE(gained[0].find("extra=" + value), std::string::npos) << gained[0];
   }
+  // Returns the lines of a text without their blanks.
+  static std::multiset<std::string> text_lines(std::string_view text) {
+    std::multiset<std::string> lines;
+    for (std::string& line : split(std::string(text), '\n')) {
+      std::erase(line, ' ');
+      lines.insert(std::move(line));
+    }
+    return lines;
+  }
+
+  void check(const SetArgument& edit) const { check_argument(edit.item, edit.index, "7.25"); }
   void check(const InsertCall&) const {
     EXPECT_EQ(difference(), "+  = probe(:7.25,\n");
     EXPECT_EQ(more(), 1);
@@ -161,11 +184,17 @@ struct Claim {
     }
   }
   void check(const ConnectItems& edit) const {
-    EXPECT_EQ(more(), before.items()[edit.from].kind == GraphItem::Kind::value ? 1 : 0);
+    const GraphItem& from = before.items()[edit.from];
+    if (from.kind != GraphItem::Kind::value) return check_argument(edit.to.item, edit.to.index, from.variable);
+    EXPECT_EQ(more(), 1);
   }
-  void check(const RenameVariable&) const {
-    EXPECT_EQ(more(), 0);
-    EXPECT_EQ(std::ranges::count(after.items(), "new_name", &GraphItem::variable) > 0, true);
+  void check(const RenameVariable& edit) const {
+    std::string text(after.text());
+    const std::string& name = before.items()[edit.item].variable;
+    EXPECT_NE(text.find("new_name"), std::string::npos);
+    for (size_t at = text.find("new_name"); at != std::string::npos; at = text.find("new_name", at))
+      text.replace(at, std::string("new_name").size(), name);
+    EXPECT_EQ(text, before.text());
   }
   void check(const MoveCall& edit) const {
     EXPECT_EQ(difference(), "");
