@@ -113,12 +113,12 @@ def stiffness_is_that_of_homogenise(folder):
     lines = run(folder, 'rectprism([4, 4, 4], material="red");', "--voxel", "1", "--stiffness", *study, "--json").stdout
     found = next(e for e in map(json.loads, lines.splitlines()) if e["event"] == "homogenised")
     near(found["modulus_mpa"][0], 2850, 1e-6, "Young's modulus")
-    asked = ("characterise", "design.vcad", "--voxel", "1", "--stiffness", "--picture", "cell.svg", *study)
+    command = ("characterise", "design.vcad", "--voxel", "1", "--stiffness", "--picture", "cell.svg", *study)
     folder.run("homogenise", "design.vcad", "--cell", "1", "-o", "same.svg", *study)
-    folder.run(*asked)
+    folder.run(*command)
     expect((folder.path / "cell.svg").read_bytes() == (folder.path / "same.svg").read_bytes(), "another picture than homogenise draws")
-    expect("cell.svg" in folder.run(*asked, status=2).stderr, "an existing picture is not named")
-    done = folder.events(*asked, "--force", "-o", "all.json")[-1]
+    expect("cell.svg" in folder.run(*command, status=2).stderr, "an existing picture is not named")
+    done = folder.events(*command, "--force", "-o", "all.json")[-1]
     expect(done["files"] == ["cell.svg", "all.json"], f"the files are {done['files']}")
 
 
