@@ -1,5 +1,6 @@
 #include "formats/slicers/bambu_project.h"
 
+#include <cmath>
 #include <functional>
 #include <span>
 
@@ -53,7 +54,7 @@ std::string ratios_of(const FilamentMixture& mixture) {
   int left = units;
   const std::vector<double> shares = shares_of(mixture);
   for (size_t n = 0; n < shares.size(); ++n) {
-    const int share = n + 1 == shares.size() ? left : static_cast<int>(shares[n] * units + 0.5);
+    const int share = n + 1 == shares.size() ? left : static_cast<int>(std::lround(shares[n] * units));
     left -= share;
     const std::string digits = std::to_string(units + share);
     texts.push_back((share == units ? "1." : "0.") + digits.substr(1));
