@@ -20,6 +20,11 @@ TextLevel level_called(std::string_view word) {
   return word == "top" ? TextLevel::top : TextLevel::first_line;
 }
 
+TextMeasure measure_called(std::string_view word) {
+  if (word == "em") return TextMeasure::em;
+  return word == "letters" ? TextMeasure::letters : TextMeasure::capitals;
+}
+
 }  // namespace ombre::draw
 
 #ifdef OMBRE_TEXT
@@ -30,11 +35,13 @@ TextLevel level_called(std::string_view word) {
 #include FT_OUTLINE_H
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <tuple>
 #include <utility>
 
 #include "base/math/curves.h"
+#include "base/math/interval.h"
 #include "base/system/not_copied.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
@@ -383,6 +390,26 @@ std::optional<FontMeasures> measure_font(const std::string& font_bytes, int font
   return face.has_outlines() ? std::optional(face.measures()) : std::nullopt;
 }
 
+// Returns the least and the greatest y.
+Interval heights_of(const std::vector<Ring>& rings) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Interval range{far, -far};
+  for (const Ring& ring : rings) {
+    for (const Vec2 p : ring) range = {std::min(range.lo, p.y), std::max(range.hi, p.y)};
+  }
+  return range;
+}
+
+// Lifts letters in units of the font, slants them, and makes millimetres of them.
+void place(std::vector<Ring>& rings, double lift, double mm, double slant) {
+  for (Ring& ring : rings) {
+    for (Vec2& p : ring) {
+      const double y = p.y + lift;
+      p = {mm * (p.x + slant * y), mm * y};
+    }
+  }
+}
+
 std::optional<TextOutlines> outline_text(const std::string& font_bytes, int font_index, const std::string& text,
                                          const TextLayout& layout) {
   const Face face(font_bytes, font_index);
@@ -400,9 +427,13 @@ std::optional<TextOutlines> outline_text(const std::string& font_bytes, int font
     }
     foot -= line_height;
   }
-  const double mm = layout.height_mm / (layout.is_height_of_capitals ? capitals : face.em());
-  for (Ring& ring : outlines.rings)
-    for (Vec2& p : ring) p = {mm * (p.x + layout.slant * p.y), mm * p.y};
+  double height = layout.measure == TextMeasure::em ? face.em() : capitals, lift = 0;
+  if (const Interval letters = heights_of(outlines.rings);
+      layout.measure == TextMeasure::letters && letters.hi > letters.lo) {
+    height = letters.hi - letters.lo;
+    if (layout.level != TextLevel::first_line) lift = first_foot(layout.level, height, 0) - letters.lo;
+  }
+  place(outlines.rings, lift, layout.height_mm / height, layout.slant);
   tidy(outlines.rings);
   return outlines;
 }

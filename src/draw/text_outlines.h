@@ -19,15 +19,23 @@ enum class TextLevel {
   top,
   first_line,  // the baseline of the first line
 };
-// Other words than left, center and right, or than bottom, center and top, mean the left and the first line.
+// The meaning of the height of a text.
+enum class TextMeasure {
+  capitals,  // the letter H
+  em,        // the font's size
+  letters,   // from the lowest point of all lines to the highest, between which the level places the text then
+};
+// Other words than left, center and right, or than bottom, center and top, mean the left and the first line; other
+// words than em and letters mean capitals.
 TextSide side_called(std::string_view word);
 TextLevel level_called(std::string_view word);
+TextMeasure measure_called(std::string_view word);
 
 struct TextLayout {
   double height_mm = 10;
-  bool is_height_of_capitals = true;  // otherwise of the em, the font's size
-  double line_spacing = 1;            // relative to the font's own
-  double slant = 0;                   // horizontal shift per unit of height
+  TextMeasure measure = TextMeasure::capitals;
+  double line_spacing = 1;  // relative to the font's own
+  double slant = 0;         // horizontal shift per unit of height
   TextSide side = TextSide::center;
   TextLevel level = TextLevel::center;
 };

@@ -111,7 +111,7 @@ double curve_area(const std::string& font, uint32_t letter) {
 #ifdef OMBRE_TEXT
 TEST_F(Texts, HaveTheAreaOfTheirCurves) {
   TextLayout layout;
-  layout.is_height_of_capitals = false;
+  layout.measure = TextMeasure::em;
   layout.height_mm = 20;
   const double scale = 20.0 / 2048;  // DejaVu Sans has 2048 units in an em
   for (const char letter : std::string("OB%gS8")) {
@@ -133,9 +133,30 @@ TEST_F(Texts, CapitalsHaveTheHeight) {
   EXPECT_NEAR(e.hi.x - e.lo.x, 10 * 202.0 / 1493, 1e-9);
   EXPECT_NEAR(e.hi.y, 5, 1e-9);
   TextLayout em;
-  em.is_height_of_capitals = false;
+  em.measure = TextMeasure::em;
   const Extent f = extent_of(outlined("I", em).rings);
   EXPECT_NEAR(f.hi.y - f.lo.y, 10 * 1493.0 / 2048, 1e-9);
+}
+
+// An H stands on its line and is 1493 units high; lines are 2384 apart. The g of the last line reaches below its line.
+TEST_F(Texts, AllLinesTogetherHaveTheHeight) {
+  TextLayout layout;
+  layout.measure = TextMeasure::letters;
+  const auto extent = [&](const char* words, TextLevel level) {
+    layout.level = level;
+    return extent_of(outlined(words, layout).rings);
+  };
+  for (const char* words : {"H", "HI\nH", "H\ng", "a.\n\ng"}) {
+    for (const auto& [level, low] :
+         {std::pair(TextLevel::bottom, 0.0), {TextLevel::center, -5.0}, {TextLevel::top, -10.0}}) {
+      const Extent e = extent(words, level);
+      EXPECT_NEAR(e.lo.y, low, 1e-9) << words;
+      EXPECT_NEAR(e.hi.y, low + 10, 1e-9) << words;
+    }
+  }
+  const Extent first = extent("H\nH", TextLevel::first_line);
+  EXPECT_NEAR(first.hi.y, 10 * 1493.0 / (1493 + 2384), 1e-9);
+  EXPECT_NEAR(first.lo.y, -10 * 2384.0 / (1493 + 2384), 1e-9);
 }
 
 TEST_F(Texts, StandWhereTheyShould) {

@@ -68,12 +68,8 @@ std::optional<Font> find_font(const TextRequest& use, sources::Loading& loading)
 }
 
 draw::TextLayout layout_of(const TextRequest& use, double slant) {
-  return {use.height_mm,
-          use.measure == "capitals",
-          use.line_spacing,
-          slant,
-          draw::side_called(use.h_align.text()),
-          draw::level_called(use.v_align.text())};
+  return {use.height_mm, draw::measure_called(use.measure.text()), use.line_spacing,
+          slant,         draw::side_called(use.h_align.text()),    draw::level_called(use.v_align.text())};
 }
 
 Hash key_of_text(const TextRequest& use, double slant) {

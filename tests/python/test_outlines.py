@@ -128,12 +128,14 @@ class TestPyvcad:
         text = pv.Text("I", 20.48, 3, 2)
         (lo, hi) = text.bounding_box()
         assert lo.z == pytest.approx(-1.5) and hi.z == pytest.approx(1.5)
-        # Capitals of DejaVu Sans Mono are 1493 of 2048 units high, too.
-        assert hi.y - lo.y == pytest.approx(14.93)
+        assert hi.y - lo.y == pytest.approx(20.48)
         assert lo.y == pytest.approx(-hi.y)
         assert text.distribution(0, 0, 0) == {2: 1.0}
 
     def test_text_is_aligned(self):
+        lines = pv.Text("Hg\nI", 20, 3)
+        (lo, hi) = lines.bounding_box()  # of all lines together
+        assert (lo.y, hi.y) == (pytest.approx(-10), pytest.approx(10))
         left = pv.Text("HI\nH", 10, 2, h_align=pv.HorizontalAlignment.Left, v_align=pv.VerticalAlignment.Bottom)
         right = pv.Text("HI\nH", 10, 2, 1, pv.FontAspect.Bold, "DejaVu Sans", pv.HorizontalAlignment.Right,
                         pv.VerticalAlignment.Top)

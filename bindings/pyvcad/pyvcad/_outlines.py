@@ -31,7 +31,8 @@ class Text(_Leaf):
     """Letters with a depth, half of it to each side of z = 0: Text(text, height, depth, material=1, aspect, font,
     h_align, v_align), or without the material: Text(text, height, depth, aspect, font, h_align, v_align).
 
-    The height is the font's size; capitals are about 0.7 times as tall. Lines end with a line feed.
+    The height is that of all lines together, from the lowest point of the letters to the highest. Lines end with a line
+    feed. The letters stand upright along y.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
@@ -52,7 +53,7 @@ class Text(_Leaf):
         v = self._values
         font = v["font"] or _free_font
         return ombre.text(v["text"], v["height"], v["depth"], self._material, style=v["aspect"], font=font,
-                          h_align=v["h_align"], v_align=v["v_align"], measure="em")
+                          h_align=v["h_align"], v_align=v["v_align"], measure="letters")
 
 
 def _vertices(value: Any) -> list[Point]:

@@ -37,8 +37,8 @@ std::vector<uint32_t> places_of_ends(std::span<const Edge3> segments, double tol
 std::vector<uint32_t> distinct(const std::vector<uint32_t>& places) {
   std::set<std::pair<uint32_t, uint32_t>> known;
   std::vector<uint32_t> found;
-  for (uint32_t n = 0; 2 * n < places.size(); ++n) {
-    const auto [from, to] = std::minmax(places[2 * n], places[2 * n + 1]);
+  for (uint32_t n = 0; n < places.size() / 2; ++n) {
+    const auto [from, to] = std::minmax(places[size_t{2} * n], places[size_t{2} * n + 1]);
     if (from != to && known.emplace(from, to).second) found.push_back(n);
   }
   return found;

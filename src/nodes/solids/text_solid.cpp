@@ -39,8 +39,11 @@ struct Letters {
           "(midway between these two), or top_first_line (the foot of the first line)",
           one_of({"bottom", "center", "top", "top_first_line"})},
          {"line_spacing", &Letters::line_spacing, "Factor of the font's own distance from line to line", positive("")},
-         {"measure", &Letters::measure, "Meaning of height: capitals (the letter H), or em (the font's size)",
-          one_of({"capitals", "em"})}},
+         {"measure", &Letters::measure,
+          "Meaning of height: capitals (the letter H), em (the font's size), or letters (from the lowest point of all "
+          "lines to "
+          "the highest, which v_align means then)",
+          one_of({"capitals", "em", "letters"})}},
         no_inputs,
         "text(\"B1\", 8, 2, \"red\", style=\"bold\");"};
   }
