@@ -6,6 +6,16 @@
 #include <filesystem>
 #include <string>
 
+#include "base/system/test_source_files.h"
+
+namespace ombre {
+
+std::string source_file(const std::string& name) {
+  return name.empty() ? OMBRE_SOURCE_DIR : OMBRE_SOURCE_DIR "/" + name;
+}
+
+}  // namespace ombre
+
 // Tests run at the same time, each in a process, so testing::TempDir() is a folder of the process's own.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -12,6 +12,7 @@
 #include <random>
 #include <thread>
 
+#include "base/system/test_source_files.h"
 #include "base/text/error.h"
 #include "base/text/test_errors.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-std::vector<SolidPtr> read(const std::string& name) { return read_solids(OMBRE_SOURCE_DIR "/tests/cad/" + name); }
+std::vector<SolidPtr> read(const std::string& name) { return read_solids(source_file("tests/cad/") + name); }
 
 std::string message_for(const std::string& bytes, const std::string& ending) {
   const std::string path = testing::TempDir() + "cad" + std::to_string(getpid()) + ending;
@@ -31,7 +32,7 @@ std::string message_for(const std::string& bytes, const std::string& ending) {
 }
 
 std::string bytes_of(const std::string& name) {
-  std::ifstream file(OMBRE_SOURCE_DIR "/tests/cad/" + name, std::ios::binary);
+  std::ifstream file(source_file("tests/cad/") + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

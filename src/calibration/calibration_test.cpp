@@ -6,6 +6,7 @@
 #include <random>
 #include <sstream>
 
+#include "base/system/test_source_files.h"
 #include "calibration/piecewise.h"
 #include "calibration/test_calibrations.h"
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::vector<CalibrationPtr> shipped() {
   std::vector<CalibrationPtr> all;
-  for (const auto& entry : fs::directory_iterator(fs::path(OMBRE_SOURCE_DIR) / "data/calibrations")) {
+  for (const auto& entry : fs::directory_iterator(source_file("data/calibrations"))) {
     std::ifstream file(entry.path());
     std::stringstream text;
     text << file.rdbuf();

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/system/test_source_files.h"
 #include "base/text/error.h"
 
 namespace ombre::draw {
@@ -107,7 +108,7 @@ TEST_F(Pens, TakeAnyBytesAsText) {
 
 TEST_F(Pens, SayWhichFontIsWrong) {
   EXPECT_THROW(Pen("/no/such/font.ttf"), Error);
-  EXPECT_THROW(Pen(OMBRE_SOURCE_DIR "/README.md"), Error);
+  EXPECT_THROW(Pen(source_file("README.md")), Error);
 }
 
 }  // namespace ombre::draw

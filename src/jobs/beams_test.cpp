@@ -1,6 +1,7 @@
 // Tests designs with struts that are written as beams and read again.
 #include <filesystem>
 
+#include "base/system/test_source_files.h"
 #include "formats/containers/file.h"
 #include "formats/mesh/mesh.h"
 #include "formats/packages/package_writers.h"
@@ -143,7 +144,7 @@ TEST_F(Beams, OfSeveralMaterialsComeBack) {
 }
 
 TEST_F(Beams, OfTheExampleAreThoseOfItsDesign) {
-  const std::string models = OMBRE_SOURCE_DIR "/examples/models/beam_lattice";
+  const std::string models = source_file("examples/models/beam_lattice");
   write(formats::read_file(models + ".vcad"), false, 0.05);
   Diagnostics diagnostics;
   const auto made = formats::read_mesh(path_, diagnostics), kept = formats::read_mesh(models + ".3mf", diagnostics);

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "base/system/test_source_files.h"
 #include "jobs/slice/plan.h"
 #include "jobs/test_designs.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 std::vector<std::string> examples() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(OMBRE_SOURCE_DIR "/examples"))
+  for (const auto& entry : std::filesystem::directory_iterator(source_file("examples")))
     if (entry.path().extension() == ".vcad") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -44,7 +45,7 @@ TEST_P(EveryExample, IsTheSameInBatchesAndByTheReference) {
   const auto& [example, dither] = GetParam();
   Diagnostics diagnostics;
   use_source_data();
-  const LoadedPtr loaded = load_design(OMBRE_SOURCE_DIR "/examples/" + example + ".vcad", {}, diagnostics);
+  const LoadedPtr loaded = load_design(source_file("examples/") + example + ".vcad", {}, diagnostics);
   if (to_text(diagnostics).find("ombre was built without") != std::string::npos) GTEST_SKIP();
   ASSERT_TRUE(loaded) << to_text(diagnostics);
   const auto exact = slice_example(loaded, voxel::Evaluator::reference, dither);

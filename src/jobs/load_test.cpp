@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/system/test_source_files.h"
 #include "jobs/check/emit.h"
 #include "jobs/probe/probe.h"
 
@@ -49,7 +50,7 @@ TEST(Load, UnchangedDesignReadsNoFileTwice) {
 
 TEST(LoadText, PathsBeginInItsFolder) {
   Diagnostics diagnostics;
-  const std::string folder = OMBRE_SOURCE_DIR "/tests/cases/meshes/fixtures/";
+  const std::string folder = source_file("tests/cases/meshes/fixtures/");
   const LoadedPtr loaded = load_text("mesh(\"cube.off\", \"red\");", folder + "design.vcad", {}, diagnostics);
   ASSERT_TRUE(loaded) << to_text(diagnostics);
   EXPECT_EQ(loaded->path, folder + "design.vcad");

@@ -3,6 +3,7 @@
 #include <random>
 #include <span>
 
+#include "base/system/test_source_files.h"
 #include "jobs/slice/plan.h"
 #include "jobs/test_designs.h"
 #include "program/parts.h"
@@ -181,7 +182,7 @@ TEST(ManyParts, FirstAndLastDoNotDependOnGroups) {
 
 // A mesh stands before, after or amid the parts of the table.
 TEST(ManyParts, FirstAndLastKeepTheOrderBesideMeshes) {
-  const std::string mesh = "scale(0.2, 0.2, 0.4) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\", \"green\");";
+  const std::string mesh = "scale(0.2, 0.2, 0.4) mesh(\"" + source_file("examples/models/gear.stl") + "\", \"green\");";
   for (const size_t at : {size_t{0}, size_t{50}, size_t{70}}) {
     std::vector<std::string> parts = some_parts(70);
     parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(at), mesh);
@@ -202,7 +203,7 @@ TEST(ManyParts, CanBeMovedCutAndCombined) {
 
 TEST(ManyParts, TakeMeshesAlong) {
   auto parts = some_parts(60);
-  parts.push_back("scale(0.1, 0.1, 0.1) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");");
+  parts.push_back("scale(0.1, 0.1, 0.1) mesh(\"" + source_file("examples/models/gear.stl") + "\");");
   expect_one_result(flat(parts));
 }
 
@@ -214,7 +215,7 @@ std::vector<std::string> parts_of_several_tasks() {
     if (part.find("red") != std::string::npos && part.find("fgrade") == std::string::npos) parts.push_back(part);
   EXPECT_GT(parts.size(), 300u);
   parts.resize(300);
-  parts.push_back("scale(0.1, 0.1, 0.1) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");");
+  parts.push_back("scale(0.1, 0.1, 0.1) mesh(\"" + source_file("examples/models/gear.stl") + "\");");
   parts.push_back("fgrade([\"x\", \"1 - x\"], [\"magenta\", \"blue\"]) sphere(1, \"cyan\");");
   for (const std::string& part : some_parts(298)) parts.push_back(part);
   return parts;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/system/test_source_files.h"
 #include "eval/batch/batch.h"
 #include "jobs/test_designs.h"
 #include "load/library_operators.h"
@@ -18,13 +19,13 @@ namespace {
 
 using program::Program;
 
-std::vector<Operator> operators() { return operators_in({OMBRE_SOURCE_DIR "/data/library"}); }
+std::vector<Operator> operators() { return operators_in({source_file("data/library")}); }
 
 // Returns the example as a script, whose models are those of the repository.
 std::string script_of(const Operator& one) {
   std::string example = one.declaration.example;
   if (const size_t models = example.find("models/"); models != std::string::npos)
-    example.insert(models, OMBRE_SOURCE_DIR "/examples/");
+    example.insert(models, source_file("examples/"));
   return "use <" + one.library + ">\n" + example + '\n';
 }
 

@@ -1,6 +1,7 @@
 // Tests sections seen flat, against geometry.
 #include <cmath>
 
+#include "base/system/test_source_files.h"
 #include "jobs/test_pictures.h"
 
 namespace ombre::compile {
@@ -72,7 +73,7 @@ TEST(Sections, MixColoursByFraction) {
 TEST(Sections, OfMeshesAndOfWhatIsCut) {
   PictureRequest request;
   request.background.is_transparent = true;
-  const std::string gear = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
+  const std::string gear = "mesh(\"" + source_file("examples/models/gear.stl") + "\");";
   request.threads = 1;
   const Picture one = slice(gear, {2, 2}, request);
   request.threads = 2;

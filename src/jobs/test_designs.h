@@ -9,12 +9,13 @@
 #include <fstream>
 #include <string>
 
+#include "base/system/test_source_files.h"
 #include "jobs/slice/plan.h"
 #include "load/load.h"
 
 namespace ombre::compile {
 
-inline void use_source_data() { setenv("OMBRE_DATA", OMBRE_SOURCE_DIR, 1); }
+inline void use_source_data() { setenv("OMBRE_DATA", source_file().c_str(), 1); }
 
 inline LoadedPtr load_text(const std::string& text, Diagnostics& diagnostics, const std::string& ending = ".vcad") {
   use_source_data();

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/system/tasks.h"
+#include "base/system/test_source_files.h"
 #include "jobs/test_designs.h"
 #include "load/find_printer.h"
 #include "program/evaluate.h"
@@ -148,8 +149,8 @@ TEST(Fractions, ThresholdIsExact) {
 TEST(Layers, DoNotDependOnHowTheyAreGrouped) {
   const std::string design = boxed(5, 0.1,
                                    "fgrade([\"0.5 + x/10\", \"0.5 - x/10\"], [\"red\", \"blue\"], \"prob\") { union() "
-                                   "{ sphere(3); translate(2, 1, 0) { torus(2.5, 0.7); } mesh(\"" OMBRE_SOURCE_DIR
-                                   "/examples/models/tetrahedron.off\"); } }");
+                                   "{ sphere(3); translate(2, 1, 0) { torus(2.5, 0.7); } mesh(\"" +
+                                       source_file("examples/models/tetrahedron.off") + "\"); } }");
   const Voxels by_8 = slice_text(design), by_1 = slice_text(design, {}, 1), by_13 = slice_text(design, {}, 13);
   EXPECT_TRUE(by_8.ids == by_1.ids);
   EXPECT_TRUE(by_8.ids == by_13.ids);
@@ -158,8 +159,8 @@ TEST(Layers, DoNotDependOnHowTheyAreGrouped) {
 TEST(Layers, MayBeQueriedBySeveralThreadsAtOnce) {
   Diagnostics diagnostics;
   const LoadedPtr loaded =
-      load_text("fgrade([\"0.5 + d/10\", \"0.5 - d/10\"], [\"red\", \"blue\"], \"prob\") { mesh(\"" OMBRE_SOURCE_DIR
-                "/examples/models/tetrahedron.off\"); }",
+      load_text("fgrade([\"0.5 + d/10\", \"0.5 - d/10\"], [\"red\", \"blue\"], \"prob\") { mesh(\"" +
+                    source_file("examples/models/tetrahedron.off") + "\"); }",
                 diagnostics);
   const auto plan = plan_slice(loaded, {}, diagnostics);
   ASSERT_TRUE(plan) << to_text(diagnostics);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/system/test_source_files.h"
 #include "calibration/test_calibrations.h"
 #include "load/find_calibration.h"
 #include "load/load.h"
@@ -17,17 +18,17 @@ namespace {
 using calibration::CalibrationPtr;
 
 LoadedPtr loaded(const std::string& text) {
-  setenv("OMBRE_DATA", OMBRE_SOURCE_DIR, 1);
+  setenv("OMBRE_DATA", source_file().c_str(), 1);
   Diagnostics diagnostics;
   LoadOptions options;
-  options.materials = OMBRE_SOURCE_DIR "/materials/j750.json";
+  options.materials = source_file("materials/j750.json");
   auto design = load_text(text, "part.vcad", options, diagnostics);
   EXPECT_TRUE(design) << to_text(diagnostics);
   return design;
 }
 
 CalibrationPtr shipped(const std::string& name) {
-  setenv("OMBRE_DATA", OMBRE_SOURCE_DIR, 1);
+  setenv("OMBRE_DATA", source_file().c_str(), 1);
   Diagnostics diagnostics;
   auto calibration = find_calibration(name, diagnostics);
   EXPECT_TRUE(calibration) << to_text(diagnostics);

@@ -6,12 +6,14 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/system/test_source_files.h"
+
 namespace ombre::voxel {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path profiles = fs::path(OMBRE_SOURCE_DIR) / "printers";
+const fs::path profiles = source_file("printers");
 
 std::optional<Printer> shipped(const std::string& name, Diagnostics& diagnostics) {
   std::ifstream file(profiles / (name + ".json"));

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/system/test_source_files.h"
 #include "base/text/json.h"
 #include "studio/test_studio.h"
 #include "studio/workspace/data_files.h"
@@ -63,8 +64,7 @@ TEST_F(StudioTest, ShowsAScanByAScript) {
 }
 
 TEST_F(StudioTest, ShowsResults) {
-  std::filesystem::copy_file(std::filesystem::path(OMBRE_SOURCE_DIR) / "examples/models/bent_beam.vtu",
-                             folder.path / "beam.vtu");
+  std::filesystem::copy_file(source_file("examples/models/bent_beam.vtu"), folder.path / "beam.vtu");
   const Data opened = ask("open", R"("file": "beam.vtu")").first;
   EXPECT_EQ(text(opened, "kind"), "results") << print_json(opened);
   const auto load_deformed = [&](const std::string& factor) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/system/test_source_files.h"
 #include "base/text/error.h"
 #include "base/text/test_errors.h"
 #include "formats/containers/file.h"
@@ -187,12 +188,12 @@ TEST(File, SaysWhichFoldersWereSearched) {
   Diagnostics diagnostics;
   expect_error([&] { read_mesh("no/such.stl", diagnostics); },
                "cannot read no/such.stl: No such file or directory (looked for /");
-  EXPECT_THROW(read_file(OMBRE_SOURCE_DIR), Error);
+  EXPECT_THROW(read_file(source_file()), Error);
   const std::string pipe = testing::TempDir() + "/ombre_pipe_" + std::to_string(::getpid());
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THROW(read_file(pipe), Error);  // which nobody writes to
   ::unlink(pipe.c_str());
-  EXPECT_NE(read_file(std::string(OMBRE_SOURCE_DIR) + "/CMakeLists.txt").find("project(ombre"), std::string::npos);
+  EXPECT_NE(read_file(source_file("CMakeLists.txt")).find("project(ombre"), std::string::npos);
 }
 
 TEST(Stl, CutShortSaysWhatIsMissing) {

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "base/system/test_source_files.h"
 #include "base/text/error.h"
 
 namespace ombre::importing {
@@ -13,7 +14,7 @@ class CadSources : public testing::Test {
  protected:
   void SetUp() override {
     try {
-      ball_ = cad::read_solids(OMBRE_SOURCE_DIR "/tests/cad/sphere.step");
+      ball_ = cad::read_solids(source_file("tests/cad/sphere.step"));
     } catch (const Error& error) {
       if (std::string(error.what()).find("without Open CASCADE") == std::string::npos) throw;
       GTEST_SKIP() << error.what();
@@ -75,7 +76,7 @@ TEST_F(CadSources, RangesHoldPoints) {
 TEST_F(CadSources, ExactOnesAreInsideWhereTheLibrarySaysSo) {
   for (const char* name : {"tests/cad/block_in_inches.step", "tests/cad/assembly.step", "tests/cad/all_surfaces.step",
                            "examples/models/bracket.step"}) {
-    const auto solids = cad::read_solids(std::string(OMBRE_SOURCE_DIR "/") + name);
+    const auto solids = cad::read_solids(source_file(name));
     const double deflection = 0.05;
     const auto source = make_exact_source(name, solids, {}, deflection).source;
     const int inside = source->channel("inside");

@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "base/system/test_source_files.h"
 #include "formats/containers/file.h"
 #include "formats/packages/read_mesh.h"
 #include "import/fields/triangle_distance.h"
@@ -254,7 +255,7 @@ TEST(Inspect, MergesVerticesAtTheSamePlace) {
 }
 
 // The models in examples/models.
-const std::filesystem::path models = std::filesystem::path(OMBRE_SOURCE_DIR) / "examples" / "models";
+const std::filesystem::path models = source_file("examples/models");
 
 // Open surfaces, on which examples lay cells.
 const std::set<std::string> sheets{"head.off", "insole.off"};
@@ -294,7 +295,7 @@ TEST(Models, WingFitsItsBox) {
 TEST(Models, ComeFromTheirToolByteForByte) {
   if (std::system("python3 -c pass > /dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not installed";
   const auto made = std::filesystem::temp_directory_path() / ("ombre_models_" + std::to_string(::getpid()));
-  const std::string tool = (std::filesystem::path(OMBRE_SOURCE_DIR) / "tools" / "make_models.py").string();
+  const std::string tool = source_file("tools/make_models.py");
   ASSERT_EQ(std::system(("python3 '" + tool + "' '" + made.string() + "'").c_str()), 0);
   size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(made)) {

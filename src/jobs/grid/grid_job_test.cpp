@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/system/test_source_files.h"
 #include "base/text/error.h"
 #include "formats/containers/file.h"
 #include "jobs/grid/volume_files.h"
@@ -139,7 +140,7 @@ TEST(Grids, NarrowBandsAreCutOff) {
 
 // The mesh lies on the border of the lattice.
 TEST(Grids, BandsOfMeshesHaveNothingInsideBeyondTheLattice) {
-  const Sampled grid = sample("mesh(\"" OMBRE_SOURCE_DIR "/examples/models/tetrahedron.off\");",
+  const Sampled grid = sample("mesh(\"" + source_file("examples/models/tetrahedron.off") + "\");",
                               {{false, true, true, true}, pitch(0.3), {}, 2});
   const voxel::TileBox& region = grid.job.region;
   const auto& count = grid.job.request.lattice.count;
@@ -196,7 +197,7 @@ TEST(Grids, ABoxIsCutFromTheWhole) {
 }
 
 TEST(Grids, BatchesAgreeWithTheReference) {
-  const std::string mesh = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/tetrahedron.off\");";
+  const std::string mesh = "mesh(\"" + source_file("examples/models/tetrahedron.off") + "\");";
   std::string struts = "union() {";
   for (int n = 0; n < 40; ++n)
     struts +=

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/system/test_source_files.h"
 #include "jobs/test_pictures.h"
 #include "program/evaluate.h"
 #include "program/passes/passes.h"
@@ -76,7 +77,7 @@ TEST(Pictures, PerspectiveSeesTheConeAroundASphere) {
 }
 
 TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
-  const std::string mesh = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
+  const std::string mesh = "mesh(\"" + source_file("examples/models/gear.stl") + "\");";
   const Shot gear = shoot(mesh, view("top"));
   Diagnostics diagnostics;
   const LoadedPtr loaded = load_text(mesh, diagnostics);
@@ -96,7 +97,7 @@ TEST(Pictures, MeshesAndCallsAndManyPartsAreSeenToo) {
 
 // Perspective vanishes from far away.
 TEST(Pictures, MeshesFromAFarEyeAreThoseOfParallelRays) {
-  const std::string mesh = "rotate(10, 20, 30) mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
+  const std::string mesh = "rotate(10, 20, 30) mesh(\"" + source_file("examples/models/gear.stl") + "\");";
   render::ViewOptions far = view("iso");
   far.field_of_view_deg = 0.001;
   const Shot perspective = shoot(mesh, far), parallel = shoot(mesh, view("iso"));
@@ -113,7 +114,7 @@ TEST(Pictures, MeshesFromAFarEyeAreThoseOfParallelRays) {
 
 // The mesh reaches beside the eye, outside of the picture.
 TEST(Pictures, TheEyeMayStandWithinAMesh) {
-  const std::string gear = "mesh(\"" OMBRE_SOURCE_DIR "/examples/models/gear.stl\");";
+  const std::string gear = "mesh(\"" + source_file("examples/models/gear.stl") + "\");";
   SceneOptions options;
   options.box = Box{{7, -1, -1}, {9, 1, 1}};  // within the gear's body, as is its eye
   render::ViewOptions close = view("right");
@@ -205,8 +206,7 @@ class EveryPicture : public testing::TestWithParam<std::tuple<std::string, doubl
 TEST_P(EveryPicture, ShowsWhatTheReferenceFinds) {
   use_source_data();
   Diagnostics diagnostics;
-  const LoadedPtr loaded =
-      load_design(OMBRE_SOURCE_DIR "/examples/" + std::get<0>(GetParam()) + ".vcad", {}, diagnostics);
+  const LoadedPtr loaded = load_design(source_file("examples/") + std::get<0>(GetParam()) + ".vcad", {}, diagnostics);
   ASSERT_TRUE(loaded) << to_text(diagnostics);
   const Box box = *design_box(loaded->design, diagnostics);
   render::ViewOptions options = view("iso");

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/system/test_source_files.h"
 #include "base/text/text.h"
 #include "lang/edit/graph_edit.h"
 #include "lang/edit/text_layout.h"
@@ -18,7 +19,7 @@ namespace {
 
 std::vector<SourcePtr> examples() {
   std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(OMBRE_SOURCE_DIR "/examples"))
+  for (const auto& entry : std::filesystem::directory_iterator(source_file("examples")))
     if (entry.path().extension() == ".vcad") paths.push_back(entry.path());
   std::ranges::sort(paths);
   std::vector<SourcePtr> sources;
