@@ -52,8 +52,7 @@ struct RandomPoints {
                            "write for example " + spelled::parameter("distance", "2"));
     const Box box = box_of(solid, design_space());
     if (box.is_empty()) return true;
-    if (!box.is_bounded() || box.size().x >= design_limit_mm || box.size().y >= design_limit_mm ||
-        box.size().z >= design_limit_mm)
+    if (!has_ends(box))
       return reader.refuse("the solid of scattered_points has no end",
                            "cut it, for example with an intersection with a cube");
     if (clearance > 0) warn_of_implicit_distance(reader, *solid.node, "clearance");
