@@ -12,6 +12,7 @@ bool is_object(const Value& value, Object::Form form) { return value.object() &&
 
 bool is_number(const Value& value) { return value.number() && std::isfinite(*value.number()); }
 bool is_radius(const Value& value) { return is_number(value) && *value.number() >= 0; }
+bool is_length(const Value& value) { return is_number(value) && *value.number() > 0; }
 bool is_numeric(const Value& value) { return is_number(value) || is_object(value, Object::Form::value); }
 
 // Operators take solids for the region inside them (data/library/ombre/regions.vcad).
@@ -63,6 +64,7 @@ constexpr PortType types[] = {
     {"point", "three numbers", is_place},
     {"direction", "three numbers that are not all 0", is_direction},
     {"radius", "a number of 0 or more", is_radius},
+    {"length", "a number above 0", is_length},
     {"index", "an index: numbers that count cells",
      [](const Value& value) { return is_numeric(value) || is_numeric_list(value); }},
     {"truth", "true or false", [](const Value& value) { return value.boolean() != nullptr; }},
@@ -123,6 +125,10 @@ std::string found_text(const Value& value) {
 }
 
 }  // namespace
+
+bool names_material(const DeclaredParameter& parameter) {
+  return parameter.type == "material" || parameter.type == "mixture";
+}
 
 std::string mismatch_of(const DeclaredParameter& parameter, const Value& value) {
   if (value.is_undef()) return "";  // stands for the default, or for nothing

@@ -482,21 +482,26 @@ module axes(
   along = [1, 0, 0],// direction: Where they go
   over = [],        // points mm: What they pass
   length = 1,       // number mm: How far
-  thick = 1         // radius mm: How thick
+  thick = 1,        // radius mm: How thick
+  size = 1,         // length mm: How large
+  of = "red"        // material: Of what
 ) { show(from, along, over, length); }
 )";
-  const Cases cases{{"axes([1, 2]);", "9:6: error: axes: from: expected three numbers (mm), found [1, 2]"},
-                    {"axes(2);", "9:6: error: axes: from: expected three numbers (mm), found 2"},
-                    {"axes(along = [0, 0, 0]);",
-                     "9:14: error: axes: along: expected three numbers that are not all 0, found [0, 0, 0]"},
-                    {"axes(over = [1, 2]);", "9:13: error: axes: over: expected a list of points (mm), found [1, 2]"},
-                    {"axes(over = [[1, 2, 3], [1, \"a\", 3]]);",
-                     "9:13: error: axes: over: expected a list of points (mm), found a list of 2"},
-                    {"axes(length = 0/0);", "9:15: error: axes: length: expected a number (mm), found nan"},
-                    {"axes([0, 0, 0/0]);", "9:6: error: axes: from: expected three numbers (mm), found [0, 0, nan]"},
-                    {"axes([0, 0, 1/0]);", "9:6: error: axes: from: expected three numbers (mm), found [0, 0, inf]"},
-                    {"axes(length = -1/0);", "9:15: error: axes: length: expected a number (mm), found -inf"},
-                    {"axes(thick = -1);", "9:14: error: axes: thick: expected a number of 0 or more (mm), found -1"}};
+  const Cases cases{
+      {"axes([1, 2]);", "11:6: error: axes: from: expected three numbers (mm), found [1, 2]"},
+      {"axes(2);", "11:6: error: axes: from: expected three numbers (mm), found 2"},
+      {"axes(along = [0, 0, 0]);",
+       "11:14: error: axes: along: expected three numbers that are not all 0, found [0, 0, 0]"},
+      {"axes(over = [1, 2]);", "11:13: error: axes: over: expected a list of points (mm), found [1, 2]"},
+      {"axes(over = [[1, 2, 3], [1, \"a\", 3]]);",
+       "11:13: error: axes: over: expected a list of points (mm), found a list of 2"},
+      {"axes(length = 0/0);", "11:15: error: axes: length: expected a number (mm), found nan"},
+      {"axes([0, 0, 0/0]);", "11:6: error: axes: from: expected three numbers (mm), found [0, 0, nan]"},
+      {"axes([0, 0, 1/0]);", "11:6: error: axes: from: expected three numbers (mm), found [0, 0, inf]"},
+      {"axes(length = -1/0);", "11:15: error: axes: length: expected a number (mm), found -inf"},
+      {"axes(thick = -1);", "11:14: error: axes: thick: expected a number of 0 or more (mm), found -1"},
+      {"axes(size = 0);", "11:13: error: axes: size: expected a number above 0 (mm), found 0"},
+      {"axes(of = \"redd\");", "11:11: error: axes: of: there is no material \"redd\"; did you mean \"red\"?"}};
   for (const auto& [call, message] : cases) expect_message(axes + call, message);
   expect_nodes(axes + "axes([1, 2, 3], [0, 0, 2], [[1, 2], [3, 4]], 5);", "show([1,2,3],[0,0,2],[[1,2],[3,4]],5)");
 }

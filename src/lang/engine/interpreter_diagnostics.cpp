@@ -142,6 +142,12 @@ std::string Interpreter::hint_of_libraries(const ast::Name& name) const {
   return file.empty() ? "" : "a library has it; write at the top: use <" + file + '>';
 }
 
+std::string Interpreter::mismatch_of_material(const std::string& name) const {
+  if (const auto known = vocabulary_.constant(name); known && known->string()) return "";
+  const std::string similar = did_you_mean(name, vocabulary_.constants());
+  return "there is no material \"" + name + '"' + (similar.empty() ? "" : "; " + similar);
+}
+
 Value Interpreter::value_of_unknown(const ast::Name& name, const Scope& scope) {
   std::vector<std::string> candidates = vocabulary_.constants();
   for (const auto& [symbol, value] : specials_) candidates.push_back(*symbol);

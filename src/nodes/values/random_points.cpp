@@ -78,6 +78,9 @@ struct RandomPoints {
     ScatteredPoints found = scatter_points(host, {static_cast<uint64_t>(seed), relax, clearance});
     if (!found.problem.empty()) return reader.refuse("scattered_points: " + found.problem, found.hint);
     points.at = std::move(found.points);
+    if (points.at.empty())
+      reader.diagnostics.warning(reader.where, "scattered_points found no place for a point in the solid",
+                                 "take a smaller distance, or a smaller clearance from its border");
     return true;
   }
 
