@@ -4,10 +4,11 @@ from __future__ import annotations
 import copy
 import enum
 import math
+import numbers
 import operator
 import re
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import ombre
 
@@ -27,7 +28,12 @@ class ReturnType(str, enum.Enum):
     none = "none"
 
 
-class DefaultAttributes:
+class _Names(type):
+    if TYPE_CHECKING:
+        def __getattr__(cls, name: str) -> Any: ...
+
+
+class DefaultAttributes(metaclass=_Names):
     """Names of attributes that programs know; NAME_TYPE is what each gives."""
 
     @staticmethod
@@ -89,7 +95,7 @@ def _formula(value: Any, what: str) -> ombre.Expression:
         value = value._component(0)
     if isinstance(value, ombre.Expression):
         return value
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return ombre.Expression("0") + float(value)
     raise TypeError(f"{what}: arithmetic of attributes takes numbers and attributes of formulas, found "
                     f"{type(value).__name__}")
@@ -293,6 +299,8 @@ class Vec3Attribute(_VectorAttribute):
 
     def __mul__(self, other: Any) -> Vec3Attribute:
         return self._each(other, operator.mul)
+
+    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Vec3Attribute:
         return self._each(other, operator.truediv)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import enum
 import math
+import numbers
 from typing import Any
 
 import ombre
@@ -295,7 +296,7 @@ class LookupTableConverter(AttributeConverterBase):
             if isinstance(values[0], dict):
                 ids = sorted({material(id) for value in values for id in value})
                 solid = ombre.fgrade(solid, [self._formula([value.get(id, 0.0) for value in values]) for id in ids], ids)
-            elif isinstance(values[0], (int, float)):
+            elif isinstance(values[0], numbers.Real):
                 solid = ombre.attribute(solid, name, self._formula(values))
             else:
                 parts = [self._formula([value[i] for value in values]) for i in range(len(values[0]))]

@@ -7,7 +7,7 @@ import operator
 import os
 import sys
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy
 
@@ -22,6 +22,9 @@ from ._errors import WrongDesign, WrongValue
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
 from ._other_tables import named_materials, solids_of, with_current_materials
 from ._vectors import Vec3
+
+if TYPE_CHECKING:
+    from ._samples import AttributeSamples
 
 # The names of files of these packages begin with this: .../pyvcad/, .../pyvcad_metamaterials/ and so on.
 _packages = os.path.dirname(os.path.abspath(__file__))
@@ -132,7 +135,8 @@ class Node:
     def _refresh(self, factory: Any) -> None:
         solids = [_solid_of(node) for node in self._inputs()]
         versions = [attribute._version for attribute in self._attributes.values()]
-        is_same = versions == self._built_with and len(solids) == len(self._built_from) and all(map(operator.is_, solids, self._built_from))
+        is_same = (versions == self._built_with and len(solids) == len(self._built_from)
+                   and all(map(operator.is_, solids, self._built_from)))
         if self._solid is None or self._factory is not factory or not is_same:
             try:
                 with made_at(self._place):
@@ -166,6 +170,10 @@ class Node:
         if greatest > 255:
             raise self._error(f"there is no material {greatest}; 255 is the greatest id")
         return self._build((known if greatest < len(known) else numbered(greatest))._factory).design()
+
+    if TYPE_CHECKING:  # what other files add
+        def sample(self, x: float, y: float, z: float) -> tuple[float, AttributeSamples | None]: ...
+        def to_diagram(self) -> str: ...
 
     # For `ombre`.
 
