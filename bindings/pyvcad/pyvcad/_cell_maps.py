@@ -155,9 +155,9 @@ class CellMap:
         cells = numpy.floor(places)
         is_turned = determinants * numpy.median(determinants) <= 0
         active, inverted = _different(cells[is_there]), _different(cells[is_there][is_turned])
-        asked, missing_from = _different(cells), _different(cells[~is_there])
-        trimmed = missing_from - (asked - active)
-        active, trimmed, inverted = (round(n * math.prod(self._cells) / asked) for n in (active, trimmed, inverted))
+        all_cells, missing_from = _different(cells), _different(cells[~is_there])
+        trimmed = missing_from - (all_cells - active)
+        active, trimmed, inverted = (round(n * math.prod(self._cells) / all_cells) for n in (active, trimmed, inverted))
         return MapReport(inverted == 0 and failures == 0, active, inverted, failures, float(determinants.min()),
                          float(determinants.max()), float((stretches[:, 0] / stretches[:, 2]).max()),
                          trimmed_element_count=trimmed)

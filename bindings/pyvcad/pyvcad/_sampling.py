@@ -262,4 +262,4 @@ def _array(points: Any) -> numpy.ndarray:
 
 
 # It is set here instead of in the class, which samples know.
-Node.sample = lambda self, x, y, z: sampled(self, _array([(x, y, z)]))[0]  # type: ignore[attr-defined]
+setattr(Node, "sample", lambda self, x, y, z: sampled(self, _array([(x, y, z)]))[0])
