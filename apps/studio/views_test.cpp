@@ -349,7 +349,7 @@ TEST_F(ThumbnailTest, ExpressionsShowTheirSolids) {
       "two = ball(3);\n"
       "m = box_cells((4, 4, 4), min=(0, 0, 0), max=(8, 8, 8));\n"
       "region = m.region;\n"
-      "cell = tile((4, 4, 4), ball(1 + 0.2 * ci));\n"
+      "copy = sphere(\"1 + 0.2*ci\", red);\n"
       "union() { sphere(3, red); solid_of(one); }";
   const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
   ASSERT_TRUE(loaded.find("made")) << print_json(loaded);
@@ -367,6 +367,7 @@ TEST_F(ThumbnailTest, ExpressionsShowTheirSolids) {
   }
   EXPECT_EQ(pictures["sphere(3, red)"], pictures["ball(3)"]);
   EXPECT_NE(pictures["sphere(3, red)"], pictures["m.region"]);
+  EXPECT_EQ(errors["sphere(\"1 + 0.2*ci\", red)"], "unsupported");
 }
 
 TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {

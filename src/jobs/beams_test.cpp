@@ -134,15 +134,20 @@ TEST_F(Beams, BesideSolidsComeBack) {
 
 // Steps have a slope of 0, as no shift has; a shift leaves cells equal boxes.
 TEST_F(Beams, OfCellsThatAreShiftedByStepsAreNone) {
-  const auto made = [&](const std::string& u) {
-    return write("m = formula_cells(u=\"" + u +
-                     "\", of=box_cells((5, 5, 5), min=(0, 0, 0), max=(10, 10, 10)));\n"
-                     "lattice(\"bcc\", radius=0.8, map=m);",
-                 false, 0.1);
+  const auto design = [](const std::string& u) {
+    return "m = formula_cells(u=\"" + u +
+           "\", of=box_cells((5, 5, 5), min=(0, 0, 0), max=(10, 10, 10)));\n"
+           "lattice(\"bcc\", radius=0.8, map=m);";
   };
-  EXPECT_TRUE(made("u + (v > 1)*0.5").beams.empty());
-  EXPECT_TRUE(made("u + 0.5*floor(v)").beams.empty());
-  EXPECT_FALSE(made("u + 0.5").beams.empty());
+  for (const char* shifted : {"u + (v > 1)*0.5", "u + 0.5*floor(v)"}) {
+    Diagnostics diagnostics;
+    const LoadedPtr loaded = load_text(design(shifted), diagnostics);
+    MeshRequest request;
+    request.beams = true;
+    EXPECT_FALSE(mesh_design(*loaded, request, diagnostics));
+    EXPECT_NE(to_text(diagnostics).find("no struts that can be written as beams"), std::string::npos);
+  }
+  EXPECT_FALSE(write(design("u + 0.5"), false, 0.1).beams.empty());
 }
 
 TEST_F(Beams, OfSeveralMaterialsComeBack) {

@@ -19,11 +19,25 @@ namespace ombre::sources {
 
 constexpr size_t bytes_of_file_byte = 20;  // estimate for shapes and triangles, per byte of the file
 
+namespace {
+
+// Returns "STEP (.step, .stp), IGES (.iges, .igs)" and so on.
+std::string formats_text() {
+  std::vector<std::string> formats;
+  for (const FileFormat& format : cad::file_formats()) {
+    const std::vector<std::string> endings(format.endings.begin(), format.endings.end());
+    formats.push_back(std::string(format.name) + " (" + join(endings, ", ") + ')');
+  }
+  return join(formats, ", ");
+}
+
+}  // namespace
+
 std::shared_ptr<const CadFile> read_cad(const design::FilePath& file, Loading& loading) {
   if (!cad::is_cad_file(file.path)) {
-    loading.reader().diagnostics.error(
-        Code::file_kind, loading.reader().where, "\"" + file.path + "\" is no CAD file that can be read here",
-        "cad reads STEP (.step, .stp), IGES (.iges, .igs) and Open CASCADE's .brep; write mesh for triangles");
+    loading.reader().diagnostics.error(Code::file_kind, loading.reader().where,
+                                       "\"" + file.path + "\" is no CAD file that can be read here",
+                                       "cad reads " + formats_text() + "; write mesh for triangles");
     return nullptr;
   }
   using Made = Loading::Made<CadFile>;

@@ -230,3 +230,12 @@ def test_faces_that_do_not_exist_are_errors():
         model.select_faces(surface_type="cylindre")
     with pytest.raises(ValueError, match="there is no face 999; the model has 3"):
         model.select_faces(indices=[999])
+
+
+def test_above_cells_on_a_surface_their_ends_are_near():
+    flat = mm.cell_map_from_surface(pv.TriangleMeshSurface(*sheet(side=10.0)), cells=(2, 2, 1), height=1.5)
+    for point, wanted in [((5, 5, 2.5), 1), ((5, 5, -2), 2), ((5, 5, 6), 4.5), ((5, 5, 0.5), -0.5), ((12, 5, 1), 2)]:
+        assert flat.domain_signed_distance(pv.Vec3(*point)) == pytest.approx(wanted, abs=1e-9), point
+    side = next(face for face in pv.CADModel.from_step(cylinder).select_faces(surface_type="cylinder"))
+    around = mm.cell_map_from_cad_face(side, cells=(8, 2, 1), height=1)
+    assert around.domain_signed_distance(pv.Vec3(7, 0, 10)) == pytest.approx(1, abs=5e-3)

@@ -17,7 +17,6 @@ class PlaceSource final : public program::NamedSource {
     std::vector<Box> boxes;
     for (uint32_t n = 0; n < patch_.triangles.size(); ++n) {
       boxes.push_back(box_of(corners(n)));
-      bounds_ = hull(bounds_, boxes.back());
       mean_size_ += length(boxes.back().size()) / static_cast<double>(patch_.triangles.size());
     }
     tree_ = BoxTree(boxes);
@@ -313,7 +312,6 @@ class PlaceSource final : public program::NamedSource {
 
   const uint64_t id_ = next_id();
   SurfacePatch patch_;
-  Box bounds_;
   double mean_size_ = 0;  // of triangles, mm
   BoxTree tree_, border_tree_;
   std::vector<std::array<uint32_t, 3>> neighbours_;  // by triangle: the one beyond the edge opposite to each corner

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <set>
 
 #include "base/math/math.h"
 #include "import/charts/prism_rows.h"
@@ -334,8 +335,7 @@ class ShellSource final : public program::NamedSource {
     for (size_t n = 0; n < 3; ++n) {
       if (shares[n] > none_of_it) continue;
       const size_t second = (n + 1) % 3, third = (n + 2) % 3;
-      const bool has_border = has_border_[corners[second]] && has_border_[corners[third]];
-      if (has_border && neighbours_[found.prism][n] == none) return true;
+      if (border_edges_.contains(std::minmax(corners[second], corners[third]))) return true;
       if (shares[second] <= none_of_it && has_border_[corners[third]]) return true;
       if (shares[third] <= none_of_it && has_border_[corners[second]]) return true;
     }
@@ -349,6 +349,7 @@ class ShellSource final : public program::NamedSource {
     has_border_.resize(shell_.patch.points.size());
     for (const auto& edge : border_) {
       for (const uint32_t point : edge) has_border_[point] = true;
+      border_edges_.insert(std::minmax(edge[0], edge[1]));
       Box box;
       for (const uint32_t point : edge)
         for (const double t : {shell_.heights.lo, shell_.heights.hi})
@@ -452,7 +453,8 @@ class ShellSource final : public program::NamedSource {
   std::vector<Box> boxes_;  // around each prism
   BoxTree triangles_, border_tree_;
   std::vector<std::array<uint32_t, 2>> border_;
-  std::vector<bool> has_border_;     // by point
+  std::vector<bool> has_border_;  // by point
+  std::set<std::pair<uint32_t, uint32_t>> border_edges_;
   std::vector<double> from_border_;  // by prism: all its points are at least so far from the border, mm
   double longest_way_ = 0, lipschitz_ = 1;
   std::vector<std::array<uint32_t, 3>>
