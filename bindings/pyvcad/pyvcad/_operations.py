@@ -274,6 +274,9 @@ class FGrade(Unary):
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return ombre.fgrade(solids[0], self._functions, self._materials, mode=self._mode)
 
+    def _says_material(self) -> bool:
+        return True
+
     def _own_materials(self) -> set[int]:
         return set(self._materials)
 

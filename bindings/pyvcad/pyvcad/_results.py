@@ -54,6 +54,9 @@ class SimulationField(_Leaf):
             solid = ombre.attribute(solid, name, value)
         return ombre.fgrade(solid, self._functions, self._materials, mode=self._mode)
 
+    def _says_material(self) -> bool:
+        return True
+
     def _own_materials(self) -> set[int]:
         return set(self._materials)
 

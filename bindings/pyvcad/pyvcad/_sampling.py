@@ -12,7 +12,7 @@ from ._arguments import number
 from ._arguments import voxel_size as read_voxel
 from ._attributes import FloatAttribute
 from ._colour_maps import ColorMap
-from ._defined import FRACTIONS, are_everywhere, marked, marker
+from ._defined import FRACTIONS, are_everywhere, given, marked_design, marker
 from ._errors import WrongValue
 from ._materials import expect_table
 from ._samples import AttributeSamples
@@ -41,29 +41,20 @@ def _distributions(design: ombre.Design, fractions: dict[str, numpy.ndarray]) ->
     return [{material: share for material, share in zip(ids, row) if share > 0} for row in rows]
 
 
-def _marked_design(node: Node, names: list[str]) -> ombre.Design:
-    """The design with markers of attributes, kept until the tree changes; without them where the root gives them all."""
-    design = node._design()
-    if are_everywhere(node, names):
-        return design
-    if node._marked is None or node._marked[0] is not node._solid:
-        node._marked = node._solid, marked(node, names)._design()
-    return cast("ombre.Design", node._marked[1])
-
-
 def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSamples | None]]:
     """The distance at each point, of the shape (N, 3), and the attributes that are given there; None outside."""
     own = node.attribute_list()
-    design = _marked_design(node, own)
+    is_everywhere = are_everywhere(node, own)
+    design = node._design() if is_everywhere else marked_design(node)
     found = design.sample(points)
-    given = {name: found.attribute[marker(name)] > 0.5 for name in own if marker(name) in found.attribute}
-    columns = {name: _values(values) for name, values in found.attribute.items()
-               if name not in map(marker, given)}
-    if FRACTIONS in own:
+    markers = {name: found.attribute.pop(marker(name), None) for name in {*own, FRACTIONS}}
+    columns = {name: _values(values) for name, values in found.attribute.items()}
+    if FRACTIONS in own and (is_everywhere or markers[FRACTIONS] is not None):
         columns[FRACTIONS] = _distributions(design, found.material)
     rows: list[dict[str, Any]] = [{} for _ in points]
     for name, values in columns.items():
-        is_given = given.get(name, numpy.ones(len(points), dtype=bool))
+        found_marker = markers.get(name)
+        is_given = numpy.ones(len(points), dtype=bool) if found_marker is None else found_marker > 0.5
         for row, value, has in zip(rows, values, _listed(is_given)):
             if has:
                 row[name] = value
@@ -171,9 +162,7 @@ class TreeSampler:
         own = self._root.attribute_list()
         if name not in own:
             raise RuntimeError(f"TreeSampler: no node of the tree has the attribute {name!r}; it has {', '.join(own) or 'none'}")
-        is_given = inside.copy()
-        if not are_everywhere(self._root, [name]):
-            is_given &= _marked_design(self._root, own).attribute(marker(name), points) > 0.5
+        is_given = inside & given(self._root, name, points)
         colours = self._fraction_colours(points, blend) if name == FRACTIONS else \
             self._value_colours(name, points, is_given, color_map)
         colours[inside & ~is_given] = (128, 128, 128, 255) if self._shows_undefined else 0

@@ -85,6 +85,10 @@ class Node:
         attribute = self._attributes.get("volume_fractions")
         return attribute._materials() if attribute else None
 
+    def _says_material(self) -> bool:
+        """True if all of it is of what it says itself: of fractions, or of a material that it was given."""
+        return "volume_fractions" in self._attributes
+
     def _computed(self) -> dict[str, list[str]]:
         """The attributes that it computes, each with those that it takes."""
         return {}
@@ -458,6 +462,9 @@ class Wrapped(Node):
         if len(parts) > 1:
             with using(design._core.factory):
                 self._whole = ombre.union(*parts)
+
+    def _says_material(self) -> bool:
+        return True
 
     def _own_materials(self) -> set[int]:
         return {self._given.materials[name]["id"] for solid in solids_of(self._whole)

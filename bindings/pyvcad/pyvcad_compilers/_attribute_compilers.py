@@ -3,23 +3,18 @@ from __future__ import annotations
 
 import os
 import struct
-from collections.abc import Callable
 from typing import Any
 
 import numpy
 
 from pyvcad._arguments import number, size
-from pyvcad._attributes import FloatAttribute
-from pyvcad._defined import are_everywhere, marked, marker
+from pyvcad._defined import are_everywhere, given
 from pyvcad._grids import centers, slabs
 from pyvcad._sampling import OCCUPANCY, with_occupancy
 from pyvcad._materials import expect_table
-from pyvcad._tree import Node, as_node, in_order
+from pyvcad._tree import as_node
 
 from ._compilers import Path, _Compiler, _voxel
-
-
-_is_undefined = "attribute_is_undefined"  # 1 where no solid gives the attribute
 
 
 class _AttributeCompiler(_Compiler):
@@ -39,9 +34,9 @@ class _AttributeCompiler(_Compiler):
         """Raises RuntimeError at the first voxel of the part where nothing gives the attribute."""
         if are_everywhere(self._root, [name]):
             return
-        design = marked(self._root, self._root.attribute_list())._design()
+        design = self._root._design()
         for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
-            bad = design.inside(points) & ~(design.attribute(marker(name), points) > 0.5)
+            bad = design.inside(points) & ~given(self._root, name, points)
             if bad.any():
                 raise self._nothing_gives(name, points[bad][0])
 
@@ -49,22 +44,6 @@ class _AttributeCompiler(_Compiler):
         x, y, z = (float(c) for c in point)
         return RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g}); set it on a node above, or "
                             "on each child")
-
-    def _check_everywhere(self, name: str, lacks: Callable[[Node], bool], has: Callable[[Node], bool]) -> None:
-        """Raises RuntimeError at the first voxel of nodes that lack the attribute, where none above has it."""
-        tree = self._root.clone()
-        for node in in_order(tree):
-            if lacks(node):
-                node._attributes[_is_undefined] = FloatAttribute(1)
-            if has(node):
-                node._attributes[_is_undefined] = FloatAttribute(0)
-        design = tree._design()
-        if _is_undefined not in design.attributes:
-            return
-        for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
-            bad = design.inside(points) & (design.attribute(_is_undefined, points) > 0.5)
-            if bad.any():
-                raise self._nothing_gives(name, points[bad][0])
 
     def _check_attributes(self) -> None:
         absent = [name for name in self._required if name not in self._root.attribute_list()]

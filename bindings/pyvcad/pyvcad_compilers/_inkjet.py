@@ -12,9 +12,9 @@ from typing import Any, Literal
 import ombre
 from pyvcad._arguments import number
 from pyvcad._attributes import Vec4Attribute
+from pyvcad._defined import FRACTIONS, are_everywhere, marked, marked_design, marker
 from pyvcad._keep_out import KeepOut
 from pyvcad._materials import MaterialDefs, default_materials, expect_table, j750_materials
-from pyvcad._solids import is_unset
 from pyvcad._tree import Node, Unary, as_node, in_order
 
 from ._attribute_compilers import _AttributeCompiler
@@ -129,15 +129,37 @@ class MaterialInkjetCompiler(_InkjetCompiler):
         self._fallback = id
 
     def _check_strictly(self) -> None:
-        self._check_everywhere("volume_fractions", is_unset, lambda node: node._fractions() is not None)
+        self._check_given(FRACTIONS)
 
     def _tree(self) -> Node:
-        """Returns a copy, in which solids without a material have the fallback."""
-        tree = self._root.clone()
-        for node in in_order(tree):
-            if is_unset(node):
-                node._material = self._fallback  # type: ignore[attr-defined]
+        tree: Node = self._root
+        if not are_everywhere(tree, [FRACTIONS]):
+            tree = _Completed(tree, self._fallback, self._materials or default_materials)
         return KeepOut(tree, self._keep_out, self._materials) if self._keep_out > 0 else tree
+
+
+class _Completed(Unary):
+    """The part, of the fallback material where nothing says of what it is."""
+
+    def __init__(self, part: Node, fallback: int, table: MaterialDefs) -> None:
+        super().__init__(marked(part))
+        self._is_said = marker(FRACTIONS) in marked_design(part).attributes
+        self._fallback, self._table = fallback, table
+
+    def _fractions(self) -> set[int] | None:
+        return {*self._inputs()[0].material_list(), self._fallback}
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        solid = solids[0]
+        if not self._is_said:
+            return ombre.material(solid, self._fallback)
+        is_said = ombre.attribute_of(solid, marker(FRACTIONS)).value > 0.5
+        ids = sorted(self._fractions() or set())
+        shares = []
+        for id in ids:
+            share = ombre.composition_of(solid, self._table.name(id)).share
+            shares.append(ombre.where(is_said, share, float(id == self._fallback)))
+        return ombre.fgrade(solid, shares, ids)
 
 
 _inks = ("VeroCyan", "VeroMagenta", "VeroYellow", "VeroBlack", "VeroPureWht")

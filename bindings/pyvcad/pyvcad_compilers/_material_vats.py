@@ -13,7 +13,6 @@ import numpy
 from pyvcad import Vec3
 from pyvcad._arguments import number
 from pyvcad._materials import expect_table
-from pyvcad._solids import is_unset
 from pyvcad._tree import as_node
 
 from ._attribute_compilers import _AttributeCompiler
@@ -97,7 +96,7 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
         if (high - low > numpy.array(_volume) + 1e-6).any():
             raise RuntimeError(f"{what}: the part measures " + " x ".join(f"{c:.4g}" for c in high - low)
                                + " mm, more than the printer's " + " x ".join(f"{c:g}" for c in _volume))
-        self._check_everywhere("volume_fractions", is_unset, lambda node: node._fractions() is not None)
+        self._check_given("volume_fractions")
         folder = tempfile.mkdtemp(prefix="ombre_", dir=os.path.dirname(os.path.abspath(self._path)))
         try:
             self._write_layers(design, low, high, folder)

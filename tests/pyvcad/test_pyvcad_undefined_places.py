@@ -1,0 +1,139 @@
+"""Places of a part that nothing gives an attribute: what compilers, resolvers and samplers make of them."""
+import pytest
+
+import ombre
+import pyvcad as pv
+import pyvcad_compilers as pvc
+import pyvcad_metamaterials as mm
+
+from pyvcad_parts import blue, green, origin, red
+
+V = pv.Vec3
+
+
+def box(attributes=None, center=origin, size=V(4, 4, 4)):
+    part = pv.RectPrism(center, size)
+    for name, attribute in (attributes or {}).items():
+        part.set_attribute(name, attribute)
+    return part
+
+
+def of(material):
+    return {"volume_fractions": pv.VolumeFractionsAttribute([(1.0, material)])}
+
+
+def beside(part, attributes):
+    """The part and a box with attributes, 10 mm apart from each other and more."""
+    return pv.Union(0.0, [box(attributes, V(-40, 0, 0)), part])
+
+
+# Materials.
+
+def printed(part, folder, **settings):
+    """How many voxels of 0.5 mm have each material; the fallback is green."""
+    compiler = pvc.MaterialInkjetCompiler(part, V(0.5, 0.5, 0.5), folder, "p", pv.default_materials)
+    compiler.set_fallback_material_id(green)
+    compiler.set_strict_mode(settings.get("strict", False))
+    compiler.compile()
+    return compiler.material_voxel_counts()
+
+
+def unit_map():
+    return mm.rectangular_cell_map((V(0, 0, 0), V(4, 4, 4)), cells=(1, 1, 1))
+
+
+def partly_graded_lattice():
+    """Struts along x are blue; nothing is said of the others."""
+    lattice = mm.cubic(unit_map(), beam_radius=0.5)
+    lattice.struts.where(lambda strut: abs(strut.direction.x) > 0.5).set_attribute("volume_fractions", of(blue)["volume_fractions"])
+    return lattice
+
+
+solids_without_material = {
+    "corners": lambda: pv.RectPrism.FromMinAndMax(V(0, 0, 0), V(2, 2, 2)),
+    "beams": lambda: pv.BeamLattice([V(0, 0, 0), V(4, 0, 0)], [(0, 1)], 1.0),
+    "beams and balls": lambda: pv.BeamLattice([V(0, 0, 0), V(4, 0, 0)], [(0, 1)], 1.0, ball_mode=pv.BallMode.All, ball_radius=2.0),
+    "supports": lambda: pv.SupportAnalyzer(pv.Sphere(V(0, 0, 5), 2), 0.5).analyze(),
+    "struts": lambda: mm.cubic(unit_map(), beam_radius=0.5)}
+
+
+@pytest.mark.parametrize("name", solids_without_material)
+def test_solids_without_a_material_are_printed_as_the_fallback(name, tmp_path):
+    part = beside(solids_without_material[name](), of(blue))
+    counts = printed(part, tmp_path)
+    assert counts.pop(blue) == 8 ** 3 and list(counts) == [green]
+    with pytest.raises(RuntimeError, match="nothing gives volume_fractions"):
+        printed(part, tmp_path, strict=True)
+
+
+solids_with_material = {
+    "corners": lambda: pv.RectPrism.FromMinAndMax(V(0, 0, 0), V(2, 2, 2), red),
+    "graded": lambda: pv.FGrade([1.0], [red], True, pv.RectPrism(origin, V(4, 4, 4))),
+    "supports": lambda: pv.SupportAnalyzer(pv.Sphere(V(0, 0, 5), 2), 0.5, red).analyze(),
+    "of ombre": lambda: pv.Identity(ombre.cube(4, "red")),
+    "tagged struts": lambda: pv.MappedGraphLattice(unit_map(), pv.GraphUnitCell([V(0, 0, 0), V(1, 1, 1)], [(0, 1)],
+                                                                               material_tags=[red]), 0.5)}
+
+
+@pytest.mark.parametrize("name", solids_with_material)
+def test_a_given_material_is_no_undefined_place(name, tmp_path):
+    counts = printed(beside(solids_with_material[name](), of(blue)), tmp_path, strict=True)
+    assert counts.pop(blue) == 8 ** 3 and list(counts) == [red]
+
+
+def test_struts_without_a_material_beside_some_that_have_one(tmp_path):
+    counts = printed(partly_graded_lattice(), tmp_path)
+    assert set(counts) == {blue, green} and counts[green] > counts[blue] > 0
+    assert not partly_graded_lattice().sample(0, 0, 2)[1].has_sample("volume_fractions")
+    with pytest.raises(RuntimeError, match="nothing gives volume_fractions"):
+        printed(partly_graded_lattice(), tmp_path, strict=True)
+
+
+def by_q():
+    """A table from q to a material, and two boxes of which one has q."""
+    rows = [pv.LookupTableEntry(0, {red: 1.0}), pv.LookupTableEntry(1, {blue: 1.0})]
+    table = pv.LookupTableConverter(["q"], ["volume_fractions"], rows, pv.InterpolationMode.LINEAR)
+    return pv.AttributeModifier(table, beside(box(), {"q": pv.FloatAttribute(1)}))
+
+
+def test_a_table_says_nothing_where_its_input_is_missing(tmp_path):
+    assert not by_q().sample(0, 0, 0)[1].has_sample("volume_fractions")
+    assert printed(by_q(), tmp_path) == {blue: 8 ** 3, green: 8 ** 3}
+    with pytest.raises(RuntimeError, match=r"nothing gives volume_fractions at \(-1.75, -1.75, -1.75\)"):
+        printed(by_q(), tmp_path, strict=True)
+
+
+def test_a_converter_takes_attributes_of_solids_of_ombre(tmp_path):
+    formula = pv.VolumeFractionsExpressionConverter(["q"], [red, blue], ["1 - q", "q"])
+    part = pv.AttributeModifier(formula, ombre.attribute(ombre.cube(4), "q", 1))
+    assert part.sample(0, 0, 0)[1].get_sample("volume_fractions") == {blue: 1}
+    assert printed(part, tmp_path, strict=True) == {blue: 8 ** 3}
+
+
+def test_compilers_that_need_materials_refuse_places_without(tmp_path):
+    part = beside(pv.RectPrism.FromMinAndMax(V(0, 0, 0), V(2, 2, 2)), of(blue))
+    slots = {"red": 1, "blue": 2}
+    mixed = pvc.FullSpectrumSlicerProjectCompiler(part, 0.5, tmp_path / "a.3mf", volume_fraction_materials=slots)
+    vats = pvc.MultiMaterialVatCompiler(part, tmp_path / "vats", pv.default_materials, ["red", "blue"], 0.5)
+    for compiler in (mixed, vats):
+        with pytest.raises(RuntimeError, match="nothing gives volume_fractions at"):
+            compiler.compile()
+
+
+def test_layers_in_black_and_white_leave_places_without_a_material_out(tmp_path):
+    part = beside(box(), of(blue))
+    compiler = pvc.MyersonCompiler(0.5, 50.8, 50.8, 0, 0, tmp_path, part, pv.default_materials)
+    compiler.compile()
+    black = {name: sum(bits_of(path) for path in tmp_path.glob(f"{name}_*.bmp")) for name in ("red", "blue")}
+    assert black == {"red": 0, "blue": 8 ** 3}
+    compiler.set_strict_mode(True)
+    with pytest.raises(RuntimeError, match="MyersonCompiler: nothing gives volume_fractions at"):
+        compiler.compile()
+
+
+def bits_of(path):
+    """The count of black pixels of a BMP of one bit, whose width it takes from the header."""
+    data = path.read_bytes()
+    start, width, height = (int.from_bytes(data[n:n + 4], "little") for n in (10, 18, 22))
+    stride = (width + 31) // 32 * 4
+    return sum(not data[start + row * stride + n // 8] & 128 >> n % 8 for row in range(height) for n in range(width))
