@@ -137,3 +137,52 @@ def bits_of(path):
     start, width, height = (int.from_bytes(data[n:n + 4], "little") for n in (10, 18, 22))
     stride = (width + 31) // 32 * 4
     return sum(not data[start + row * stride + n // 8] & 128 >> n % 8 for row in range(height) for n in range(width))
+
+
+# Where children overlap.
+
+def averaged(children, rule=pv.resolvers.AverageConflictResolver, kind=pv.Union):
+    whole = kind(children)
+    whole.set_attribute_conflict_resolver("volume_fractions", rule())
+    return whole
+
+
+kinds_of_overlap = [pv.Union, pv.Intersection, pv.BBoxUnion, pv.BBoxIntersection]
+
+
+@pytest.mark.parametrize("kind", kinds_of_overlap)
+def test_means_of_fractions_are_those_of_the_children_that_have_some(kind):
+    both, alone = averaged([box(), box(of(blue))], kind=kind), averaged([box(of(blue)), box()], kind=kind)
+    assert both.distribution(0, 0, 0) == alone.distribution(0, 0, 0) == {blue: 1}
+    three = averaged([box(of(blue)), box(), box(of(red))], kind=kind)
+    assert three.distribution(0, 0, 0) == {blue: 0.5, red: 0.5}
+    assert three.sample(0, 0, 0)[1].get_sample("volume_fractions") == {blue: 0.5, red: 0.5}
+
+
+def test_means_of_given_materials_count_all_children():
+    half = averaged([pv.RectPrism(origin, V(4, 4, 4), green), box(of(blue))])
+    assert half.distribution(0, 0, 0) == {blue: 0.5, green: 0.5}
+    mixed = pv.Union(True, [box(), pv.RectPrism(origin, V(4, 4, 4), blue)])  # of pyvcad 2, where the material is 1
+    assert mixed.distribution(0, 0, 0) == {red: 0.5, blue: 0.5}
+
+
+@pytest.mark.parametrize("kind", kinds_of_overlap)
+def test_fractions_of_an_overlap_are_those_of_the_first_child_that_has_some(kind, tmp_path):
+    whole = kind([box(), box(of(blue)), box(of(red))])
+    assert whole.sample(0, 0, 0)[1].get_sample("volume_fractions") == whole.distribution(0, 0, 0) == {blue: 1}
+    assert printed(whole, tmp_path, strict=True) == {blue: 8 ** 3}
+
+
+def test_seams_are_as_round_whichever_child_has_fractions():
+    children = [box(), box(of(blue), V(5, 1, 0)), box(None, V(2, 4, 0))]
+    plain = pv.Union(2.0, [box(), box(None, V(5, 1, 0)), box(None, V(2, 4, 0))])
+    for whole in (pv.Union(2.0, children), averaged(children, kind=lambda nodes: pv.Union(2.0, nodes))):
+        for point in [(2.2, 1.9, 0), (2.5, 2.5, 0), (4, -1, 0), (0.5, 2.3, 0)]:
+            assert whole.evaluate(*point) == pytest.approx(plain.evaluate(*point), abs=1e-12)
+
+
+@pytest.mark.parametrize("rule", [pv.resolvers.MinConflictResolver, pv.resolvers.MaxConflictResolver,
+                                  lambda: pv.resolvers.CustomFloatConflictResolver(max)])
+def test_fractions_have_a_mean_and_no_least_or_greatest(rule):
+    with pytest.raises(RuntimeError, match=r"volume_fractions have a mean .* write resolvers.AverageConflictResolver\(\)"):
+        averaged([box(of(red)), box(of(blue))], rule)

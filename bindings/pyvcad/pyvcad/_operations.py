@@ -1,9 +1,10 @@
 """Nodes that work on others: transforms, booleans, materials."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import ombre
+from ombre._materials import current_factory
 
 from ._arguments import Optional, Point, boolean, length, material, number, radius_of_blend, read, vector
 from ._errors import WrongValue
@@ -104,6 +105,18 @@ def _resolved(node: NAry, whole: ombre.Solid, solids: list[ombre.Solid]) -> ombr
     return whole
 
 
+def _completed(node: NAry, solids: list[ombre.Solid], rule: Literal["first", "mix"]) -> list[ombre.Solid]:
+    """The solids. If some have fractions, those of which nothing says a material have the one of the others where they meet."""
+    children = node._inputs()
+    if not any(child._has_fractions for child in children) or all(child._has_material for child in children):
+        return solids
+    whole = ombre.union([solid for child, solid in zip(children, solids) if child._has_material], materials=rule)
+    ids = sorted({id for child in children if child._has_material for id in child.material_list()})
+    names = ombre.Materials(_factory=current_factory()).names
+    shares = [ombre.composition_of(whole, names[id]).share for id in ids]
+    return [solid if child._has_material else ombre.fgrade(solid, shares, ids) for child, solid in zip(children, solids)]
+
+
 class _Boolean(NAry):
     """Forms: (), (mix), (mix, children), (k), (k, mix), (k, mix, children), (k, children), (children), (a, b, ...).
 
@@ -120,8 +133,8 @@ class _Boolean(NAry):
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        rule = "mix" if self._mix or self._mixes() else "first"
-        whole: ombre.Solid = getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend,
+        rule: Literal["first", "mix"] = "mix" if self._mix or self._mixes() else "first"
+        whole: ombre.Solid = getattr(ombre, self._operation)(_completed(self, solids, rule), materials=rule, blend=self._blend,
                                                              attributes=self._attribute_rules())
         return _resolved(self, whole, solids)
 
@@ -149,7 +162,8 @@ class BBoxUnion(NAry):
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        whole: ombre.Solid = ombre.union(solids, materials="mix" if self._mixes() else "first", blend=self._blend,
+        rule: Literal["first", "mix"] = "mix" if self._mixes() else "first"
+        whole: ombre.Solid = ombre.union(_completed(self, solids, rule), materials=rule, blend=self._blend,
                                          attributes=self._attribute_rules())
         return _resolved(self, whole, solids)
 
@@ -162,7 +176,8 @@ class BBoxIntersection(NAry):
         super().__init__(values["children"])
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        whole: ombre.Solid = ombre.intersection(solids, materials="mix" if self._mixes() else "first",
+        rule: Literal["first", "mix"] = "mix" if self._mixes() else "first"
+        whole: ombre.Solid = ombre.intersection(_completed(self, solids, rule), materials=rule,
                                                 attributes=self._attribute_rules())
         return _resolved(self, whole, solids)
 

@@ -49,6 +49,7 @@ class Node:
         self._checked_at = -1  # _Changes.count at the last check that nothing below had changed
         self._attributes: dict[str, Attribute] = {}
         self._marked: Any = None  # the design with markers of attributes, and the solid that it is of
+        self._has_fractions = self._has_material = False  # whether it, or what it is composed of, says some; set by _refresh
         self._epsilon: float | None = None  # the step of gradients, if it was set
         self._place = _call_place()
         self._home: Any = current_factory()  # the materials in use where it was made
@@ -140,6 +141,9 @@ class Node:
         solids = [_solid_of(node) for node in self._inputs()]
         is_same = len(solids) == len(self._built_from) and all(map(operator.is_, solids, self._built_from))
         if self._solid is None or self._factory is not factory or not is_same:
+            composing = self._composing()
+            self._has_fractions = self._fractions() is not None or any(node._has_fractions for node in composing)
+            self._has_material = self._has_fractions or self._says_material() or any(node._has_material for node in composing)
             try:
                 with made_at(self._place):
                     self._solid = self._with_attributes(self._make(solids))
@@ -366,6 +370,9 @@ class _Resolving(Node):
         if not isinstance(name, str) or not hasattr(resolver, "_combine"):
             raise TypeError("set_attribute_conflict_resolver: expected a name and a resolver such as "
                             "resolvers.AverageConflictResolver()")
+        if name == "volume_fractions" and resolver._rule != "mean":
+            raise WrongValue(f"set_attribute_conflict_resolver: {name} have a mean and no other rule, found a "
+                             f"{type(resolver).__name__}; write resolvers.AverageConflictResolver()")
         self._rules[name] = resolver
         self._changed()
 
