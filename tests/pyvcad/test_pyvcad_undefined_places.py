@@ -186,3 +186,68 @@ def test_seams_are_as_round_whichever_child_has_fractions():
 def test_fractions_have_a_mean_and_no_least_or_greatest(rule):
     with pytest.raises(RuntimeError, match=r"volume_fractions have a mean .* write resolvers.AverageConflictResolver\(\)"):
         averaged([box(of(red)), box(of(blue))], rule)
+
+
+# Colours.
+
+in_red = {"color_rgba": pv.Vec4Attribute(1, 0, 0, 1)}
+
+
+def sprayed(part, folder, **settings):
+    """How many voxels of 0.5 mm have each ink."""
+    compiler = pvc.ColorInkjetCompiler(part, V(0.5, 0.5, 0.5), folder, "p")
+    compiler.set_strict_mode(settings.get("strict", False))
+    if "fallback" in settings:
+        compiler.set_fallback_color(settings["fallback"])
+    compiler.compile()
+    return {pv.j750_materials.name(id): count for id, count in compiler.material_voxel_counts().items()}
+
+
+def textured(folder):
+    """A box whose file is red, down to its middle."""
+    corners = [V(x, y, z) for z in (-2, 2) for y in (-2, 2) for x in (-2, 2)]
+    faces = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
+             (1, 3, 7), (1, 7, 5)]
+    pv.SurfaceMesh(corners, faces).write_stl(folder / "box.stl")
+    return pv.TexturedMesh(str(folder / "box.stl"), fallback_color=V(1, 0, 0), color_depth=10)
+
+
+def struts_in_red():
+    part = mm.cubic(unit_map(), beam_radius=0.5)
+    part.struts.set_attribute("color_rgba", in_red["color_rgba"])
+    return part
+
+
+def test_computed_colours_are_printed(tmp_path):
+    red_box = sprayed(box(in_red), tmp_path)
+    assert set(red_box) == {"VeroMagenta", "VeroYellow"} and sum(red_box.values()) == 8 ** 3
+    assert sprayed(textured(tmp_path), tmp_path, strict=True) == red_box
+    assert "VeroClear" not in sprayed(struts_in_red(), tmp_path, strict=True)
+
+
+@pytest.mark.parametrize("kind", kinds_of_overlap)
+def test_a_fallback_colour_takes_no_part_where_a_colour_is_given(kind, tmp_path):
+    red_box = sprayed(box(in_red), tmp_path)
+    for children in ([box(), box(in_red)], [box(in_red), box()]):
+        assert sprayed(kind(children), tmp_path) == red_box
+        mean = kind(children)
+        mean.set_attribute_conflict_resolver("color_rgba", pv.resolvers.AverageConflictResolver())
+        assert sprayed(mean, tmp_path, strict=True) == red_box
+
+
+def test_places_without_a_colour_are_the_fallback(tmp_path):
+    rows = [pv.LookupTableEntry(0, pv.Vec4(1, 0, 0, 1)), pv.LookupTableEntry(1, pv.Vec4(0, 0, 0, 1))]
+    table = pv.LookupTableConverter(["q"], ["color_rgba"], rows, pv.InterpolationMode.LINEAR)
+    by_table = pv.AttributeModifier(table, beside(box(), {"q": pv.FloatAttribute(1)}))
+    for part in (beside(box(), {"color_rgba": pv.Vec4Attribute(0, 0, 0, 1)}), by_table):
+        black_and_clear = sprayed(part, tmp_path)
+        assert black_and_clear.pop("VeroClear") == 8 ** 3 and sum(black_and_clear.values()) == 8 ** 3
+        assert "VeroClear" not in sprayed(part, tmp_path, fallback=(0, 0, 0, 1))
+        with pytest.raises(RuntimeError, match="nothing gives color_rgba at"):
+            sprayed(part, tmp_path, strict=True)
+
+
+def test_what_is_cut_away_leaves_no_colour_and_no_material(tmp_path):
+    cut = pv.Difference(box(), box(in_red | of(blue), size=V(2, 2, 2)))
+    assert sprayed(cut, tmp_path, fallback=(0, 0, 0, 0)) == {"VeroClear": 8 ** 3 - 4 ** 3}
+    assert printed(cut, tmp_path) == {green: 8 ** 3 - 4 ** 3}

@@ -11,11 +11,11 @@ from typing import Any, Literal
 
 import ombre
 from pyvcad._arguments import number
-from pyvcad._attributes import Vec4Attribute
 from pyvcad._defined import FRACTIONS, are_everywhere, marked, marked_design, marker
 from pyvcad._keep_out import KeepOut
 from pyvcad._materials import MaterialDefs, default_materials, expect_table, j750_materials
-from pyvcad._tree import Node, Unary, as_node, in_order
+from pyvcad._resolvers import numbers_of
+from pyvcad._tree import Node, Unary, as_node
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path, _voxel
@@ -164,26 +164,35 @@ class _Completed(Unary):
 
 _inks = ("VeroCyan", "VeroMagenta", "VeroYellow", "VeroBlack", "VeroPureWht")
 _clear = "VeroClear"
+_color = "color_rgba"
 
 
 class _Coloured(Unary):
-    """The child, of the materials that show its attribute color_rgba.
+    """The part, of the materials that show its attribute color_rgba.
 
     Args:
+        fallback: the colour where nothing gives one.
         profile: the path of an ICC profile of cyan, magenta, yellow and black; None: by the mean of their light.
     """
 
-    def __init__(self, child: Node, profile: str | None) -> None:
-        super().__init__(child)
-        self._profile = profile
+    def __init__(self, part: Node, fallback: list[float], profile: str | None) -> None:
+        super().__init__(marked(part))
+        self._is_given = marker(_color) in marked_design(part).attributes
+        self._fallback, self._profile = fallback, profile
+
+    def _colour(self, solid: ombre.Solid) -> list[Any]:
+        if not self._is_given:
+            return self._fallback
+        is_given = ombre.attribute_of(solid, marker(_color)).value > 0.5
+        return [ombre.where(is_given, *values) for values in zip(numbers_of(solid, _color), self._fallback)]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        colour = ombre.attribute_of(solids[0], "color_rgba")
+        *shade, alpha = self._colour(solids[0])
         if self._profile is None:
-            opaque = ombre.colour_mixture(colour.vector, list(_inks)).mixture
+            opaque = ombre.colour_mixture(shade, list(_inks)).mixture
         else:
-            opaque = ombre.ink_mixture(colour.vector, self._profile, list(_inks)).mixture
-        return ombre.material(solids[0], [ombre.mix(_clear, opaque, colour.alpha)])
+            opaque = ombre.ink_mixture(shade, self._profile, list(_inks)).mixture
+        return ombre.material(solids[0], [ombre.mix(_clear, opaque, alpha)])
 
 
 class ColorPipeline:
@@ -243,7 +252,7 @@ class ColorInkjetCompiler(_InkjetCompiler):
             of one in the folder of ColorPipeline.
     """
 
-    _required = ("color_rgba",)
+    _required = (_color,)
 
     def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, icc_profile: str = "default",
                  export_mode: ColorInkjetExportMode = ColorInkjetExportMode.STOCHASTIC,
@@ -252,18 +261,15 @@ class ColorInkjetCompiler(_InkjetCompiler):
         self._profile = _profile_path(os.fspath(icc_profile)) if steps.icc_profile_enabled else None
         super().__init__(root, voxel_size, output_directory, file_prefix, export_mode)
         self._materials = j750_materials
-        self._fallback: Any = (0, 0, 0, 0)
+        self._fallback = [0.0, 0.0, 0.0, 0.0]
 
     def set_fallback_color(self, color: Any) -> None:
         """Sets the colour, from 0 to 1, of places without any; clear at first."""
-        self._fallback = tuple(color)
+        red, green, blue, alpha = map(number, color)
+        self._fallback = [red, green, blue, alpha]
 
     def _check_strictly(self) -> None:
-        self._check_given("color_rgba")
+        self._check_given(_color)
 
     def _tree(self) -> Node:
-        tree = self._root.clone()
-        for node in in_order(tree):
-            if not node._inputs() and "color_rgba" not in node._attributes:
-                node._attributes["color_rgba"] = Vec4Attribute(*self._fallback)
-        return _Coloured(tree, self._profile)
+        return _Coloured(self._root, self._fallback, self._profile)
