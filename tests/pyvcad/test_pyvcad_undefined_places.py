@@ -1,4 +1,5 @@
 """Places of a part that nothing gives an attribute: what compilers, resolvers and samplers make of them."""
+import numpy
 import pytest
 
 import ombre
@@ -251,3 +252,33 @@ def test_what_is_cut_away_leaves_no_colour_and_no_material(tmp_path):
     cut = pv.Difference(box(), box(in_red | of(blue), size=V(2, 2, 2)))
     assert sprayed(cut, tmp_path, fallback=(0, 0, 0, 0)) == {"VeroClear": 8 ** 3 - 4 ** 3}
     assert printed(cut, tmp_path) == {green: 8 ** 3 - 4 ** 3}
+
+
+# Lattices of points.
+
+lattices_of_points = {
+    "open": lambda host, points: mm.voronoi_graph_lattice(host, points, 1.0, node_radius=0.8),
+    "closed": lambda host, points: mm.voronoi_graph_lattice(host, points, 1.0, boundary="closed"),
+    "closed with balls": lambda host, points: mm.voronoi_graph_lattice(host, points, 1.0, node_radius=0.8, boundary="closed"),
+    "blended": lambda host, points: mm.voronoi_graph_lattice(host, points, 1.0, member_blend_radius=0.3),
+    "closed between neighbours": lambda host, points: mm.delaunay_graph_lattice(host, points, 1.0, boundary="closed"),
+    "walls": lambda host, points: mm.voronoi_plate_lattice(host, points, 0.5),
+    "walls and a skin": lambda host, points: mm.voronoi_plate_lattice(host, points, 0.5, boundary="closed"),
+    "walls between neighbours": lambda host, points: mm.delaunay_plate_lattice(host, points, 0.5)}
+
+
+@pytest.mark.parametrize("name", lattices_of_points)
+def test_lattices_of_points_are_of_what_their_body_is(name):
+    host = box({"q": pv.FloatAttribute("x")} | of(blue), V(5, 5, 5), V(10, 10, 10))
+    plain = box(None, V(5, 5, 5), V(10, 10, 10))
+    points = mm.sample_points_in_host(host, spacing=2.5, seed=3)
+    lattice, bare = (lattices_of_points[name](body, points) for body in (host, plain))
+    places = numpy.random.default_rng(0).uniform(0, 10, (500, 3))
+    found = [(place, sample) for place, (_, sample) in zip(places, pv.TreeSampler(lattice, 0.5).sample_points(places)) if sample]
+    assert len(found) > 20
+    for place, sample in found:
+        assert sample.get_sample("q") == pytest.approx(place[0])
+        assert sample.get_sample("volume_fractions") == lattice.distribution(*place) == {blue: 1}
+    distances = [numpy.array(pv.TreeSampler(part, 0.5).evaluate_points(places)) for part in (lattice, bare)]
+    assert numpy.allclose(*distances)
+    assert not any(sample.has_sample("volume_fractions") for _, sample in pv.TreeSampler(bare, 0.5).sample_points(places) if sample)
