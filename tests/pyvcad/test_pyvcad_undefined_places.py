@@ -282,3 +282,13 @@ def test_lattices_of_points_are_of_what_their_body_is(name):
     distances = [numpy.array(pv.TreeSampler(part, 0.5).evaluate_points(places)) for part in (lattice, bare)]
     assert numpy.allclose(*distances)
     assert not any(sample.has_sample("volume_fractions") for _, sample in pv.TreeSampler(bare, 0.5).sample_points(places) if sample)
+
+
+# Attributes that solids bring along.
+
+def test_attributes_of_solids_of_ombre_end_with_these(tmp_path):
+    part = pv.Union(box(None, V(5, 0, 0), V(2, 2, 2)), ombre.attribute(ombre.cube(2), "q", 3))
+    assert part.sample(0, 0, 0)[1].get_sample("q") == 3
+    assert not part.sample(5, 0, 0)[1].has_sample("q")
+    of_both = pv.Union(part, box({"q": pv.FloatAttribute(4)}, V(0, 9, 0)))
+    assert [of_both.sample(*place)[1].has_sample("q") for place in ((0, 0, 0), (5, 0, 0), (0, 9, 0))] == [True, False, True]

@@ -18,15 +18,20 @@ def marker(name: str) -> str:
     return f"defined_{name}"
 
 
+def names_of(root: Node) -> list[str]:
+    """The attributes of the tree, and those that its solids bring along."""
+    return sorted({*root.attribute_list(), *(name for node in in_order(root) for name in node._own_attributes())})
+
+
 def marked(root: Node) -> Node:
     """A copy of the tree with the markers of its attributes, and with that of fractions."""
-    names = {*root.attribute_list(), FRACTIONS}
+    names = {*names_of(root), FRACTIONS}
     tree = root.clone()
     for node in in_order(tree):
-        computed = node._computed()
+        own, computed = {*node._attributes, *node._own_attributes()}, node._computed()
         node._mark_parts(marker, FloatAttribute(1))
         for name in names:
-            if name in node._attributes:
+            if name in own:
                 node._attributes[marker(name)] = FloatAttribute(1)
             elif name in computed:
                 node._attributes[marker(name)] = _all_of([taken for taken in computed[name] if taken in names])

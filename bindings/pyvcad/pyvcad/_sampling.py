@@ -12,7 +12,7 @@ from ._arguments import number
 from ._arguments import voxel_size as read_voxel
 from ._attributes import FloatAttribute
 from ._colour_maps import ColorMap
-from ._defined import FRACTIONS, are_everywhere, given, marked_design, marker
+from ._defined import FRACTIONS, are_everywhere, given, marked_design, marker, names_of
 from ._errors import WrongValue
 from ._materials import expect_table
 from ._samples import AttributeSamples
@@ -43,7 +43,7 @@ def _distributions(design: ombre.Design, fractions: dict[str, numpy.ndarray]) ->
 
 def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSamples | None]]:
     """The distance at each point, of the shape (N, 3), and the attributes that are given there; None outside."""
-    own = node.attribute_list()
+    own = names_of(node)
     is_everywhere = are_everywhere(node, own)
     design = node._design() if is_everywhere else marked_design(node)
     found = design.sample(points)

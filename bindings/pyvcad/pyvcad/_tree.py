@@ -94,6 +94,10 @@ class Node:
         """The attributes that it computes, each with those that it takes."""
         return {}
 
+    def _own_attributes(self) -> list[str]:
+        """The attributes that its solid has before any are set."""
+        return []
+
     def _part_names(self) -> set[str]:
         """The attributes that parts of it have."""
         return set()
@@ -472,6 +476,9 @@ class Wrapped(Node):
 
     def _says_material(self) -> bool:
         return True
+
+    def _own_attributes(self) -> list[str]:
+        return self._given.attributes
 
     def _own_materials(self) -> set[int]:
         return {self._given.materials[name]["id"] for solid in solids_of(self._whole)
