@@ -281,7 +281,8 @@ def test_lattices_of_points_are_of_what_their_body_is(name):
         assert sample.get_sample("volume_fractions") == lattice.distribution(*place) == {blue: 1}
     distances = [numpy.array(pv.TreeSampler(part, 0.5).evaluate_points(places)) for part in (lattice, bare)]
     assert numpy.allclose(*distances)
-    assert not any(sample.has_sample("volume_fractions") for _, sample in pv.TreeSampler(bare, 0.5).sample_points(places) if sample)
+    without = [sample for _, sample in pv.TreeSampler(bare, 0.5).sample_points(places) if sample]
+    assert not any(sample.has_sample("volume_fractions") for sample in without)
 
 
 # Attributes that solids bring along.
@@ -292,3 +293,53 @@ def test_attributes_of_solids_of_ombre_end_with_these(tmp_path):
     assert not part.sample(5, 0, 0)[1].has_sample("q")
     of_both = pv.Union(part, box({"q": pv.FloatAttribute(4)}, V(0, 9, 0)))
     assert [of_both.sample(*place)[1].has_sample("q") for place in ((0, 0, 0), (5, 0, 0), (0, 9, 0))] == [True, False, True]
+
+
+# Strict mode.
+
+def half_with(name):
+    """A box with the attribute, and one without it around the origin."""
+    return beside(box(), of(blue) if name == "volume_fractions" else {name: pv.FloatAttribute("50 + x/10")})
+
+
+def simulation(kind, name):
+    def made(part, folder):
+        settings = pvc.SimulationCompilerSettings()
+        settings.backend, settings.mesh_kind = pvc.SimulationBackend.GENERIC, kind
+        settings.direct_attributes = [] if name == "volume_fractions" else [name]
+        return pvc.SimulationCompiler(part, settings)
+    return made
+
+
+strict_compilers = {
+    "prusa": ("infill_density", lambda part, folder: pvc.PrusaSlicerProjectCompiler(part, 0.5, folder / "a.3mf", num_regions=2)),
+    "vdb, all": ("q", lambda part, folder: pvc.VdbCompiler(part, 0.5, folder / "a.vdb")),
+    "vdb, named": ("q", lambda part, folder: pvc.VdbCompiler(part, 0.5, folder / "a.vdb", ["q"], True)),
+    "bricks": ("modulus", simulation(pvc.SimulationMeshKind.HEX, "modulus")),
+    "tetrahedra": ("modulus", simulation(pvc.SimulationMeshKind.TET, "modulus")),
+    "materials of bricks": ("volume_fractions", simulation(pvc.SimulationMeshKind.HEX, "volume_fractions"))}
+
+
+@pytest.mark.parametrize("name", strict_compilers)
+def test_strict_mode_refuses_places_without_the_attribute(name, tmp_path):
+    attribute, make = strict_compilers[name]
+    whole = half_with(attribute)
+    lax = make(whole, tmp_path)
+    lax.compile()
+    for file in tmp_path.iterdir():
+        file.unlink()
+    strict = make(whole, tmp_path)
+    strict.set_strict_mode(True)
+    with pytest.raises(RuntimeError, match=rf"{type(strict).__name__}: nothing gives {attribute} at \(-?[012]"):
+        strict.compile()
+    assert not list(tmp_path.iterdir())
+    good = make(whole.child(0), tmp_path)
+    good.set_strict_mode(True)
+    good.compile()
+
+
+def test_strict_simulations_of_one_material_need_no_fractions():
+    compiler = simulation(pvc.SimulationMeshKind.HEX, "modulus")(box({"modulus": pv.FloatAttribute(5)}), None)
+    compiler.set_strict_mode(True)
+    compiler.compile()
+    assert set(compiler.model().scalar_fields["modulus"]) == {5}

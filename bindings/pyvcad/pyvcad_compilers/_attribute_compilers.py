@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import os
 import struct
+from collections.abc import Iterable
 from typing import Any
 
 import numpy
@@ -30,20 +31,26 @@ class _AttributeCompiler(_Compiler):
         """Makes places of the part without the attribute an error, before anything is written."""
         self._is_strict = bool(strict)
 
+    def _check_strictly(self, names: Iterable[str]) -> None:
+        """In strict mode, checks that all of the part has these attributes."""
+        for name in names if self._is_strict else ():
+            self._check_given(name)
+
     def _check_given(self, name: str) -> None:
         """Raises RuntimeError at the first voxel of the part where nothing gives the attribute."""
         if are_everywhere(self._root, [name]):
             return
         design = self._root._design()
         for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
-            bad = design.inside(points) & ~given(self._root, name, points)
-            if bad.any():
-                raise self._nothing_gives(name, points[bad][0])
+            self._check_points(name, points[design.inside(points)])
 
-    def _nothing_gives(self, name: str, point: Any) -> RuntimeError:
-        x, y, z = (float(c) for c in point)
-        return RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g}); set it on a node above, or "
-                            "on each child")
+    def _check_points(self, name: str, points: numpy.ndarray) -> None:
+        """Raises RuntimeError at the first of these points of the part where nothing gives the attribute."""
+        bad = ~given(self._root, name, points)
+        if bad.any():
+            x, y, z = (float(c) for c in points[bad][0])
+            raise RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g}); set it on a node above, "
+                               "or on each child")
 
     def _check_attributes(self) -> None:
         absent = [name for name in self._required if name not in self._root.attribute_list()]
@@ -87,16 +94,12 @@ class VatCompiler(_AttributeCompiler):
     def supported_attributes(self) -> list[str]:
         return ["intensity"]
 
-    def _check_strictly(self) -> None:
-        if self._is_strict:
-            self._check_given("intensity")
-
     def set_fallback_intensity(self, value: float) -> None:
         self._fallback = min(1.0, max(0.0, number(value)))
 
     def compile(self) -> None:
         self._is_stopped = False
-        self._check_strictly()
+        self._check_strictly(["intensity"])
         design = self._root._design()
         low, high = (list(map(float, corner)) for corner in design.bounds)
         if self._volume:
@@ -143,6 +146,7 @@ class VdbCompiler(_AttributeCompiler):
         absent = [name for name in names if name not in design.attributes]
         if absent:
             raise RuntimeError(f"VdbCompiler: no node of the tree has the attribute {', '.join(absent)}")
+        self._check_strictly(names)
         design.write_voxels(self._path, voxel=",".join(map(repr, self._voxel)), what=",".join(["distance", *names, *([OCCUPANCY] if self._has_occupancy else [])]),
                             force=True, progress=self._share)
         self._report(1.0)

@@ -51,15 +51,11 @@ class _InkjetCompiler(_AttributeCompiler):
         """Returns the tree with materials that is printed."""
         raise NotImplementedError
 
-    def _check_strictly(self) -> None:
-        raise NotImplementedError
-
     def compile(self) -> None:
         self._check_attributes()
         self._is_stopped = False
         begin = time.monotonic()
-        if self._is_strict:
-            self._check_strictly()
+        self._check_strictly(self._required)
         design = self._tree()._ombre_design_(self._materials)
         prepared = time.monotonic()
         os.makedirs(self._folder, exist_ok=True)
@@ -127,9 +123,6 @@ class MaterialInkjetCompiler(_InkjetCompiler):
         """Sets the material of places without any; 0, the void, at first."""
         (self._materials or default_materials).name(id)  # raises an error if there is none
         self._fallback = id
-
-    def _check_strictly(self) -> None:
-        self._check_given(FRACTIONS)
 
     def _tree(self) -> Node:
         tree: Node = self._root
@@ -267,9 +260,6 @@ class ColorInkjetCompiler(_InkjetCompiler):
         """Sets the colour, from 0 to 1, of places without any; clear at first."""
         red, green, blue, alpha = map(number, color)
         self._fallback = [red, green, blue, alpha]
-
-    def _check_strictly(self) -> None:
-        self._check_given(_color)
 
     def _tree(self) -> Node:
         return _Coloured(self._root, self._fallback, self._profile)

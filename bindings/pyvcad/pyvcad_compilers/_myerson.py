@@ -53,8 +53,7 @@ class MyersonCompiler(_AttributeCompiler):
         self._check_attributes()
         names = [self._materials.name(id) for id in sorted(set(self._root.material_list()) - {0})]
         design = self._root._ombre_design_(self._materials)
-        if self._is_strict:
-            self._check_given(FRACTIONS)
+        self._check_strictly(self._required)
         os.makedirs(self._folder, exist_ok=True)
         for layers, points in slabs(centers(design.bounds, self._voxel), self._share):
             for n, layer in enumerate(range(layers.start, layers.stop)):

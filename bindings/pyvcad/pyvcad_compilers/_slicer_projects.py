@@ -80,6 +80,7 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         if tools and len(self._profiles) < 2:
             raise RuntimeError(f"PrusaSlicerProjectCompiler: {' and '.join(tools)} of tools need printer_profile_path and "
                                "filament_profile_path")
+        self._check_strictly(chosen)
         os.makedirs(os.path.dirname(os.path.abspath(self._path)), exist_ok=True)
         self._root._design().mesh(self._path, by=",".join(chosen), bands=self._bands, flavour="prusa", force=True,
                                   tolerance=min(self._voxel) / 8, virtual_tools=bool(tools), progress=self._share)
