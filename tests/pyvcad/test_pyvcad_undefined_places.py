@@ -1,4 +1,7 @@
 """Places of a part that nothing gives an attribute: what compilers, resolvers and samplers make of them."""
+import pathlib
+import sys
+
 import numpy
 import pytest
 
@@ -8,6 +11,9 @@ import pyvcad_compilers as pvc
 import pyvcad_metamaterials as mm
 
 from pyvcad_parts import blue, green, origin, red
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import png  # noqa: E402  beside the other tests
 
 V = pv.Vec3
 
@@ -343,3 +349,53 @@ def test_strict_simulations_of_one_material_need_no_fractions():
     compiler.set_strict_mode(True)
     compiler.compile()
     assert set(compiler.model().scalar_fields["modulus"]) == {5}
+
+
+# Gray images.
+
+def grays(part, folder, **settings):
+    """How many pixels have each gray, in all layers."""
+    for file in folder.glob("*.bmp"):
+        file.unlink()
+    compiler = pvc.VatCompiler(part, 0.5, folder, "p")
+    if "fallback" in settings:
+        compiler.set_fallback_intensity(settings["fallback"])
+    compiler.compile()
+    assert len(list(folder.glob("*.bmp"))) == compiler.resolution()[2]
+    pixels = b"".join(path.read_bytes()[14 + 40 + 4 * 256:] for path in folder.glob("*.bmp"))
+    return {shade: pixels.count(shade) for shade in set(pixels) - {0}}
+
+
+def intensity(value):
+    return {"intensity": pv.FloatAttribute(value)}
+
+
+def test_the_fallback_intensity_is_where_nothing_gives_one(tmp_path):
+    rows = [pv.LookupTableEntry(0, 0.25), pv.LookupTableEntry(1, 0.5)]
+    table = pv.LookupTableConverter(["q"], ["intensity"], rows, pv.InterpolationMode.LINEAR)
+    for part in (beside(box(), intensity(0.5)), pv.AttributeModifier(table, beside(box(), {"q": pv.FloatAttribute(1)}))):
+        assert grays(part, tmp_path, fallback=0.25) == {128: 8 ** 3, 64: 8 ** 3}
+        assert grays(part, tmp_path) == {128: 8 ** 3, 255: 8 ** 3}
+        assert grays(part, tmp_path, fallback=0) == {128: 8 ** 3}
+    assert grays(box(), tmp_path, fallback=0.25) == {64: 8 ** 3}
+    assert grays(pv.Union(box(), box(intensity(0.5))), tmp_path) == {128: 8 ** 3}
+    assert grays(ombre.attribute(ombre.cube(4), "intensity", 0.5), tmp_path) == {128: 8 ** 3}
+
+
+@pytest.mark.parametrize("formula", ["0/0", "1/0", "if(x > 1, 0/0, 1)"])
+def test_an_intensity_that_is_no_number_is_an_error(formula, tmp_path):
+    place = r"\(1.25, -1.75, -1.75\)" if "if" in formula else r"\(-1.75, -1.75, -1.75\)"
+    with pytest.raises(RuntimeError, match=rf"VatCompiler: intensity is not finite at {place}"):
+        grays(box(intensity(formula)), tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_vats_are_fully_lit_where_nothing_gives_an_intensity(tmp_path):
+    def lit(attributes):
+        part = pv.Union(box(of(blue), V(5, 0, 0), V(4, 4, 0.5)), box(of(blue) | attributes, size=V(4, 4, 0.5)))
+        pvc.MultiMaterialVatCompiler(part, tmp_path / "vats", pv.default_materials, ["blue"], 0.5).compile()
+        image = png.Image((tmp_path / "vats" / "vat_a" / "vata_layer_0000.png").read_bytes())
+        return {gray for row in image.rows for gray, *_ in row}
+    assert lit({"blue_intensity": pv.FloatAttribute(0.5)}) == {0, 128, 255}
+    with pytest.raises(RuntimeError, match=r"MultiMaterialVatCompiler: blue_intensity is not finite at \("):
+        lit({"blue_intensity": pv.FloatAttribute("0/0")})

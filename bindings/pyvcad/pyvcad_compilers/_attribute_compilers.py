@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy
 
+import ombre
 from pyvcad._arguments import number, size
 from pyvcad._defined import are_everywhere, given
 from pyvcad._grids import centers, slabs
@@ -51,6 +52,17 @@ class _AttributeCompiler(_Compiler):
             x, y, z = (float(c) for c in points[bad][0])
             raise RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g}); set it on a node above, "
                                "or on each child")
+
+    def _numbers(self, name: str, design: ombre.Design, points: numpy.ndarray, usual: float) -> numpy.ndarray:
+        """The attribute at points, or where nothing gives it the usual number. Raises RuntimeError where one is not finite."""
+        if name not in design.attributes:
+            return numpy.full(points.shape[:-1], usual)
+        numbers = numpy.where(given(self._root, name, points), design.attribute(name, points), usual)
+        bad = design.inside(points) & ~numpy.isfinite(numbers)
+        if bad.any():
+            x, y, z = (float(c) for c in points[bad][0])
+            raise RuntimeError(f"{type(self).__name__}: {name} is not finite at ({x:g}, {y:g}, {z:g})")
+        return numpy.nan_to_num(numbers)
 
     def _check_attributes(self) -> None:
         absent = [name for name in self._required if name not in self._root.attribute_list()]
@@ -111,8 +123,7 @@ class VatCompiler(_AttributeCompiler):
         axes = centers((tuple(low), tuple(high)), self._voxel)
         layers = []
         for _, points in slabs(axes, self._share):
-            value = (design.attribute("intensity", points) if "intensity" in design.attributes
-                     else numpy.full(points.shape[:-1], self._fallback))
+            value = self._numbers("intensity", design, points, self._fallback)
             gray = numpy.where(design.distance(points) <= 0, numpy.clip(value, 0, 1), 0)
             layers += list(numpy.rint(255 * gray).astype(numpy.uint8)[:, ::-1])
         while layers and not layers[0].any():

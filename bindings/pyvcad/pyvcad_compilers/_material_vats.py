@@ -42,8 +42,8 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
     """Writes a gray PNG for each vat and layer: vat_a/vata_layer_0000.png, ... from below.
 
     A draw for each pixel picks the vat by "volume_fractions"; its gray is the attribute MATERIAL_intensity, from 0 to 1, or
-    255 without it. The share of the material 0 stays black. The part lies in the middle of 1280 x 800 pixels, which are
-    55.01 x 34.38 mm, x to the right and y downward; the first layer begins at its lowest point.
+    255 where nothing gives it. The share of the material 0 stays black. The part lies in the middle of 1280 x 800 pixels,
+    which are 55.01 x 34.38 mm, x to the right and y downward; the first layer begins at its lowest point.
 
     Args:
         root: a node.
@@ -128,12 +128,8 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
                 image[numpy.ix_(near[1], near[0])] = gray
                 write_gray(os.path.join(folder, f"vat_{vat}", f"vat{vat}_layer_{layer:04}.png"), image)
 
-    @staticmethod
-    def _gray(design: Any, name: str, points: numpy.ndarray) -> Any:
-        attribute = f"{name}_intensity"
-        if attribute not in design.attributes:
-            return 255
-        return numpy.rint(255 * numpy.clip(design.attribute(attribute, points), 0, 1))
+    def _gray(self, design: Any, name: str, points: numpy.ndarray) -> numpy.ndarray:
+        return numpy.rint(255 * numpy.clip(self._numbers(f"{name}_intensity", design, points, 1.0), 0, 1))
 
     def _hand_over(self, folder: str) -> None:
         """Moves the images to where they are wanted."""
