@@ -1,6 +1,9 @@
 """Places of a part that nothing gives an attribute: what compilers, resolvers and samplers make of them."""
+import math
 import pathlib
 import sys
+import xml.etree.ElementTree as ElementTree
+import zipfile
 
 import numpy
 import pytest
@@ -399,3 +402,70 @@ def test_vats_are_fully_lit_where_nothing_gives_an_intensity(tmp_path):
     assert lit({"blue_intensity": pv.FloatAttribute(0.5)}) == {0, 128, 255}
     with pytest.raises(RuntimeError, match=r"MultiMaterialVatCompiler: blue_intensity is not finite at \("):
         lit({"blue_intensity": pv.FloatAttribute("0/0")})
+
+
+# Projects of slicers.
+
+def bodies(part, folder, regions=2):
+    """The settings of each body of PrusaSlicer's project by its name, and its volume in mm3."""
+    path = folder / "a.3mf"
+    pvc.PrusaSlicerProjectCompiler(part, 0.5, path, num_regions=regions).compile()
+    with zipfile.ZipFile(path) as archive:
+        model = ElementTree.fromstring(archive.read("3D/3dmodel.model"))
+        config = ElementTree.fromstring(archive.read("Metadata/Slic3r_PE_model.config"))
+    core = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+    corners = numpy.array([[float(vertex.get(axis)) for axis in "xyz"] for vertex in model.iter(f"{core}vertex")])
+    triangles = [corners[[int(triangle.get(f"v{n}")) for n in (1, 2, 3)]] for triangle in model.iter(f"{core}triangle")]
+    made = {}
+    for body in config.iter("volume"):
+        settings = {item.get("key"): item.get("value") for item in body.iter("metadata")}
+        own = triangles[int(body.get("firstid")):int(body.get("lastid")) + 1]
+        made[settings.pop("name")] = settings, float(sum(numpy.linalg.det(triangle) for triangle in own)) / 6
+        assert settings.pop("volume_type") == "ModelPart" and settings.pop("extruder") == "1"
+    names = {base.get("name") for base in model.iter(f"{core}base")}
+    assert not names or names == set(made)
+    return made
+
+
+def bar(**attributes):
+    return box({name: pv.FloatAttribute(value) for name, value in attributes.items()}, size=V(8, 4, 2))
+
+
+def test_bands_are_those_of_the_places_that_have_the_attribute(tmp_path):
+    for rest in (box(None, V(6, 0, 0), V(4, 4, 2)), box(None, V(4, 0, 0), V(8, 4, 2))):  # beside the bar, and half in it
+        made = bodies(pv.Union(0.0, [bar(infill_density="50 + 5*x"), rest]), tmp_path)
+        assert [settings for settings, _ in made.values()] == [{"fill_density": "40%"}, {"fill_density": "60%"}, {}]
+        assert list(made)[-1] == "without infill_density"
+        assert [volume for _, volume in made.values()] == pytest.approx([32, 32, 32], rel=0.02)
+
+
+def test_each_setting_is_missing_where_its_attribute_is(tmp_path):
+    names = ["external_perimeter_speed", "perimeter_speed", "fuzzy_skin_point_distance"]
+    part = pv.Union(0.0, [bar(**dict.fromkeys(names, 20)), pv.Translate(20, 0, 0, bar(perimeter_speed=20)),
+                          pv.Translate(40, 0, 0, bar(external_perimeter_speed=20)), pv.Translate(60, 0, 0, bar())])
+    keys = [{*settings} for settings, _ in bodies(part, tmp_path).values()]
+    assert len(keys) == 4
+    for expected in ({"external_perimeter_speed", "perimeter_speed", "fuzzy_skin_point_dist"}, {"perimeter_speed"},
+                     {"external_perimeter_speed"}, set()):
+        assert expected in keys
+    assert all(value == "20" for settings, _ in bodies(part, tmp_path).values() for value in settings.values())
+
+
+def test_computed_settings_are_missing_where_their_inputs_are(tmp_path):
+    formula = pv.ExpressionConverter(["q"], ["infill_density"], ["50 + 10*q"])
+    part = pv.AttributeModifier(formula, pv.Union(0.0, [bar(q="x/4"), pv.Translate(20, 0, 0, pv.Cylinder(origin, 4, 4))]))
+    made = bodies(part, tmp_path, regions=10)
+    assert len(made) == 11 and made["without infill_density"][0] == {}
+    assert made["without infill_density"][1] == pytest.approx(64 * math.pi, rel=0.02)
+    densities = [float(settings["fill_density"].rstrip("%")) for settings, _ in made.values() if settings]
+    assert densities == pytest.approx([41, 43, 45, 47, 49, 51, 53, 55, 57, 59], abs=1)  # by few samples, since the part is long
+
+
+def test_tools_need_a_value_everywhere(tmp_path):
+    printer = tmp_path / "printer.ini"
+    printer.write_text("nozzle_diameter = 0.4\n")
+    part = pv.Union(0.0, [bar(temperature=200), pv.Translate(20, 0, 0, bar())])
+    compiler = pvc.PrusaSlicerProjectCompiler(part, 0.5, tmp_path / "a.3mf", 2, printer, printer)
+    with pytest.raises(RuntimeError, match=r"PrusaSlicerProjectCompiler: nothing gives temperature at \(1[67]"):
+        compiler.compile()
+    assert not (tmp_path / "a.3mf").exists()
