@@ -469,3 +469,45 @@ def test_tools_need_a_value_everywhere(tmp_path):
     with pytest.raises(RuntimeError, match=r"PrusaSlicerProjectCompiler: nothing gives temperature at \(1[67]"):
         compiler.compile()
     assert not (tmp_path / "a.3mf").exists()
+
+
+# Arrays of samplers.
+
+@pytest.mark.parametrize("is_alone", [True, False])
+def test_arrays_of_numbers_are_0_where_nothing_is(is_alone):
+    ball = pv.Sphere(origin, 4)
+    ball.set_attribute("q", pv.FloatAttribute("x + 10"))
+    ball.set_attribute("v", pv.Vec3Attribute("x + 10", 1, "0/0"))
+    ball.set_attribute("c", pv.Vec4Attribute(0.5, 1, 1, 1))
+    sampler = pv.TreeSampler(ball if is_alone else pv.Union(0.0, [ball, box(None, V(0, 8, 0))]), 0.5)
+    arrays = [sampler.as_float_array("q"), sampler.as_vec3_array("v"), sampler.as_vec4_array("c")]
+    counts = sampler.sample_dimensions()
+    assert [array.shape for array in arrays] == [counts, (*counts, 3), (*counts, 4)] and arrays[0].dtype == numpy.float32
+    x, y, z = numpy.meshgrid(*(numpy.arange(count) * 0.5 - 3.75 for count in counts), indexing="ij")
+    has = x ** 2 + y ** 2 + z ** 2 <= 16
+    assert numpy.array_equal(arrays[0], numpy.where(has, x + 10, 0).astype(numpy.float32))
+    assert (arrays[1][~has] == 0).all() and numpy.isnan(arrays[1][has][:, 2]).all()
+    assert (arrays[2][~has] == 0).all() and (arrays[2][has] == (0.5, 1, 1, 1)).all()
+    places = [V(9, 0, 0), V(0, 8, 0), V(1, 0, 0)]
+    assert sampler.sample_points_to_float_array(places, "q") == [0, 0, 11]
+    assert [tuple(v)[:2] for v in sampler.sample_points_to_vec3_array(places, "v")] == [(0, 0), (0, 0), (11, 1)]
+    assert [tuple(c) for c in sampler.sample_points_to_vec4_array(places, "c")] == [(0,) * 4, (0,) * 4, (0.5, 1, 1, 1)]
+
+
+def test_arrays_of_fractions_are_0_where_nothing_gives_some():
+    def fractions(part, *places):
+        sampler = pv.TreeSampler(part, 0.5, pv.default_materials)
+        whole = sampler.as_material_fraction_array()
+        assert whole.shape == (math.prod(sampler.sample_dimensions()), pv.default_materials.num_materials() + 1)
+        return whole.sum(axis=0), sampler.sample_points_to_material_fraction_array(places)
+    sums, at = fractions(beside(box(), of(blue)), V(0, 0, 0), V(-40, 0, 0), V(-20, 0, 0))
+    assert sums[blue] == 8 ** 3 == sums.sum()
+    assert at[1][blue] == 1 == at.sum()
+    assert fractions(box(), V(0, 0, 0))[1].sum() == 0
+    assert fractions(pv.RectPrism(origin, V(4, 4, 4), green), V(0, 0, 0))[1][0][green] == 1
+    sampler = pv.TreeSampler(box(of(blue)), 0.5, pv.default_materials)
+    words = "fractions are those of the attribute 'volume_fractions', found 'nonsense'"
+    with pytest.raises(RuntimeError, match=words):
+        sampler.as_material_fraction_array("nonsense")
+    with pytest.raises(RuntimeError, match=words):
+        sampler.sample_points_to_material_fraction_array([origin], "nonsense")

@@ -14,7 +14,7 @@ from ._attributes import FloatAttribute
 from ._colour_maps import ColorMap
 from ._defined import FRACTIONS, are_everywhere, given, marked_design, marker, names_of
 from ._errors import WrongValue
-from ._materials import expect_table
+from ._materials import MaterialDefs, expect_table
 from ._samples import AttributeSamples
 from ._tree import Node, as_node
 from ._vectors import Vec3, Vec4
@@ -65,7 +65,8 @@ def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSam
 class TreeSampler:
     """Samples a tree on the voxels of its bounding box: TreeSampler(root, voxel_size, material_defs=None).
 
-    Arrays have the shape (nx, ny, nz), with one more axis for vectors, colours and materials.
+    Arrays have the shape (nx, ny, nz), with one more axis for vectors, colours and materials. They are 0 outside, and where
+    nothing gives the attribute.
     """
 
     def __init__(self, root: Any, voxel_size: Any, material_defs: Any = None) -> None:
@@ -91,33 +92,40 @@ class TreeSampler:
         return nx, ny, nz, grid.transpose(2, 1, 0).reshape(-1)
 
     def as_float_array(self, name: str, progress: Any = None) -> numpy.ndarray:
-        return self._attribute(name, 1)
+        return self._attribute(name, 1, self._points())
 
     def as_vec3_array(self, name: str, progress: Any = None) -> numpy.ndarray:
-        return self._attribute(name, 3)
+        return self._attribute(name, 3, self._points())
 
     def as_vec4_array(self, name: str, progress: Any = None) -> numpy.ndarray:
-        return self._attribute(name, 4)
+        return self._attribute(name, 4, self._points())
 
-    def _attribute(self, name: str, size: int, points: Any = None) -> numpy.ndarray:
-        values = self._design.attribute(name, self._points() if points is None else points)
-        found = 1 if values.ndim == (4 if points is None else 2) - 1 else values.shape[-1]
+    def _attribute(self, name: str, size: int, points: numpy.ndarray) -> numpy.ndarray:
+        values = self._design.attribute(name, points)
+        found = 1 if values.ndim == points.ndim - 1 else values.shape[-1]
         if found != size:
             raise RuntimeError(f"TreeSampler: the attribute {name!r} has {found} numbers, not {size}")
+        values[~self._is_given(name, points)] = 0
         return values.astype(numpy.float32)
 
+    def _is_given(self, name: str, points: numpy.ndarray) -> numpy.ndarray:
+        """True within the part where the tree gives the attribute."""
+        return cast("numpy.ndarray", self._design.inside(points) & given(self._root, name, points))
+
     def as_material_fraction_array(self, name: str = "volume_fractions", progress: Any = None) -> numpy.ndarray:
+        return self._fractions(name, self._points().reshape(-1, 3))
+
+    def _fractions(self, name: str, points: numpy.ndarray) -> numpy.ndarray:
         if self._materials is None:
             raise RuntimeError("TreeSampler: fractions of materials need material_defs")
-        points = self._points().reshape(-1, 3)
-        return self._fractions(points)
-
-    def _fractions(self, points: numpy.ndarray) -> numpy.ndarray:
+        if name != FRACTIONS:
+            raise RuntimeError(f"TreeSampler: fractions are those of the attribute {FRACTIONS!r}, found {name!r}")
         design = self._design
         names = design.materials.names
         result = numpy.zeros((len(points), len(names)), dtype=numpy.float32)
         for material, values in design.material(points).items():
             result[:, names.index(material)] = values
+        result[~self._is_given(name, points)] = 0
         return result
 
     # Colours.
@@ -162,7 +170,7 @@ class TreeSampler:
         own = self._root.attribute_list()
         if name not in own:
             raise RuntimeError(f"TreeSampler: no node of the tree has the attribute {name!r}; it has {', '.join(own) or 'none'}")
-        is_given = inside & given(self._root, name, points)
+        is_given = self._is_given(name, points)
         colours = self._fraction_colours(points, blend) if name == FRACTIONS else \
             self._value_colours(name, points, is_given, color_map)
         colours[inside & ~is_given] = (128, 128, 128, 255) if self._shows_undefined else 0
@@ -170,10 +178,8 @@ class TreeSampler:
         return numpy.rint(colours).astype(numpy.uint8)
 
     def _fraction_colours(self, points: numpy.ndarray, blend: bool) -> numpy.ndarray:
-        if self._materials is None:
-            raise RuntimeError("TreeSampler: fractions of materials need material_defs")
-        fractions = self._fractions(points)
-        palette = numpy.array([list(self._materials.color(id)) for id in range(fractions.shape[1])])
+        fractions, table = self._fractions(FRACTIONS, points), cast("MaterialDefs", self._materials)
+        palette = numpy.array([list(table.color(id)) for id in range(fractions.shape[1])])
         return fractions @ palette if blend else palette[fractions.argmax(axis=1)].astype(float)
 
     def _value_colours(self, name: str, points: numpy.ndarray, is_given: numpy.ndarray, color_map: Any) -> numpy.ndarray:
@@ -218,9 +224,7 @@ class TreeSampler:
         return [Vec4(*map(float, v)) for v in self._attribute(name, 4, _array(points))]
 
     def sample_points_to_material_fraction_array(self, points: Any, name: str = "volume_fractions") -> numpy.ndarray:
-        if self._materials is None:
-            raise RuntimeError("TreeSampler: fractions of materials need material_defs")
-        return self._fractions(_array(points))
+        return self._fractions(name, _array(points))
 
 
 OCCUPANCY = "occupancy"
