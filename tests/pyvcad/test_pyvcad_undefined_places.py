@@ -511,3 +511,33 @@ def test_arrays_of_fractions_are_0_where_nothing_gives_some():
         sampler.as_material_fraction_array("nonsense")
     with pytest.raises(RuntimeError, match=words):
         sampler.sample_points_to_material_fraction_array([origin], "nonsense")
+
+
+def test_arrays_tell_their_progress():
+    part = box({"q": pv.FloatAttribute("x"), "v": pv.Vec3Attribute("x", "y", "z"), "c": pv.Vec4Attribute(1, 0, 0, 1)} | of(blue),
+               size=V(130, 130, 130))
+    sampler = pv.TreeSampler(part, 1, pv.default_materials)
+    arrays = {"signed distance": sampler.as_signed_distance_array,
+              "float": lambda **tell: sampler.as_float_array("q", **tell),
+              "vec3": lambda **tell: sampler.as_vec3_array("v", **tell),
+              "vec4": lambda **tell: sampler.as_vec4_array("c", **tell),
+              "fractions": lambda **tell: sampler.as_material_fraction_array("volume_fractions", **tell),
+              "rgba": lambda **tell: sampler.as_rgba_array("q", pv.ColorMap.create_viridis(), **tell),
+              "colours of fractions": lambda **tell: sampler.as_rgba_array("volume_fractions", None, **tell)}
+    for name, make in arrays.items():
+        shares = []
+        with_progress, plain = make(progress=shares.append), make()
+        assert len(shares) > 1 and shares == sorted(shares) and 0 < shares[0] < shares[-1] == 1, name
+        assert numpy.array_equal(with_progress[-1], plain[-1])
+
+
+def test_arrays_have_the_order_of_their_axes():
+    part = box({"q": pv.FloatAttribute("x + 10*y + 100*z"), "v": pv.Vec3Attribute("x", "y", "z")}, V(1, 2, 3), V(2, 4, 6))
+    part.set_attribute("c", pv.Vec4Attribute("x/2", "y/4", "z/6", 1))
+    sampler = pv.TreeSampler(part, 1, pv.default_materials)
+    assert sampler.as_float_array("q")[1, 2, 3] == 1.5 + 25 + 350
+    assert tuple(sampler.as_vec3_array("v")[0, 3, 5]) == (0.5, 3.5, 5.5)
+    assert numpy.allclose(sampler.as_vec4_array("c")[0, 3, 5], (0.25, 0.875, 5.5 / 6, 1))
+    nx, ny, nz, colours = sampler.as_rgba_array("c", None)
+    assert (nx, ny, nz) == (2, 4, 6)
+    assert tuple(colours.reshape(nz, ny, nx, 4)[5, 3, 0]) == tuple(numpy.rint(255 * numpy.array([0.25, 0.875, 5.5 / 6, 1])))
