@@ -2,6 +2,7 @@
 import math
 import pathlib
 import sys
+import warnings
 import xml.etree.ElementTree as ElementTree
 import zipfile
 
@@ -99,6 +100,20 @@ def test_struts_without_a_material_beside_some_that_have_one(tmp_path):
         printed(partly_graded_lattice(), tmp_path, strict=True)
 
 
+def test_the_fallback_changes_no_solid(tmp_path):
+    strut, balls = pv.Strut(V(0, 0, 0), V(0, 0, 6), 1.5), solids_without_material["beams and balls"]()
+    for part in (strut, balls):
+        sampler = pv.TreeSampler(part, 0.5)
+        inside = int((sampler.as_signed_distance_array()[3] <= 0).sum())
+        assert printed(beside(part, of(blue)), tmp_path) == {blue: 8 ** 3, green: inside}
+
+
+def test_seams_have_the_materials_of_both_sides(tmp_path):
+    for part in (box(None, V(4, 1, 0)), pv.BeamLattice([V(2, 2, 0), V(8, 2, 0)], [(0, 1)], 2.0)):
+        counts = printed(pv.Union(3.0, [box(of(blue)), part]), tmp_path)
+        assert set(counts) == {blue, green}
+
+
 def by_q():
     """A table from q to a material, and two boxes of which one has q."""
     rows = [pv.LookupTableEntry(0, {red: 1.0}), pv.LookupTableEntry(1, {blue: 1.0})]
@@ -181,6 +196,14 @@ def test_fractions_of_an_overlap_are_those_of_the_first_child_that_has_some(kind
     whole = kind([box(), box(of(blue)), box(of(red))])
     assert whole.sample(0, 0, 0)[1].get_sample("volume_fractions") == whole.distribution(0, 0, 0) == {blue: 1}
     assert printed(whole, tmp_path, strict=True) == {blue: 8 ** 3}
+
+
+def test_a_child_without_fractions_keeps_what_is_its_own_without_a_warning(tmp_path):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        whole = pv.Union([box(size=V(6, 6, 6)), box(of(blue), V(2, 0, 0))])
+        assert printed(whole, tmp_path) == {blue: 8 ** 3, green: 12 ** 3 - 6 * 8 * 8}
+        pvc.DirectMaterialCompiler(whole, V(0.5, 0.5, 0.5), pv.default_materials, tmp_path, "d").compile()
 
 
 def test_seams_are_as_round_whichever_child_has_fractions():

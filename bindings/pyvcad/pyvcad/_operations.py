@@ -110,11 +110,15 @@ def _completed(node: NAry, solids: list[ombre.Solid], rule: Literal["first", "mi
     children = node._inputs()
     if not any(child._has_fractions for child in children) or all(child._has_material for child in children):
         return solids
-    whole = ombre.union([solid for child, solid in zip(children, solids) if child._has_material], materials=rule)
-    ids = sorted({id for child in children if child._has_material for id in child.material_list()})
+    others = ombre.union([solid for child, solid in zip(children, solids) if child._has_material], materials=rule)
+    is_there = ombre.distance_to(others).inside > 0.5
+    ids = sorted({id for child in children for id in child.material_list()})
     names = ombre.Materials(_factory=current_factory()).names
-    shares = [ombre.composition_of(whole, names[id]).share for id in ids]
-    return [solid if child._has_material else ombre.fgrade(solid, shares, ids) for child, solid in zip(children, solids)]
+
+    def shares(solid: ombre.Solid) -> list[Any]:
+        return [ombre.where(is_there, ombre.composition_of(others, names[id]).share, ombre.composition_of(solid, names[id]).share)
+                for id in ids]
+    return [solid if child._has_material else ombre.fgrade(solid, shares(solid), ids) for child, solid in zip(children, solids)]
 
 
 class _Boolean(NAry):

@@ -12,7 +12,7 @@ from ._arguments import (Optional, Point, boolean, instance_of, length, material
                          vector)
 from ._enums import LatticeType
 from ._functions import expression
-from ._tree import Node, _call_place
+from ._tree import Node, _call_place, in_order
 from ._volumes import FloatVolume
 
 class _Unset(int):
@@ -26,6 +26,14 @@ _one = Optional(material, _unset)
 def is_unset(material: int) -> bool:
     """True if it stands for no material that was given."""
     return isinstance(material, _Unset)
+
+
+def with_unset(tree: Node, material: int) -> Node:
+    """The tree, in which nodes that were given no material are of this one, as if it were the one that they have anyway."""
+    for node in in_order(tree):
+        if is_unset(getattr(node, "_material", 0)):
+            node._material = _Unset(material)  # type: ignore[attr-defined]
+    return tree
 
 
 class _Leaf(Node):

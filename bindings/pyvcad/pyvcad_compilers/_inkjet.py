@@ -15,6 +15,7 @@ from pyvcad._defined import FRACTIONS, are_everywhere, marked, marked_design, ma
 from pyvcad._keep_out import KeepOut
 from pyvcad._materials import MaterialDefs, default_materials, expect_table, j750_materials
 from pyvcad._resolvers import numbers_of
+from pyvcad._solids import with_unset
 from pyvcad._tree import Node, Unary, as_node
 
 from ._attribute_compilers import _AttributeCompiler
@@ -127,32 +128,29 @@ class MaterialInkjetCompiler(_InkjetCompiler):
     def _tree(self) -> Node:
         tree: Node = self._root
         if not are_everywhere(tree, [FRACTIONS]):
-            tree = _Completed(tree, self._fallback, self._materials or default_materials)
+            tree = _Completed(tree, self._fallback)
         return KeepOut(tree, self._keep_out, self._materials) if self._keep_out > 0 else tree
 
 
 class _Completed(Unary):
     """The part, of the fallback material where nothing says of what it is."""
 
-    def __init__(self, part: Node, fallback: int, table: MaterialDefs) -> None:
-        super().__init__(marked(part))
+    def __init__(self, part: Node, fallback: int) -> None:
+        super().__init__(with_unset(marked(part), fallback))
         self._is_said = marker(FRACTIONS) in marked_design(part).attributes
-        self._fallback, self._table = fallback, table
+        self._fallback = fallback
 
     def _fractions(self) -> set[int] | None:
         return {*self._inputs()[0].material_list(), self._fallback}
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        solid = solids[0]
+        said, filled = solids[0], ombre.material(solids[0], self._fallback)
         if not self._is_said:
-            return ombre.material(solid, self._fallback)
-        is_said = ombre.attribute_of(solid, marker(FRACTIONS)).value > 0.5
-        ids = sorted(self._fractions() or set())
-        shares = []
-        for id in ids:
-            share = ombre.composition_of(solid, self._table.name(id)).share
-            shares.append(ombre.where(is_said, share, float(id == self._fallback)))
-        return ombre.fgrade(solid, shares, ids)
+            return filled
+        low, high = said.bounds
+        gaps = ombre.function(ombre.attribute_of(said, marker(FRACTIONS)).value - 0.5, self._fallback, min=low, max=high)
+        # The first one lies in the second, so that they have its distances together.
+        return ombre.union([ombre.intersection([filled, gaps], materials="first"), said], materials="first")
 
 
 _inks = ("VeroCyan", "VeroMagenta", "VeroYellow", "VeroBlack", "VeroPureWht")
