@@ -114,11 +114,12 @@ def _completed(node: NAry, solids: list[ombre.Solid], rule: Literal["first", "mi
     is_there = ombre.distance_to(others).inside > 0.5
     ids = sorted({id for child in children for id in child.material_list()})
     names = ombre.Materials(_factory=current_factory()).names
+    theirs = [ombre.composition_of(others, names[id]).share for id in ids]
 
-    def shares(solid: ombre.Solid) -> list[Any]:
-        return [ombre.where(is_there, ombre.composition_of(others, names[id]).share, ombre.composition_of(solid, names[id]).share)
-                for id in ids]
-    return [solid if child._has_material else ombre.fgrade(solid, shares(solid), ids) for child, solid in zip(children, solids)]
+    def completed(child: Node, solid: ombre.Solid) -> ombre.Solid:
+        own = child.material_list()  # the one that stands for none
+        return ombre.fgrade(solid, [ombre.where(is_there, share, float(id in own)) for id, share in zip(ids, theirs)], ids)
+    return [solid if child._has_material else completed(child, solid) for child, solid in zip(children, solids)]
 
 
 class _Boolean(NAry):
