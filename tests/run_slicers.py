@@ -214,6 +214,25 @@ def materials_are_mixed_of_filaments(designs):
     return ""
 
 
+def numbers_of_filaments_have_limits(designs):
+    """Snapmaker Orca's patterns name a third filament by one digit; PrusaSlicer has 16 filaments, Bambu Studio 16 in all."""
+    def message(materials, flavour, design="rectprism((10, 10, 10), mixed);\n"):
+        (designs.path / "many.json").write_text(json.dumps({"materials": materials}))
+        (designs.path / "many.vcad").write_text(design)
+        return designs.mesh("many.vcad", "--materials", "many.json", "--flavour", flavour, status=1)
+
+    nine, three = [colour(f"f{n}", n) for n in range(1, 10)], [colour(name) for name in "abc"]
+    said = message([*nine, *three, mixed("mixed", a=1, b=1, c=2)], "snapmaker")
+    expect('"mixed" has three filaments, one of them on extruder 12' in said and 'give "c" an "extruder" from 1 to 9' in said, said)
+    said = message([colour("a", 16), colour("b"), mixed("mixed", a=1, b=1)], "bambu")
+    expect('mixtures are numbered after the last filament, which has number 16' in said and 'smaller numbers by "extruder"' in said, said)
+    many = [colour("m1", 1), *(colour(f"m{n}") for n in range(2, 18))]
+    boxes = "".join(f"translate({10 * n}, 0, 0) cube(5, m{n});\n" for n in range(1, 18))
+    said = message(many, "prusa", "union() {\n" + boxes + "}\n")
+    expect("17 bodies have a filament each" in said and "use fewer materials" in said and "--setting" not in said, said)
+    return ""
+
+
 def tools_set_temperature_and_flow(designs):
     reported = designs.mesh("halves.vcad", "--by", "temperature,flow_rate", "--bands", "2", "--flavour", "prusa", "--virtual-tools")
     expect("tool 1: 210 C, flow 95 %" in reported and "tool 2: 230 C, flow 85 %" in reported, reported)
@@ -327,7 +346,7 @@ def commands_of_the_page_work(designs):
         expect(result.returncode == 0 and "warning" not in result.stderr, f"{command}: {result.stderr}")
 
 
-CHECKS = program.named([materials_are_filaments, mixtures_are_layer_cycles, materials_are_mixed_of_filaments, tools_set_temperature_and_flow,
+CHECKS = program.named([materials_are_filaments, mixtures_are_layer_cycles, materials_are_mixed_of_filaments, numbers_of_filaments_have_limits, tools_set_temperature_and_flow,
                         heights_have_settings, bands_are_as_few_as_their_distance_takes, surfaces_are_painted,
                         slips_get_remedies, commands_of_the_page_work])
 

@@ -55,17 +55,23 @@ compile::Loaded shown_solids(const OpenDesign& open, const std::vector<design::N
   return alone(*open.loaded, solids.size() == 1 ? solids.front() : make("union", open.loaded->design, {}, solids));
 }
 
+// Refuses what only exists in the cells of a tile.
+design::NodePtr without_cell(design::NodePtr node) {
+  if (node->uses_cell()) throw RequestError("unsupported", "the value depends on the cell that repeats it");
+  return node;
+}
+
 compile::Loaded shown_value_of(const OpenDesign& open, const Data& value, compile::PictureRequest& picture) {
   picture.slice = compile::SliceView{2, open.bounds.center().z};
   if (!design::is_mixture(value)) picture.by = shown_value;
-  design::NodePtr block = block_of(open, value);
-  if (block->uses_cell()) throw RequestError("unsupported", "the value depends on the cell that repeats it");
-  return alone(*open.loaded, std::move(block));
+  return alone(*open.loaded, without_cell(block_of(open, value)));
 }
 
 bool is_solid(const OpenDesign& open, const Data& value) {
   Diagnostics ignored;
-  return design::read_solid(value, {open.loaded->design.materials, ignored, nullptr, {}, "", ""}).has_value();
+  std::vector<design::NodePtr> held;
+  const design::Reader reader{open.loaded->design.materials, ignored, nullptr, {}, "", "", nullptr, &held};
+  return design::read_solid(value, reader).has_value();
 }
 
 Data data_of(design::NodePtr node) {
@@ -108,10 +114,11 @@ std::vector<const design::Node*> nodes_of(const OpenDesign& design, const Reques
 compile::Loaded shown(const OpenDesign& open, const Request& request, compile::PictureRequest& picture) {
   if (!request.body.find("value")) return shown_nodes(open, nodes_of(open, request), picture);
   const auto& values = open.results.values();
+  if (values.empty()) throw RequestError("request", "the design has no values of expressions to show");
   const int64_t n = request.whole("value", 0, static_cast<int64_t>(values.size()) - 1);
   const Data& value = values[static_cast<size_t>(n)].value;
   if (!is_solid(open, value)) return shown_value_of(open, value, picture);
-  return shown_solids(open, {make("solid_of", open.loaded->design, {{"solid", value}}, {})}, picture);
+  return shown_solids(open, {without_cell(make("solid_of", open.loaded->design, {{"solid", value}}, {}))}, picture);
 }
 
 std::string made_now(const compile::Loaded& loaded, const compile::PictureRequest& picture, const StopFlag& stop) {

@@ -341,6 +341,34 @@ TEST_F(ThumbnailTest, ExpressionsShowTheirValues) {
   EXPECT_EQ(text(of_value("1000").first, "error"), "request");
 }
 
+// A variable, a call and an output may be a solid, which looks as its node does.
+TEST_F(ThumbnailTest, ExpressionsShowTheirSolids) {
+  const std::string script =
+      "function ball(r) = sphere(r, red);\n"
+      "one = sphere(3, red);\n"
+      "two = ball(3);\n"
+      "m = box_cells((4, 4, 4), min=(0, 0, 0), max=(8, 8, 8));\n"
+      "region = m.region;\n"
+      "cell = tile((4, 4, 4), ball(1 + 0.2 * ci));\n"
+      "union() { sphere(3, red); solid_of(one); }";
+  const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
+  ASSERT_TRUE(loaded.find("made")) << print_json(loaded);
+  std::map<std::string, std::string> pictures, errors;  // by the texts of expressions
+  for (const Data& one : *loaded.find("made")->list()) {
+    if (!one.find("value")) continue;
+    const auto from = static_cast<size_t>(number_in(one, "from")), to = static_cast<size_t>(number_in(one, "to"));
+    const auto [header, bytes] =
+        thumbnail(text(loaded, "design"), R"("value": )" + print_json_line(*one.find("value")));
+    pictures[script.substr(from, to - from)] = bytes;
+    errors[script.substr(from, to - from)] = bytes.empty() ? text(header, "error") : "";
+  }
+  for (const char* known : {"sphere(3, red)", "ball(3)", "m.region"}) {
+    EXPECT_FALSE(pictures[known].empty()) << known << ' ' << errors[known];
+  }
+  EXPECT_EQ(pictures["sphere(3, red)"], pictures["ball(3)"]);
+  EXPECT_NE(pictures["sphere(3, red)"], pictures["m.region"]);
+}
+
 TEST_F(StudioTest, PortsSayWhichNodesGoInWhere) {
   const Data loaded =
       ask("load", R"("file": "a.vcad", "text": )" +

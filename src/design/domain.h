@@ -15,6 +15,11 @@ namespace ombre::design {
 // All of a design lies within this distance (mm) of the origin on each axis.
 inline constexpr double design_limit_mm = 1e6;
 inline Box design_space() { return Box::centered({design_limit_mm, design_limit_mm, design_limit_mm}); }
+// Returns false for a box that goes on to the end of the space along an axis.
+inline bool has_ends(const Box& box) {
+  const Vec3 size = box.size();
+  return box.is_bounded() && size.x < design_limit_mm && size.y < design_limit_mm && size.z < design_limit_mm;
+}
 
 // The meaning of a parameter's numbers in space, for handles that move them.
 enum class InSpace : uint8_t {

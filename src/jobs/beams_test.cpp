@@ -132,6 +132,19 @@ TEST_F(Beams, BesideSolidsComeBack) {
       false, 0.02, 0.02);
 }
 
+// Steps have a slope of 0, as no shift has; a shift leaves cells equal boxes.
+TEST_F(Beams, OfCellsThatAreShiftedByStepsAreNone) {
+  const auto made = [&](const std::string& u) {
+    return write("m = formula_cells(u=\"" + u +
+                     "\", of=box_cells((5, 5, 5), min=(0, 0, 0), max=(10, 10, 10)));\n"
+                     "lattice(\"bcc\", radius=0.8, map=m);",
+                 false, 0.1);
+  };
+  EXPECT_TRUE(made("u + (v > 1)*0.5").beams.empty());
+  EXPECT_TRUE(made("u + 0.5*floor(v)").beams.empty());
+  EXPECT_FALSE(made("u + 0.5").beams.empty());
+}
+
 TEST_F(Beams, OfSeveralMaterialsComeBack) {
   const std::string text =
       "union() { lattice(edges=[[(-4, -3, 1), (4, 3, 1)]], radius=0.5, material=\"red\"); translate(0, 0, -3) "

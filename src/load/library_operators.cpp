@@ -8,6 +8,7 @@
 #include "design/domain.h"
 #include "lang/engine/loader.h"
 #include "lang/syntax/parser.h"
+#include "load/library_folders.h"
 
 namespace ombre::compile {
 
@@ -80,6 +81,12 @@ std::vector<Operator> operators_in(const std::vector<std::string>& folders) {
   const auto category = [](const Operator& op) -> const std::string& { return op.declaration.category; };
   std::ranges::stable_sort(operators, {}, category);
   return operators;
+}
+
+std::string library_of(std::string_view name) {
+  for (const Operator& op : operators_in(library_folders()))
+    if (op.declaration.name == name) return op.library;
+  return "";
 }
 
 DataMembers describe_operator(const Operator& op) {

@@ -17,6 +17,7 @@
 #include "load/data_folder.h"
 #include "load/design_sources.h"
 #include "load/library_folders.h"
+#include "load/library_operators.h"
 #include "load/material_map.h"
 #include "load/scad_words_design.h"
 #include "load/script_notes.h"
@@ -92,6 +93,7 @@ std::optional<design::Design> run_script(const SourcePtr& source, const LoadOpti
   run.threads = options.threads > 0 ? options.threads : core_count();
   run.needed = options.needed;
   run.libraries = library_folders();
+  run.library_of = library_of;
   for (const std::string& text : options.definitions)
     if (auto definition = parse_definition(text, diagnostics)) run.definitions.push_back(std::move(*definition));
   if (!materials || diagnostics.has_errors()) return std::nullopt;

@@ -269,6 +269,7 @@ Field max(Field a, double b) { return max(a, a.builder->constant(b)); }
 Field abs(Field a) { return a.builder->apply(Op::abs, a); }
 Field sqrt(Field a) { return a.builder->apply(Op::sqrt, a); }
 Field square(Field a) { return a.builder->apply(Op::square, a); }
+Field signed_square(Field a) { return a * abs(a); }
 Field length(Field a, Field b) { return sqrt(square(a) + square(b)); }
 Field length(Field a, Field b, Field c) { return sqrt(square(a) + square(b) + square(c)); }
 Field operator<(Field a, double b) { return less(a, a.builder->constant(b)); }

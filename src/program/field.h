@@ -103,6 +103,7 @@ Field max(Field a, double b);
 Field abs(Field a);
 Field sqrt(Field a);
 Field square(Field a);
+Field signed_square(Field a);  // below 0 where a is
 Field ceil(Field a);
 Field sin(Field a);
 Field cos(Field a);

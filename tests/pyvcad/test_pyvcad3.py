@@ -350,7 +350,8 @@ def test_tables_of_several_inputs():
         pv.LookupTableConverter(["a", "b"], ["c", "e"], [entry(0, 1, [1, 2])])
     grid[0].is_valid = False
     holed = pv.AttributeModifier(pv.LookupTableConverter(["a", "b"], ["c"], grid, lines), part)
-    assert math.isnan(holed.sample(-1, -3, 0)[1].get_sample("c"))
+    with pytest.raises(RuntimeError, match=r"'c' has no finite value at \(-1, -3, 0\)"):
+        holed.sample(-1, -3, 0)
     assert holed.sample(1, 2, 0)[1].get_sample("c") == pytest.approx(12)
 
 

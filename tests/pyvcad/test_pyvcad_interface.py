@@ -445,3 +445,102 @@ def test_formulas_have_the_words_of_pyvcad():
     for text, value in (("mand(x > 1, y > 1, 3)", 1), ("mor(x > 9, y < 1)", 0), ("x > 1 nand y > 1", 0), ("x <> 2", 0),
                         ("avg(x, y, 6)", 4), ("clamp(0, x, 1)", 1), ("rad2deg(pi)", 180)):
         assert pv.FloatAttribute(text).sample(2, 4, 0) == pytest.approx(value), text
+
+
+def box_with(**attributes):
+    box = pv.RectPrism(origin, V(4, 4, 4))
+    for name, attribute in attributes.items():
+        box.set_attribute(name, attribute)
+    return box
+
+
+def values_at(node, names, *point):
+    samples = node.sample(*point)[1]
+    return [samples.get_sample(name) for name in names]
+
+
+def test_converters_read_what_the_child_has():
+    number = pv.FloatAttribute
+    both = pv.ExpressionConverter(["density"], ["density", "temperature"], ["density*2", "density*100"])
+    assert values_at(pv.AttributeModifier(both, box_with(density=number(1))), ["density", "temperature"], 0, 0, 0) == [2, 100]
+    rows = [pv.LookupTableEntry(key, [10 * key, 100 * key]) for key in (0.0, 2.0)]
+    table = pv.LookupTableConverter(["q"], ["q", "p"], rows, pv.InterpolationMode.LINEAR)
+    assert values_at(pv.AttributeModifier(table, box_with(q=number("x"))), ["q", "p"], 1, 0, 0) == [10, 100]
+    parts = pv.AttributeModifier(pv.Vec3ToScalarsConverter("v", "z", "y", "x"), box_with(v=pv.Vec3Attribute("x", 2, 3)))
+    assert values_at(parts, ["z", "y", "x"], 1, 0, 0) == [1, 2, 3]
+    twice = pv.AttributeModifier(both, pv.AttributeModifier(both, box_with(density=number(1))))
+    assert values_at(twice, ["density", "temperature"], 0, 0, 0) == [4, 200]
+
+
+@pytest.mark.parametrize("name", ["e", "pi", "E", "d", "t", "x", "min", "density"])
+def test_inputs_may_have_any_name(name):
+    converter = pv.ExpressionConverter([name], ["out"], [f"{name}*2 + e"])
+    wanted = 0.5 if name in ("e", "E") else 0
+    found = values_at(pv.AttributeModifier(converter, box_with(**{name: pv.FloatAttribute(0.25)})), ["out"], 1, 0, 0)[0]
+    assert found == pytest.approx(0.75 if wanted else 0.5 + math.e)
+    table = pv.LookupTableConverter([name], ["out"], [pv.LookupTableEntry(0, 0.3, 7)])
+    assert values_at(pv.AttributeModifier(table, box_with(**{name: pv.FloatAttribute(0.25)})), ["out"], 1, 0, 0) == [7]
+
+
+def test_names_that_differ_in_case_are_two():
+    assert pv.DerivedFloatAttribute("A - a", {"A": pv.FloatAttribute("x"), "a": pv.FloatAttribute("y")}).sample(5, 3, 0) == 2
+    assert pv.DerivedFloatAttribute("B + 1", {"b": pv.FloatAttribute("x")}).sample(5, 3, 0) == 6
+    with pytest.raises(ValueError, match="names 'c', which is none of its inputs"):
+        pv.DerivedFloatAttribute("c", {"b": pv.FloatAttribute("x")})
+
+
+def test_values_that_are_not_finite_are_errors():
+    part = box_with(q=pv.FloatAttribute("1/x"))
+    assert values_at(part, ["q"], 0.5, 0, 0) == [2]
+    with pytest.raises(RuntimeError, match=r"'q' has no finite value at \(0, 0, 0\)"):
+        part.sample(0, 0, 0)
+    assert part.sample(9, 0, 0)[1] is None
+    rows = [pv.LookupTableEntry(float(key), float(key)) for key in range(3)]
+    rows[2].is_valid = False
+    table = pv.AttributeModifier(pv.LookupTableConverter(["a"], ["b"], rows, pv.InterpolationMode.LINEAR),
+                                 box_with(a=pv.FloatAttribute("x")))
+    assert values_at(table, ["b"], 0.5, 0, 0) == [0.5] and values_at(table, ["b"], 1, 0, 0) == [1]
+    with pytest.raises(RuntimeError, match="valid entry"):
+        table.sample(1.5, 0, 0)
+
+
+def test_attributes_may_change_after_a_question():
+    number, vector = pv.FloatAttribute(1), pv.Vec3Attribute(1, 2, 3)
+    part = pv.Union(0.0, [pv.Translate(1, 0, 0, box_with(q=number, v=vector))])
+    assert values_at(part, ["q", "v"], 0, 0, 0) == [1, V(1, 2, 3)]
+    number.set_value("x")  # of the box, which is moved by 1
+    vector.set_value(4, 5, 6)
+    assert values_at(part, ["q", "v"], 2.5, 0, 0) == [1.5, V(4, 5, 6)]
+
+
+def test_turns_are_about_the_middle():
+    block = pv.RectPrism(V(5, 0, 0), V(4, 2, 1))
+    later = pv.Rotate(0, 0, 90)
+    later.set_child(block)
+    for turned in (later, pv.Rotate(0, 0, 90, child=block), pv.Rotate(pitch=0, yaw=0, roll=90, child=block)):
+        assert numpy.allclose([*turned.bounding_box()[0], *turned.bounding_box()[1]], [4, -2, -0.5, 6, 2, 0.5])
+    low, high = pv.Rotate(0, 0, 90, around=origin, child=block).bounding_box()
+    assert numpy.allclose([*low, *high], [-1, 3, -0.5, 1, 7, 0.5])
+
+
+def test_settings_of_pictures_are_known(tmp_path):
+    ball, file = pv.Sphere(origin, 5), tmp_path / "ball.png"
+    with pytest.raises(TypeError, match="'visualised_attribute'; did you mean 'visualized_attribute'"):
+        viz.Render_Image(ball, file, {"visualised_attribute": "q"}, 40, 30)
+    for wrong in ({"render_mode": "nonsense"}, {"scalar_range_mode": "nonsense"}):
+        with pytest.raises(ValueError, match="found 'nonsense'"):
+            viz.RenderSettings(**wrong)
+    assert not file.exists()
+    with pytest.warns(UserWarning, match="without effect: show_bbox, use_blending"):
+        viz.Render_Image(ball, file, {"show_bbox": True, "use_blending": False, "show_origin": False}, 40, 30)
+    assert file.exists()
+
+
+def test_unit_square_and_versions():
+    low, high = pv.PolygonExtrude().bounding_box()
+    assert numpy.allclose([*low, *high], [0, 0, 0, 1, 1, 1]) and pv.PolygonExtrude().volume(0.25) == 1
+    assert pvc.version() == pv.version()
+    assert (2 * pv.Vec3Attribute(1, 2, 3)).sample(0, 0, 0) == V(2, 4, 6)
+    rows = [pv.LookupTableEntry(numpy.int64(0), numpy.int64(1), numpy.float32(0.5))]
+    table = pv.AttributeModifier(pv.LookupTableConverter(["a"], ["b"], rows), box_with(a=pv.FloatAttribute(0.5)))
+    assert values_at(table, ["b"], 0, 0, 0) == [0.5]

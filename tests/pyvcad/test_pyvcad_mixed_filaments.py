@@ -84,9 +84,10 @@ def test_fractions_become_the_nearest_cycles(tmp_path):
     cycles = sorted({a / b for b in range(2, 7) for a in range(1, b)})
     assert shares == pytest.approx(cycles)
     assert [e["id"] for e in mixed["virtual_extruders"]] == list(range(6, 17))
-    # Borders lie half way between the shares: 12 mm times these.
+    # Borders lie half way between the shares, 12 mm times these; shares below 15 % are dropped.
     all_shares = [0, *cycles, 1]
-    wanted = sorted({-6, 6, *(12 * (a + b) / 2 - 6 for a, b in zip(all_shares, all_shares[1:]))})
+    borders = [min(max((a + b) / 2, 0.15), 0.85) for a, b in zip(all_shares, all_shares[1:])]
+    wanted = sorted({-6, 6, *(12 * share - 6 for share in borders)})
     found = sorted({round(float(x), 3) for x in re.findall(r'<vertex x="([^"]+)"', entry(path, "3D/3dmodel.model"))})
     assert found == pytest.approx(wanted, abs=2e-3)
     report = json.loads(entry(path, "Metadata/ombre_recipes.json"))["recipes"]
@@ -248,3 +249,41 @@ def test_cancelling_leaves_no_file(tmp_path):
 def test_filaments_have_slots_in_the_order_of_the_list():
     assert [f.slot for f in filaments_of("test", None)] == [1, 2, 3, 4, 5]
     assert [f.name for f in filaments_of("test", red_and_blue)] == ["filament 1", "PLA red"]
+
+
+@pytest.mark.parametrize("shares, mixture", [((0.9, 0.1, 0), {1: 1}), ((0.45, 0.45, 0.1), {1: 1, 2: 1}),
+                                             ((0.5, 0.34, 0.16), {1: 3, 2: 2, 3: 1})])
+def test_small_parts_are_dropped_and_the_rest_is_the_whole(tmp_path, shares, mixture):
+    names = ("red", "blue", "white")
+    part = pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(4, 4, 4))
+    part.set_attribute("volume_fractions", pv.VolumeFractionsAttribute(list(zip(shares, map(pv.default_materials.id, names)))))
+    filaments = [{"color_hex": colour, "slot": slot} for slot, colour in enumerate(("#ff0000", "#0000ff", "#ffffff"), 1)]
+    compiler = pvc.FullSpectrumSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), tmp_path / "f.3mf", filaments=filaments,
+                                                     volume_fraction_materials=dict(zip(names, (1, 2, 3))))
+    compiler.compile()
+    [recipe] = compiler.recipes()
+    assert dict(zip(recipe["slots"], recipe["layers"])) == mixture
+
+
+def test_projects_are_3mf_files():
+    part = pv.Sphere(pv.Vec3(0, 0, 0), 2)
+    for kind in (pvc.FullSpectrumSlicerProjectCompiler, pvc.PrusaSlicerProjectCompiler):
+        with pytest.raises(ValueError, match=f"{kind.__name__}, output_file_path: expected a name that ends in .3mf, found 'i.stl'"):
+            kind(part, pv.Vec3(1, 1, 1), "i.stl")
+        with pytest.raises(ValueError, match=f"{kind.__name__}, region_overlap_mm: expected 0 or more"):
+            kind(part, pv.Vec3(1, 1, 1), "i.3mf", region_overlap_mm=-1)
+
+
+def test_profiles_say_the_nozzle_and_the_filament(tmp_path):
+    printer, filament, path = tmp_path / "printer.ini", tmp_path / "filament.ini", tmp_path / "bar.3mf"
+    printer.write_text("nozzle_diameter = 0.6\nbed_temperature = 60\n")
+    filament.write_text("filament_type = LW\ntemperature = 230\n")
+    for name, formula, count in (("infill_density", "50+4*x", 1), ("temperature", "200+4*x", 2)):
+        part = pv.RectPrism(pv.Vec3(0, 0, 0), pv.Vec3(10, 10, 10))
+        part.set_attribute(name, pv.FloatAttribute(formula))
+        pvc.PrusaSlicerProjectCompiler(part, pv.Vec3(1, 1, 1), path, num_regions=2, printer_profile_path=printer,
+                                       filament_profile_path=filament).compile()
+        lines = entry(path, "Metadata/Slic3r_PE.config").splitlines()
+        assert {f"; nozzle_diameter = {','.join(['0.6'] * count)}", f"; filament_type = {';'.join(['LW'] * count)}",
+                "; bed_temperature = 60"} <= set(lines)
+        assert ("; temperature = 230" in lines) == (count == 1) and ("; temperature = 190,210" in lines) == (count == 2)

@@ -195,3 +195,38 @@ def test_rims_run_along_borders():
     assert band.evaluate(1, 8, 2.1) > 0
     with pytest.raises(ombre.DesignError, match="no surface with a border"):
         mm.rim(mm.rectangular_cell_map((pv.Vec3(0, 0, 0), pv.Vec3(9, 9, 9)), cells=(3, 3, 3)), width=1).evaluate(0, 0, 0)
+
+
+cylinder = str(pathlib.Path(__file__).parent.parent / "cad" / "cylinder.step")  # radius 5, 20 mm high
+
+
+def test_points_of_maps_on_surfaces():
+    """A cylinder of radius 5 and height 20; 8 cells are the whole way round, and a cell is 1 high."""
+    side = next(face for face in pv.CADModel.from_step(cylinder).select_faces(surface_type="cylinder"))
+    around = mm.cell_map_from_cad_face(side, cells=(8, 2, 1), height=1)
+    for place, wanted in [((0, 0, 0.5), (5.5, 0, 0)), ((2, 1, 0.5), (0, 5.5, 10)), ((8, 2, 1), (6, 0, 20)), ((4, 2, 0), (-5, 0, 20))]:
+        assert numpy.allclose(list(around.forward(pv.Vec3(*place))), wanted, atol=5e-3), place  # of its triangles
+    square = mm.cell_map_from_surface(pv.TriangleMeshSurface(*sheet(side=10.0)), cells=(3, 3, 1), height=1.5)
+    assert numpy.allclose(list(square.forward(pv.Vec3(1.5, 1.5, 0.5))), [5, 5, 0.75], atol=1e-6)
+    with pytest.raises(RuntimeError, match=r"no point at \(-5, 0, 0\) of its map"):
+        square.forward(pv.Vec3(-5, 0, 0))
+
+
+@pytest.mark.parametrize("height", [1.0, -1.0])
+def test_reports_of_maps_count_cells(height):
+    side = next(face for face in pv.CADModel.from_step(cylinder).select_faces(surface_type="cylinder"))
+    report = mm.cell_map_from_cad_face(side, cells=(8, 2, 1), height=height).validate()
+    assert report.valid and (report.active_element_count, report.inverted_cell_count, report.trimmed_element_count) == (16, 0, 0)
+    # A cell is an eighth of the way round at radius 5 to 6, or to 4, by 10 by 1.
+    radii = sorted((5.0, 5 + height))
+    least, most = sorted((abs(report.minimum_jacobian_determinant), abs(report.maximum_jacobian_determinant)))
+    assert radii[0] <= least * 8 / (20 * math.pi) <= most * 8 / (20 * math.pi) <= radii[1]
+    assert (report.minimum_jacobian_determinant > 0) == (height > 0)
+
+
+def test_faces_that_do_not_exist_are_errors():
+    model = pv.CADModel.from_step(cylinder)
+    with pytest.raises(ValueError, match="expected plane, cylinder, .*, found 'cylindre'"):
+        model.select_faces(surface_type="cylindre")
+    with pytest.raises(ValueError, match="there is no face 999; the model has 3"):
+        model.select_faces(indices=[999])

@@ -190,7 +190,7 @@ def _jobs():
 
 # Types of parameters of operators; all else takes anything.
 _port_types = {"number": "float", "value": "Number", "vector": "Numbers", "material": "Material", "mixture": "Material",
-               "text": "str", "image": "str", "solid": "Solid", "truth": "bool"}
+               "text": "str", "image": "str", "solid": "Solid", "truth": "bool", "radius": "float", "length": "float"}
 
 
 def _operator(info):

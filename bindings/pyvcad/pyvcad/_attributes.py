@@ -4,9 +4,11 @@ from __future__ import annotations
 import copy
 import enum
 import math
+import numbers
 import operator
 import re
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import ombre
 
@@ -26,7 +28,12 @@ class ReturnType(str, enum.Enum):
     none = "none"
 
 
-class DefaultAttributes:
+class _Names(type):
+    if TYPE_CHECKING:
+        def __getattr__(cls, name: str) -> Any: ...
+
+
+class DefaultAttributes(metaclass=_Names):
     """Names of attributes that programs know; NAME_TYPE is what each gives."""
 
     @staticmethod
@@ -52,10 +59,21 @@ for _name in ("MODULUS VOLUME_FRACTIONS COLOR_RGBA COLOR_RGB TEMPERATURE FLOW_RA
 setattr(DefaultAttributes, "TOUGHNSS_TYPE", ReturnType.dbl)  # as scripts spell it
 
 
+class Changes:
+    """The number of changes so far of nodes that something was built from, and of attributes."""
+
+    count = 0
+
+
 class Attribute:
     """A value that varies through the node that it is set on; formulas know x, y, z, rho, ... and the distance d."""
 
     ReturnType = ReturnType
+    _version = 0  # the number of its changes
+
+    def _changed(self) -> None:
+        self._version += 1
+        Changes.count += 1
 
     def clone(self) -> Attribute:
         """Returns an attribute that changes of this one do not change."""
@@ -77,7 +95,7 @@ def _formula(value: Any, what: str) -> ombre.Expression:
         value = value._component(0)
     if isinstance(value, ombre.Expression):
         return value
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
         return ombre.Expression("0") + float(value)
     raise TypeError(f"{what}: arithmetic of attributes takes numbers and attributes of formulas, found "
                     f"{type(value).__name__}")
@@ -101,6 +119,7 @@ class FloatAttribute(Attribute):
         self._set(value)
 
     def _set(self, value: Any) -> None:
+        self._changed()
         self._volume = value if isinstance(value, FloatVolume) else None
         self._value = self._volume._component(0) if self._volume else expression(
             value._value if isinstance(value, FloatAttribute) else value)
@@ -169,26 +188,34 @@ def _sampled(value: Any, point: tuple[float, float, float], d: float) -> float:
     return found
 
 
+def with_names(formula: str, texts: dict[str, str], other: Callable[[str], str] = str) -> str:
+    """The formula, in which texts stand for names: for a name as it is spelt, or else without regard to case, as formulas
+    have it. `other` gives the text for other names and for words."""
+    by_lower = {name.lower(): text for name, text in texts.items()}
+
+    def put(word: re.Match[str]) -> str:
+        return texts.get(word[0]) or by_lower.get(word[0].lower()) or other(word[0])
+    return re.sub(r"(?<![\w.])[A-Za-z_]\w*", put, formula)
+
+
 class DerivedFloatAttribute(FloatAttribute):
     """A formula of other attributes: DerivedFloatAttribute("a + 2*b", {"a": FloatAttribute("x"), "b": 3})."""
 
     def __init__(self, formula: str, inputs: dict[str, Any]) -> None:
         if not isinstance(formula, str) or not isinstance(inputs, dict):
             raise TypeError("DerivedFloatAttribute: expected a formula and a dict of the attributes that it names")
-        formulas = {name.lower(): _formula(value, name) for name, value in inputs.items()}
-        texts = {name: f"({formula})" for name, formula in formulas.items()}
+        formulas = {name: _formula(value, name) for name, value in inputs.items()}
         functions: Any = ombre._functions
-        known = {*texts, "pi", "e", "true", "false", "and", "or", "not", "nor", "nand", "xor", "if", *functions}
+        known = {"pi", "e", "true", "false", "and", "or", "not", "nor", "nand", "xor", "if", *functions}
 
-        def put(word: re.Match[str]) -> str:
-            name = word[0].lower()
-            if name not in known:
-                raise ValueError(f"DerivedFloatAttribute: the formula names {word[0]!r}, which is none of its inputs")
-            return texts.get(name, word[0])
+        def put(word: str) -> str:
+            if word.lower() not in known:
+                raise ValueError(f"DerivedFloatAttribute: the formula names {word!r}, which is none of its inputs")
+            return word
         volumes: dict[str, Any] = {}
         for part in formulas.values():
             volumes.update(getattr(part, "_ombre_values_"))
-        whole = re.sub(r"(?<![\w.])[A-Za-z_]\w*", put, formula)
+        whole = with_names(formula, {name: f"({text})" for name, text in formulas.items()}, put)
         super().__init__(ombre.Expression(whole, "?", volumes))  # type: ignore[call-arg]
 
     def set_value(self, value: Any) -> None:
@@ -215,6 +242,7 @@ class _VectorAttribute(Attribute):
         """Takes its numbers from the volume's channels."""
         if not isinstance(volume, self._volumes):
             raise TypeError(f"{type(self).__name__}: expected a {self._volumes.__name__}, found {type(volume).__name__}")
+        self._changed()
         self._volume = volume
         self._parts = [FloatAttribute(volume._component(i)) for i in range(self._size)]
 
@@ -241,6 +269,7 @@ class _VectorAttribute(Attribute):
         if len(parts) != self._size:
             raise TypeError(f"{type(self).__name__}: expected {self._size} numbers, formulas or functions, found "
                             f"{len(parts)}")
+        self._changed()
         self._parts = [FloatAttribute(part) for part in parts]
 
     def _given_to(self, solid: ombre.Solid, name: str) -> ombre.Solid:
@@ -270,6 +299,8 @@ class Vec3Attribute(_VectorAttribute):
 
     def __mul__(self, other: Any) -> Vec3Attribute:
         return self._each(other, operator.mul)
+
+    __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Vec3Attribute:
         return self._each(other, operator.truediv)
@@ -318,6 +349,7 @@ class VolumeFractionsAttribute(Attribute):
         if len(arguments) == 1:
             arguments = arguments[0]
         definition, id = arguments
+        self._changed()
         self._fractions.append((expression(definition), material(id)))
 
     def add_value(self, *value_and_id: Any) -> None:

@@ -20,6 +20,9 @@ from ._surfaces import OpenSurface, cells_on, made_map, options_of_map, paired
 from ._vectors import Vec3
 
 
+_kinds = ("plane", "cylinder", "cone", "sphere", "torus", "bezier", "bspline", "revolution", "extrusion", "offset", "other")
+
+
 class CADFace(OpenSurface):
     """A face of a CADModel. Areas are mm2; the normal is the mean one, out of the solid."""
 
@@ -140,14 +143,21 @@ class CADModel:
 
         Args:
             indices: numbers of faces.
-            surface_type: "plane", "cylinder", "cone", "sphere", "torus", "bspline", ...
+            surface_type: "plane", "cylinder", "cone", "sphere", "torus", "bezier", "bspline", "revolution", "extrusion",
+                "offset" or "other".
             normal: a direction; min_dot is the least cosine of the angle between it and the mean normal.
             area_range: (least, greatest), mm2.
             bounding_box_intersection: (min, max); the box of a face meets it.
         """
         chosen = set(int(n) for n in indices)
+        unknown = sorted(n for n in chosen if not 0 <= n < len(self._faces))
+        if unknown:
+            raise ValueError(f"select_faces, indices: there is no face {unknown[0]}; the model has {len(self._faces)}, "
+                             "counted from 0")
         found = [face for face in self._faces if not chosen or face.index in chosen]
         if surface_type is not None:
+            if surface_type not in _kinds:
+                raise ValueError(f"select_faces, surface_type: expected {', '.join(_kinds)}, found {surface_type!r}")
             found = [face for face in found if face.surface_type == surface_type]
         if normal is not None:
             way = numpy.array(vector(normal))

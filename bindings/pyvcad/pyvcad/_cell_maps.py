@@ -108,8 +108,12 @@ class CellMap:
     # Points.
 
     def forward(self, logical: Any) -> Vec3:
-        """The point in space of a place among cells."""
-        return Vec3(*(float(c) for c in self._forward(*vector(logical))))
+        """The point in space of a place among cells. Raises RuntimeError where the surface below has none."""
+        x, y, z = (float(c) for c in self._forward(*vector(logical)))
+        if math.isnan(x):
+            raise RuntimeError(f"forward: the surface has no point at ({', '.join(f'{c:g}' for c in vector(logical))}) of its "
+                               "map; validate() says how many cells are cut, and u_axis_hint turns the map")
+        return Vec3(x, y, z)
 
     def inverse(self, world: Any, tolerance: float = 1e-6, max_iterations: int = 24) -> Vec3:
         """The place among cells of a point in space, also outside of the region."""
@@ -131,19 +135,32 @@ class CellMap:
         return float(self._value.region.distance([vector(world)])[0])
 
     def validate(self) -> MapReport:
-        """Asks the map at points in all cells, at most 20000 of them."""
+        """Asks the map at points in all cells, or in so many that they are at most 20000.
+
+        A cell is active if a place in it has a point, trimmed if another one has none, and inverted if it is turned inside
+        out against the most. A map on the other side of a surface (its height is below 0) has determinants below 0.
+        """
         counts = [min(3 * n, 27) for n in self._cells]
         axes = [(numpy.arange(n) + 0.5) * (cells / n) for n, cells in zip(counts, self._cells)]
-        u, v, w = (axis.ravel() for axis in numpy.meshgrid(*axes, indexing="ij"))
-        points = numpy.stack(numpy.broadcast_arrays(*self._forward(u, v, w)), axis=-1)
-        jacobians = self._jacobians(points)
+        places = numpy.stack([axis.ravel() for axis in numpy.meshgrid(*axes, indexing="ij")], axis=-1)
+        points = numpy.stack(numpy.broadcast_arrays(*self._forward(*places.T)), axis=-1)
+        is_there = numpy.isfinite(points).all(axis=1)
+        if not is_there.any():
+            return MapReport(False, 0, 0, len(places), math.nan, math.nan, math.nan)
+        jacobians = self._jacobians(points[is_there])
         determinants = numpy.linalg.det(jacobians)
         stretches = numpy.linalg.svd(jacobians, compute_uv=False)
-        back = numpy.abs(self._numbers("place", points) - numpy.stack([u, v, w], axis=-1)).max(axis=1)
-        inverted, failures = int((determinants <= 0).sum()), int((back > 1e-6).sum())
-        return MapReport(inverted == 0 and failures == 0, math.prod(self._cells), inverted, failures,
-                         float(determinants.min()), float(determinants.max()),
-                         float((stretches[:, 0] / stretches[:, 2]).max()))
+        back = numpy.abs(self._numbers("place", points[is_there]) - places[is_there]).max(axis=1)
+        failures = int((back > 1e-6).sum())
+        cells = numpy.floor(places)
+        is_turned = determinants * numpy.median(determinants) <= 0
+        active, inverted = _different(cells[is_there]), _different(cells[is_there][is_turned])
+        all_cells, missing_from = _different(cells), _different(cells[~is_there])
+        trimmed = missing_from - (all_cells - active)
+        active, trimmed, inverted = (round(n * math.prod(self._cells) / all_cells) for n in (active, trimmed, inverted))
+        return MapReport(inverted == 0 and failures == 0, active, inverted, failures, float(determinants.min()),
+                         float(determinants.max()), float((stretches[:, 0] / stretches[:, 2]).max()),
+                         trimmed_element_count=trimmed)
 
     # Values in space, for attributes and for sizes of lattices.
 
@@ -203,6 +220,10 @@ class CellMap:
             u, v, w = self._value.local if coordinates == "cell" else self._value.index
             return u, v, w
         raise ValueError(f'expected coordinates of "map", "cell" or "cell_index", found {coordinates!r}')
+
+
+def _different(rows: numpy.ndarray) -> int:
+    return len(numpy.unique(rows, axis=0)) if len(rows) else 0
 
 
 class CellMapCollection:
@@ -345,11 +366,18 @@ def _inverted(value: Any, map: CellMap) -> Forward:
     return forward
 
 
-def inverted_from(value: Any, starts: numpy.ndarray) -> Forward:
-    """The points of places in a map, by Newton's method from the nearest of some points."""
+def inverted_from(value: Any, cells: tuple[int, int, int], starts: numpy.ndarray) -> Forward:
+    """The points of places in a map on a surface, by Newton's method from the nearest of some points, with steps that are
+    halved until they lead nearer. NaN for places where the surface has no point."""
     def numbers(output: str, points: numpy.ndarray) -> numpy.ndarray:
         return numpy.stack([numpy.asarray(part(points), dtype=float) for part in getattr(value, output)], axis=-1)
+    turn = numpy.array([cells[0], cells[1], numpy.inf])
+
+    def off_by(wanted: numpy.ndarray, points: numpy.ndarray) -> numpy.ndarray:
+        off = wanted - numbers("place", points)
+        return off - numpy.where(numpy.abs(off) > 0.75 * turn, numpy.copysign(turn, off), 0)  # the seam of a closed surface
     known = numbers("place", starts)
+    starts, known = (each[numpy.isfinite(known).all(axis=1)] for each in (starts, known))
 
     def forward(u: Any, v: Any, w: Any) -> tuple[Any, Any, Any]:
         if any(isinstance(c, ombre.Expression) for c in (u, v, w)):
@@ -358,12 +386,19 @@ def inverted_from(value: Any, starts: numpy.ndarray) -> Forward:
         shape, wanted = wanted.shape[:-1], wanted.reshape(-1, 3)
         nearest = [int(numpy.argmin(((known - place) ** 2).sum(axis=1))) for place in wanted]
         points = starts[nearest].copy()
+        off = off_by(wanted, points)
+        share = numpy.ones((len(points), 1))
         for _ in range(60):
-            off = wanted - numbers("place", points)
             if numpy.abs(off).max() < 1e-10:
                 break
             rows = numpy.stack([numbers(f"slope_{axis}", points) for axis in "uvw"], axis=1)
-            points += numpy.linalg.solve(rows, off[..., None])[..., 0]
+            ways = (numpy.linalg.pinv(numpy.nan_to_num(rows)) @ off[..., None])[..., 0]
+            there = points + share * ways
+            then = off_by(wanted, there)
+            is_nearer = (then**2).sum(axis=1) < (off**2).sum(axis=1)
+            points[is_nearer], off[is_nearer] = there[is_nearer], then[is_nearer]
+            share = numpy.where(is_nearer[:, None], numpy.minimum(1, 2 * share), share / 2)
+        points[~(numpy.abs(off).max(axis=1) <= 1e-6)] = numpy.nan
         x, y, z = points.T
         return tuple(c.reshape(shape) for c in (x, y, z))  # type: ignore[return-value]
     return forward

@@ -3,15 +3,16 @@ from __future__ import annotations
 
 import enum
 import math
-import re
+import numbers
 from typing import Any
 
 import ombre
 
 from ._arguments import material, number
+from ._attributes import with_names
 from ._errors import missing
 from ._functions import pointwise
-from ._resolvers import numbers_of
+from ._resolvers import numbers_of, with_numbers
 from ._samples import AttributeSamples
 from ._tree import Unary
 from ._vectors import Vec3
@@ -64,26 +65,20 @@ class AttributeConverterBase:
         return None
 
 
-_taken = ("d", "t")  # what formulas call the distance and the place along struts
+def _alias(n: int) -> str:
+    """A name of an input that means nothing else in formulas and no output has."""
+    return f"input_{n}_of_converter"
+
+
+def _aliases(inputs: list[str]) -> dict[str, str]:
+    return {name: _alias(n) for n, name in enumerate(inputs)}
 
 
 def _with_aliases(solid: ombre.Solid, inputs: list[str]) -> ombre.Solid:
-    """The solid, on which inputs have names that mean nothing else in formulas."""
-    for name in inputs:
-        if name in _taken:
-            solid = ombre.attribute(solid, _alias(name), ombre.attribute_of(solid, name).value)
-    return solid
-
-
-def _alias(name: str) -> str:
-    return f"input_{name}" if name in _taken else name
-
-
-def _renamed(formula: str, inputs: list[str]) -> str:
-    for name in inputs:
-        if name in _taken:
-            formula = re.sub(rf"(?<![\w.]){name}(?!\w)", _alias(name), formula)
-    return formula
+    whole = solid
+    for name, alias in _aliases(inputs).items():
+        whole = with_numbers(whole, alias, numbers_of(solid, name))
+    return whole
 
 
 def _names(what: str, names: Any) -> list[str]:
@@ -115,7 +110,7 @@ class ExpressionConverter(AttributeConverterBase):
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
         solid = _with_aliases(solid, self._inputs)
         for name, formula in zip(self._outputs, self._expressions):
-            solid = ombre.attribute(solid, name, _renamed(formula, self._inputs))
+            solid = ombre.attribute(solid, name, with_names(formula, _aliases(self._inputs)))
         return solid
 
 
@@ -135,7 +130,7 @@ class VolumeFractionsExpressionConverter(AttributeConverterBase):
         return ["volume_fractions"]
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        formulas = [_renamed(formula, self._inputs) for formula in self._expressions]
+        formulas = [with_names(formula, _aliases(self._inputs)) for formula in self._expressions]
         return ombre.fgrade(_with_aliases(solid, self._inputs), formulas, self._ids)
 
     def _materials(self) -> set[int] | None:
@@ -160,7 +155,8 @@ class _Joined(AttributeConverterBase):
         return [self._output]
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        return ombre.attribute(solid, self._output, list(self._inputs), type=self._type)
+        parts = list(_aliases(self._inputs).values())
+        return ombre.attribute(_with_aliases(solid, self._inputs), self._output, parts, type=self._type)
 
 
 class ScalarsToVec3Converter(_Joined):
@@ -232,6 +228,8 @@ def _lines(key: str, keys: list[float], texts: list[str]) -> str:
         if low == high:
             raise ValueError(f"LookupTableConverter: the key {low:g} stands there twice")
         line = f"{texts[n - 1]} + ({key} - {low!r})/{high - low!r}*({texts[n]} - ({texts[n - 1]}))"
+        if _unknown in texts[n]:  # the value at the key before is known all the same
+            line = f"if({key} <= {low!r}, {texts[n - 1]}, {line})"
         formula = f"if({key} < {high!r}, {line}, {formula})"
     return f"if({key} < {keys[0]!r}, {texts[0]}, {formula})"
 
@@ -298,7 +296,7 @@ class LookupTableConverter(AttributeConverterBase):
             if isinstance(values[0], dict):
                 ids = sorted({material(id) for value in values for id in value})
                 solid = ombre.fgrade(solid, [self._formula([value.get(id, 0.0) for value in values]) for id in ids], ids)
-            elif isinstance(values[0], (int, float)):
+            elif isinstance(values[0], numbers.Real):
                 solid = ombre.attribute(solid, name, self._formula(values))
             else:
                 parts = [self._formula([value[i] for value in values]) for i in range(len(values[0]))]
@@ -307,9 +305,9 @@ class LookupTableConverter(AttributeConverterBase):
 
     def _apply_steps(self, solid: ombre.Solid) -> ombre.Solid:
         formulas = []
-        for n, key in enumerate(self._inputs):
+        for n in range(len(self._inputs)):
             texts = [repr(float(entry.output_values[n])) if entry.is_valid else _unknown for entry in self._entries]
-            formulas.append(_steps(_alias(key), [entry.input_ranges[n] for entry in self._entries], texts))
+            formulas.append(_steps(_alias(n), [entry.input_ranges[n] for entry in self._entries], texts))
         if len(self._outputs) > 1:
             for name, formula in zip(self._outputs, formulas):
                 solid = ombre.attribute(solid, name, formula)
@@ -319,7 +317,7 @@ class LookupTableConverter(AttributeConverterBase):
     def _formula(self, values: list[Any]) -> str:
         texts = [repr(float(value)) if entry.is_valid else _unknown for value, entry in zip(values, self._entries)]
         if self._mode is InterpolationMode.STEP:
-            return _steps(_alias(self._inputs[0]), [entry.input_ranges[0] for entry in self._entries], texts)
+            return _steps(_alias(0), [entry.input_ranges[0] for entry in self._entries], texts)
         return self._in_lines(0, texts)
 
     def _in_lines(self, axis: int, texts: list[str]) -> str:
@@ -327,7 +325,7 @@ class LookupTableConverter(AttributeConverterBase):
         keys = self._keys[axis]
         size = len(texts) // len(keys)
         rows = texts if size == 1 else [self._in_lines(axis + 1, texts[n:n + size]) for n in range(0, len(texts), size)]
-        return _lines(_alias(self._inputs[axis]), keys, rows)
+        return _lines(_alias(axis), keys, rows)
 
     def _materials(self) -> set[int] | None:
         found = {id for entry in self._entries for value in entry.output_values if isinstance(value, dict)

@@ -22,4 +22,4 @@ def _to_diagram(node: Node) -> str:
 
 
 # It is set here instead of in the class, whose module the walk over trees is in.
-Node.to_diagram = _to_diagram  # type: ignore[attr-defined]
+setattr(Node, "to_diagram", _to_diagram)

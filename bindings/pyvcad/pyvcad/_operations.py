@@ -44,19 +44,18 @@ class Scale(Unary):
 class Rotate(Unary):
     """Turns its child, right-handed, in degrees: Rotate(pitch, yaw, roll, around, child).
 
-    About fixed axes: z by roll, then y by yaw, then x by pitch. The point `around` stays where it is; in the forms of
-    pyvcad 3, Rotate(pitch, yaw, roll, child) and Rotate(Vec3, child), the middle of the child's bounding box.
+    About fixed axes: z by roll, then y by yaw, then x by pitch. The point `around` stays where it is; without it, as in
+    pyvcad 3, the middle of the child's bounding box.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        around = Optional(vector, (0.0, 0.0, 0.0))
+        around = Optional(vector, None)
         form = {"pitch": number, "yaw": number, "roll": number, "around": around, "child": Optional(as_node, None)}
         angles = {"pitch": number, "yaw": number, "roll": number}
         values = read("Rotate", ({}, form, {**angles, "child": as_node}, {"angles": vector, **_child}), arguments, named)
         super().__init__(values.get("child"))
         self._angles = values.get("angles") or tuple(values.get(angle, 0.0) for angle in angles)
-        is_about_middle = "around" not in values and bool(values)
-        self._around: Point | None = None if is_about_middle else values.get("around", (0.0, 0.0, 0.0))
+        self._around: Point | None = values.get("around")
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         around = self._around

@@ -65,17 +65,21 @@ def _vertices(value: Any) -> list[Point]:
     return points
 
 
+_unit_square: dict[str, Any] = {"vertices": [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)], "height": 1.0,
+                                "symmetric": False, "material": _unset}
+
+
 class PolygonExtrude(_Leaf):
     """Polygon with a height: PolygonExtrude(vertices, height, symmetric=False, material=1).
 
     At least 3 points in a plane; it rises along the normal around which they go counterclockwise, or by half of its
-    height to each side.
+    height to each side. Without arguments it is a square of 1 mm from the origin, 1 mm high.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__()
         form = {"vertices": _vertices, "height": length, "symmetric": Optional(boolean, False), "material": _one}
-        values = read("PolygonExtrude", (form,), arguments, named)
+        values = {**_unit_square, **read("PolygonExtrude", ({}, form), arguments, named)}
         self._vertices, self._height = values["vertices"], values["height"]
         self._symmetric, self._material = values["symmetric"], values["material"]
 

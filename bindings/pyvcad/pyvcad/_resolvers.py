@@ -93,6 +93,13 @@ def numbers_of(solid: ombre.Solid, name: str) -> list[Any]:
     return [*value.vector, *([value.alpha] if "alpha" in outputs else [])]
 
 
+def with_numbers(solid: ombre.Solid, name: str, numbers: list[Any]) -> ombre.Solid:
+    """The solid with an attribute of one number, of a vector's three or of a colour's four."""
+    if len(numbers) == 1:
+        return ombre.attribute(solid, name, numbers[0])
+    return ombre.attribute(solid, name, numbers, type="colour" if len(numbers) == 4 else "vector")
+
+
 def given(whole: ombre.Solid, name: str, resolver: Resolver, solids: list[ombre.Solid]) -> ombre.Solid:
     """The solid with the attribute that the rule makes of the solids' own, which all have it."""
     now, have = numbers_of(solids[0], name), ombre.distance_to(solids[0]).inside
@@ -103,9 +110,7 @@ def given(whole: ombre.Solid, name: str, resolver: Resolver, solids: list[ombre.
         now = [ombre.formula(ombre.where(both, combined, ombre.where(inside > 0.5, m, n)))
                for combined, m, n in zip(resolver._combine(now, mine), mine, now)]
         have = ombre.formula(ombre.where((have > 0.5) | (inside > 0.5), 1, 0))
-    if len(now) == 1:
-        return ombre.attribute(whole, name, now[0])
-    return ombre.attribute(whole, name, now, type="colour" if len(now) == 4 else "vector")
+    return with_numbers(whole, name, now)
 
 
 class resolvers:

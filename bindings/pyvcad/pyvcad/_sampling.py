@@ -56,11 +56,21 @@ def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSam
     for name, values in columns.items():
         found_marker = markers.get(name)
         is_given = numpy.ones(len(points), dtype=bool) if found_marker is None else found_marker > 0.5
+        if name in found.attribute:
+            _check_finite(name, found.attribute[name], points, (found.distance <= 0) & is_given)
         for row, value, has in zip(rows, values, _listed(is_given)):
             if has:
                 row[name] = value
     return [(distance, AttributeSamples(row) if distance <= 0 else None)
             for distance, row in zip(_listed(found.distance), rows)]
+
+
+def _check_finite(name: str, values: numpy.ndarray, points: numpy.ndarray, where: numpy.ndarray) -> None:
+    bad = numpy.flatnonzero(where & ~numpy.isfinite(values.reshape(len(points), -1)).all(axis=1))
+    if len(bad):
+        place = ", ".join(f"{c:g}" for c in points[bad[0]])
+        raise RuntimeError(f"the attribute {name!r} has no finite value at ({place}): a formula divides by 0 there, or a "
+                           "table has no valid entry")
 
 
 class TreeSampler:
@@ -259,4 +269,4 @@ def _array(points: Any) -> numpy.ndarray:
 
 
 # It is set here instead of in the class, which samples know.
-Node.sample = lambda self, x, y, z: sampled(self, _array([(x, y, z)]))[0]  # type: ignore[attr-defined]
+setattr(Node, "sample", lambda self, x, y, z: sampled(self, _array([(x, y, z)]))[0])

@@ -258,7 +258,8 @@ class SignedDistanceField(_Leaf):
     flags of voxels that are inside.
 
     SignedDistanceField(vdb_path, grid_name="occupancy", half_width_voxels=3, closing_steps=0, dilation_voxels=0,
-    smoothing_steps=3); steps and voxels are for flags. `smoothing_steps` is the width of a Gaussian in voxels.
+    smoothing_steps=3); steps and voxels are for flags. A step of smoothing is the mean over 3 x 3 x 3 voxels; all steps
+    together are the Gaussian of the same width.
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
@@ -290,7 +291,8 @@ class SignedDistanceField(_Leaf):
             solid = ombre.closing(solid, self._closing * min(pitch), pitch=pitch)
         if self._dilation:
             solid = ombre.dilate(solid, self._dilation * min(pitch), pitch=pitch)
-        return ombre.smooth(solid, self._smoothing * min(pitch), pitch=pitch) if self._smoothing else solid
+        width = (2 / 3 * self._smoothing) ** 0.5  # the mean over three voxels in a row has a variance of 2/3
+        return ombre.smooth(solid, width * min(pitch), pitch=pitch) if self._smoothing else solid
 
 
 def _find(node: str, path: str) -> str:

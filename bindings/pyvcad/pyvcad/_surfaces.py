@@ -130,7 +130,7 @@ def _trimmed(trim: Any) -> tuple[TrimMode, dict[str, str]]:
 
 def made_map(value: Any, counts: tuple[int, int, int], mode: TrimMode, starts: numpy.ndarray, *sources: Any) -> CellMap:
     """A map on surfaces, whose files stay as long as it is held; `starts` are points on or near its lowest cells."""
-    made = CellMap(value, counts, inverted_from(value, starts))
+    made = CellMap(value, counts, inverted_from(value, counts, starts))
     made.trim_mode, made.has_boundary_trim = mode, mode is TrimMode.boundary
     made._sources = sources
     return made

@@ -7,7 +7,7 @@ import operator
 import os
 import sys
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy
 
@@ -17,11 +17,14 @@ from ombre._solid import made_at
 
 from . import _grids
 from ._arguments import length
-from ._attributes import Attribute, checked
+from ._attributes import Attribute, Changes, checked
 from ._errors import WrongDesign, WrongValue
 from ._materials import MaterialDefs, default_materials, expect_table, numbered
 from ._other_tables import named_materials, solids_of, with_current_materials
 from ._vectors import Vec3
+
+if TYPE_CHECKING:
+    from ._samples import AttributeSamples
 
 # The names of files of these packages begin with this: .../pyvcad/, .../pyvcad_metamaterials/ and so on.
 _packages = os.path.dirname(os.path.abspath(__file__))
@@ -29,10 +32,6 @@ _packages = os.path.dirname(os.path.abspath(__file__))
 _usual_epsilon = 1e-4  # mm
 
 Place = tuple[str, int]  # a file, and a line of it
-
-
-class _Changes:
-    count = 0  # count of changes to nodes that something was built from
 
 
 class Node:
@@ -46,7 +45,8 @@ class Node:
         self._solid: ombre.Solid | None = None  # the solid that was built last
         self._factory: Any = None  # has the materials that the solid names
         self._built_from: list[ombre.Solid] = []  # solids of the children
-        self._checked_at = -1  # _Changes.count at the last check that nothing below had changed
+        self._built_with: list[int] = []  # versions of the attributes
+        self._checked_at = -1  # Changes.count at the last check that nothing below had changed
         self._attributes: dict[str, Attribute] = {}
         self._marked: Any = None  # the design with markers of attributes, and the solid that it is of
         self._has_fractions = self._has_material = False  # whether it, or what it is composed of, says some; set by _refresh
@@ -129,12 +129,12 @@ class Node:
 
     def _changed(self) -> None:
         if self._checked_at >= 0:
-            _Changes.count += 1
+            Changes.count += 1
         self._solid = None
 
     def _build(self, factory: Any) -> ombre.Solid:
         """The solid of the tree. Parts of it that have not changed are the same solids as before."""
-        if not (self._checked_at == _Changes.count and self._factory is factory and self._solid is not None):
+        if not (self._checked_at == Changes.count and self._factory is factory and self._solid is not None):
             with using(factory):
                 for node in in_order(self):
                     node._refresh(factory)
@@ -143,7 +143,9 @@ class Node:
 
     def _refresh(self, factory: Any) -> None:
         solids = [_solid_of(node) for node in self._inputs()]
-        is_same = len(solids) == len(self._built_from) and all(map(operator.is_, solids, self._built_from))
+        versions = [attribute._version for attribute in self._attributes.values()]
+        is_same = (versions == self._built_with and len(solids) == len(self._built_from)
+                   and all(map(operator.is_, solids, self._built_from)))
         if self._solid is None or self._factory is not factory or not is_same:
             composing = self._composing()
             self._has_fractions = self._fractions() is not None or any(node._has_fractions for node in composing)
@@ -153,8 +155,8 @@ class Node:
                     self._solid = self._with_attributes(self._make(solids))
             except (ombre.DesignError, TypeError) as error:
                 raise self._error(_text_of(error)) from None
-            self._factory, self._built_from = factory, solids
-        self._checked_at = _Changes.count
+            self._factory, self._built_from, self._built_with = factory, solids, versions
+        self._checked_at = Changes.count
 
     def _with_attributes(self, solid: ombre.Solid) -> ombre.Solid:
         """The solid with the attributes that were set on the node."""
@@ -172,7 +174,7 @@ class Node:
 
     def _design(self) -> ombre.Design:
         """Returns the design for questions, which need ids but no materials."""
-        if self._solid is not None and self._checked_at == _Changes.count:
+        if self._solid is not None and self._checked_at == Changes.count:
             return self._solid.design()
         greatest = max((max(node._own_materials() | (node._fractions() or set()), default=0) for node in in_order(self)),
                        default=0)
@@ -180,6 +182,10 @@ class Node:
         if greatest > 255:
             raise self._error(f"there is no material {greatest}; 255 is the greatest id")
         return self._build((known if greatest < len(known) else numbered(greatest))._factory).design()
+
+    if TYPE_CHECKING:  # what other files add
+        def sample(self, x: float, y: float, z: float) -> tuple[float, AttributeSamples | None]: ...
+        def to_diagram(self) -> str: ...
 
     # For `ombre`.
 

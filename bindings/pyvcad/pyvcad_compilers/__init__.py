@@ -3,6 +3,7 @@
 A callback gets the share that is done, 0 to 1.
 """
 from pyvcad._missing import attribute_of
+from pyvcad._texts import version
 
 from ._attribute_compilers import VatCompiler, VdbCompiler
 from ._compilers import CrossSectionSlicer, DirectMaterialCompiler, GrayscaleCompiler, MeshCompiler
@@ -22,7 +23,7 @@ __all__ = ["ColorInkjetCompiler", "ColorInkjetExportMode", "ColorPipeline", "Col
            "MultiMaterialVatSystem", "MyersonCompiler", "VatCompiler", "VdbCompiler",
            "CrossSectionSlicer", "DirectMaterialCompiler", "GrayscaleCompiler", "InpWriter", "MeshCompiler",
            "SimulationBackend", "SimulationCellType", "SimulationCompiler", "SimulationCompilerSettings",
-           "SimulationHexMeshSettings", "SimulationMeshKind", "SimulationModel", "SimulationTetFixedMeshSettings"]
+           "SimulationHexMeshSettings", "SimulationMeshKind", "SimulationModel", "SimulationTetFixedMeshSettings", "version"]
 
 
 def __getattr__(name: str) -> object:

@@ -1,16 +1,14 @@
 """Projects of Snapmaker Orca with mixed filaments."""
 from __future__ import annotations
 
-import os
 from typing import Any
 
-from pyvcad._arguments import not_negative
 from pyvcad._tree import as_node
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path, _voxel
 from ._filaments import RecipeRules
-from ._mixed_projects import BY_COLOUR, BY_FRACTIONS, MixedProject
+from ._mixed_projects import BY_COLOUR, BY_FRACTIONS, MixedProject, expect_overlap, project_path
 
 _profiles = ("base_project_settings_path", "orca_machine_profile_path", "orca_process_profile_path",
              "orca_default_filament_profile_path", "orca_profile_search_paths")
@@ -50,10 +48,10 @@ class FullSpectrumSlicerProjectCompiler(_AttributeCompiler):
             if value:
                 raise ValueError(f"{what}, {name}: Orca's profiles are not read; leave it out, open the project, and choose the "
                                  "printer and its profiles there")
-        not_negative(region_overlap_mm)
+        expect_overlap(what, region_overlap_mm)
         rules = RecipeRules(what, color_mix_recipe_preset, max_palette_size, min_component_percent, max_recipe_components,
                             direct_physical_delta_e)
-        self._root, self._voxel, self._path = as_node(root), _voxel(what, voxel_size), os.fspath(output_file_path)
+        self._root, self._voxel, self._path = as_node(root), _voxel(what, voxel_size), project_path(what, output_file_path)
         self._mixed = MixedProject(self, filaments, None, rules, volume_fraction_materials, material_defs_path)
 
     def supported_attributes(self) -> list[str]:

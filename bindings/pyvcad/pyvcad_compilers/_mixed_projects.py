@@ -11,6 +11,7 @@ import numpy
 
 import ombre
 from ombre._materials import current_factory
+from pyvcad._arguments import not_negative
 from pyvcad._grids import centers, slabs
 from pyvcad._materials import MaterialDefs, default_materials, table_of
 from pyvcad._tree import Node, Unary
@@ -23,6 +24,22 @@ from ._filaments import (USUAL_NOZZLE, Filament, Recipe, RecipeRules, colour_of,
 _report = "Metadata/ombre_recipes.json"
 _steps = 127  # values within one of so many steps of their range count as their mean
 BY_COLOUR, BY_FRACTIONS = "color_rgb", "volume_fractions"
+
+
+def project_path(what: str, path: Path) -> str:
+    """The name of a file for a project. Raises ValueError if it is none of a .3mf file."""
+    name = os.fspath(path)
+    if not name.lower().endswith(".3mf"):
+        raise ValueError(f"{what}, output_file_path: expected a name that ends in .3mf, found {name!r}")
+    return name
+
+
+def expect_overlap(what: str, value: Any) -> None:
+    """Raises ValueError if it is no region_overlap_mm. Bodies meet in one surface, so nothing has to overlap."""
+    try:
+        not_negative(value)
+    except ValueError as error:
+        raise ValueError(f"{what}, region_overlap_mm: {error}") from None
 
 
 class _Scored(Unary):
@@ -148,7 +165,12 @@ class MixedProject:
             names = ombre.Materials(_factory=current_factory()).names
             given = [(place, ombre.composition_of(solid, names[id]).share) for id, place in self._places.items()]
             total = sum(share for _, share in given)
-            return [sum(share for place, share in given if place == own) / total for own in range(len(self.filaments))]
+            shares = [ombre.formula(sum(share for place, share in given if place == own) / total)
+                      for own in range(len(self.filaments))]
+            least = self._rules.least_share - 1e-9
+            kept = [ombre.formula(ombre.where(share >= least, share, 0)) for share in shares]
+            rest = ombre.formula(sum(kept[1:], kept[0]))
+            return [ombre.where(rest > 0, part / rest, share) for part, share in zip(kept, shares)]
         return candidates, shares_of(candidates, len(self.filaments)), numbers
 
     def _light(self, recipes: list[Recipe]) -> numpy.ndarray:

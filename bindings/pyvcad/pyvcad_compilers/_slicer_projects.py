@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 import numpy
 
 import ombre
-from pyvcad._arguments import not_negative
 from pyvcad._attributes import DefaultAttributes
 from pyvcad._defined import are_everywhere, given, marked, marker
 from pyvcad._grids import centers, slabs
@@ -17,7 +16,7 @@ from pyvcad._tree import Node, Unary, as_node
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path, _voxel
 from ._filaments import RecipeRules
-from ._mixed_projects import BY_COLOUR, BY_FRACTIONS, MixedProject, rewrite
+from ._mixed_projects import BY_COLOUR, BY_FRACTIONS, MixedProject, expect_overlap, project_path, rewrite
 
 _settings = ("INFILL_DENSITY FUZZY_SKIN_POINT_DISTANCE FUZZY_SKIN_THICKNESS BRIDGE_SPEED EXTERNAL_PERIMETER_SPEED "
              "GAP_FILL_SPEED INFILL_SPEED IRONING_SPEED PERIMETER_SPEED SMALL_PERIMETER_SPEED SOLID_INFILL_SPEED "
@@ -54,7 +53,7 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         name = type(self).__name__
         if isinstance(num_regions, bool) or not isinstance(num_regions, int) or num_regions < 2:
             raise ValueError(f"{name}, num_regions: expected 2 or more, found {num_regions!r}")
-        not_negative(region_overlap_mm)
+        expect_overlap(name, region_overlap_mm)
         rules = RecipeRules(name, color_mix_recipe_preset, max_palette_size, min_component_percent, max_recipe_components,
                             direct_physical_delta_e)
         self._mixed = MixedProject(self, color_mix_filaments, total_physical_extruders, rules, volume_fraction_materials,
@@ -62,7 +61,7 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         self._is_mixing = bool(enable_color_mix or color_mix_filaments or volume_fraction_materials)
         self._profiles = [_profile(name, os.fspath(path)) for path in (printer_profile_path, filament_profile_path) if path]
         self._root, self._voxel, self._bands = as_node(root), _voxel(name, voxel_size), num_regions
-        self._path = os.fspath(output_file_path)
+        self._path = project_path(name, output_file_path)
 
     def supported_attributes(self) -> list[str]:
         return [*self._banded(), BY_COLOUR, BY_FRACTIONS]
@@ -186,6 +185,8 @@ _beyond, _least_width = 1.001, 1e-4  # of the band of places without an attribut
 _bodies = ("3D/3dmodel.model", "Metadata/Slic3r_PE_model.config")
 _tools = ("temperature", "flow_rate")
 _config = "Metadata/Slic3r_PE.config"
+# What a project assumes unless a profile says it, and what stands between the values of its extruders.
+_assumed = {"nozzle_diameter": ",", "filament_type": ";"}
 
 
 def _profile(what: str, path: str) -> dict[str, str]:
@@ -199,7 +200,16 @@ def _profile(what: str, path: str) -> dict[str, str]:
 
 
 def _extended(config: bytes, settings: dict[str, str]) -> bytes:
-    lines = config.decode().splitlines()
-    known = {line.lstrip("; ").split(" = ", 1)[0] for line in lines}
+    """The project's settings with those of profiles; what the project says of its bodies stays."""
+    lines = []
+    known = set()
+    for line in config.decode().splitlines():
+        key, _, value = line.lstrip("; ").partition(" = ")
+        known.add(key)
+        if key in _assumed and key in settings:
+            between = _assumed[key]
+            count, given = len(value.split(between)), settings[key].split(between)
+            line = f"; {key} = {between.join((given * count)[:count])}"
+        lines.append(line)
     lines += [f"; {key} = {value}" for key, value in settings.items() if key not in known]
     return ("\n".join(lines) + "\n").encode()

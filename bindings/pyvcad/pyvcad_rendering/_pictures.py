@@ -1,12 +1,14 @@
 """Pictures, and frames of pictures that move."""
 from __future__ import annotations
 
+import difflib
 import importlib
 import math
 import os
 import shutil
 import subprocess
 import tempfile
+import warnings
 from typing import Any
 
 import ombre
@@ -20,16 +22,44 @@ _palettes = {"auto": None, "viridis": "viridis", "plasma": "plasma", "inferno": 
              "grayscale": "gray"}
 
 
+_used = ("quality", "visualized_attribute", "scale_bar_palette", "scale_bar_visible", "scalar_range_mode", "scalar_range_min",
+         "scalar_range_max", "background_color", "transparent_background", "clipping_plane", "clipping_plane_origin",
+         "clipping_plane_normal", "camera_position", "camera_focal_point", "show_orientation_marker", "render_mode",
+         "use_blending")
+# Settings that are accepted, and warned of where they would show something else.
+_without_effect = ("show_bbox", "show_origin", "use_vol_shading", "scale_bar_show_annotations", "camera_state",
+                   "camera_view_up")
+
+
 class RenderSettings:
     """Settings of pictures by their names: RenderSettings(quality="high", visualized_attribute="modulus").
 
     quality (low, medium, high, ultra), visualized_attribute, scale_bar_palette, scale_bar_visible, scalar_range_mode (auto,
     fixed) with scalar_range_min and _max, background_color, transparent_background, clipping_plane with
-    clipping_plane_origin and _normal, camera_position, camera_focal_point, show_orientation_marker.
+    clipping_plane_origin and _normal, camera_position with camera_focal_point, which give the direction of view,
+    show_orientation_marker.
     """
 
     def __init__(self, **settings: Any) -> None:
+        _check_settings(settings, 3)
         self.__dict__.update(settings)
+
+
+def _check_settings(settings: Any, depth: int) -> None:
+    """Raises TypeError for unknown settings and ValueError for unknown modes; warns of settings without effect."""
+    given = settings if isinstance(settings, dict) else vars(settings) if settings is not None else {}
+    for name in given:
+        if name not in (*_used, *_without_effect):
+            close = difflib.get_close_matches(name, [*_used, *_without_effect], 1)
+            hint = f"did you mean {close[0]!r}?" if close else f"expected {', '.join(_used)}"
+            raise TypeError(f"settings of pictures: there is no {name!r}; {hint}")
+    for name, modes in (("render_mode", ("iso_surface", "volumetric")), ("scalar_range_mode", ("auto", "fixed"))):
+        if given.get(name) not in (None, *modes):
+            raise ValueError(f"{name}: expected {' or '.join(modes)}, found {given[name]!r}")
+    idle = [name for name in _without_effect if given.get(name)]
+    idle += ["render_mode"] * (given.get("render_mode") == "volumetric") + ["use_blending"] * (given.get("use_blending") is False)
+    if idle:
+        warnings.warn(f"settings of pictures without effect: {', '.join(idle)}", stacklevel=depth)
 
 
 def _setting(settings: Any, name: str, default: Any = None) -> Any:
@@ -65,6 +95,7 @@ _places = [((0.31 + 7 * n % 17) / 17, (0.43 + 11 * n % 19) / 19, (0.57 + 5 * n %
 
 def options_of(node: Node, settings: Any, width: int, height: int) -> dict[str, Any]:
     """Returns the options of `ombre render`."""
+    _check_settings(settings, 4)
     options: dict[str, Any] = {"size": f"{int(width)}x{int(height)}", "force": True}
     quality = _setting(settings, "quality", "medium")
     if quality not in _rays:
@@ -234,16 +265,17 @@ def Render_Sweep_Animation(root: Any, output_dir: Any, axis: str = "z", duration
     expect_table("Render_Sweep_Animation", materials)
     if axis not in ("x", "y", "z"):
         raise ValueError(f'axis: expected "x", "y" or "z", found {axis!r}')
-    node = as_node(root)
+    node = _clipped(root, settings)
     design, count = node._ombre_design_(materials), max(2, round(length(float(duration)) * fps))
     options, along = options_of(node, settings, width, height), "xyz".index(axis)
     low, high = design.bounds[0][along], design.bounds[1][along]
 
     def make(n: int, path: str) -> None:
         at = low + (high - low) * (n + 1) / count
-        own: dict[str, Any] = {} if n + 1 == count else {"cut": f"{axis}>{at:.9g}"}
+        cuts = clipping + ([] if n + 1 == count else [f"{axis}>{at:.9g}"])
+        own: dict[str, Any] = {"cut": cuts} if cuts else {}
         design.render(path, **options, **own)
-    options.pop("cut", None)
+    clipping = [options.pop("cut")] if "cut" in options else []
     order = list(range(count)) + [count - 1] * round(pause_seconds * fps)
     _animated("sweep", output_dir, make, count, fps, output_format, keep_frames, order + (order[::-1] if loop else []))
 

@@ -302,7 +302,8 @@ class ShellSource final : public program::NamedSource {
     return std::clamp(height, shell_.heights.lo - span, shell_.heights.hi + span);
   }
 
-  // Beside the shell, the distance from its side is measured at the height of the point.
+  // Beside the shell, the distance from its side is measured at the height of the point. Above and below it, only the
+  // ends count.
   double outside(Vec3 p, const Found& found) const {
     const double scale = length(prisms_[found.prism].way(found.place)), t = found.place.height;
     const Interval heights = shell_.heights;
@@ -312,6 +313,7 @@ class ShellSource final : public program::NamedSource {
     // Inside, the side counts where it is nearer than the ends.
     const double reach = found.is_inside ? -ends : Box::inf;
     if (found.is_inside && from_border_[found.prism] >= reach) return ends;
+    if (!found.is_inside && ends >= 0 && !is_on_border(found)) return std::max(ends, least_outside);
     const double side = from_side(p, level, reach);
     return found.is_inside ? std::max(ends, -side) : std::max({ends, side, least_outside});
   }
@@ -324,11 +326,29 @@ class ShellSource final : public program::NamedSource {
     });
   }
 
+  // Returns whether a place that is the nearest one of the patch lies on its border.
+  bool is_on_border(const Found& found) const {
+    constexpr double none_of_it = 1e-12;
+    const auto& corners = shell_.patch.triangles[found.prism];
+    const std::array<double, 3> shares{found.place.first(), found.place.second, found.place.third};
+    for (size_t n = 0; n < 3; ++n) {
+      if (shares[n] > none_of_it) continue;
+      const size_t second = (n + 1) % 3, third = (n + 2) % 3;
+      const bool has_border = has_border_[corners[second]] && has_border_[corners[third]];
+      if (has_border && neighbours_[found.prism][n] == none) return true;
+      if (shares[second] <= none_of_it && has_border_[corners[third]]) return true;
+      if (shares[third] <= none_of_it && has_border_[corners[second]]) return true;
+    }
+    return false;
+  }
+
   void make_border() {
     border_ = border_of(shell_.patch.triangles);
     remove_seams(shell_.patch.points, border_);
     std::vector<Box> boxes;
+    has_border_.resize(shell_.patch.points.size());
     for (const auto& edge : border_) {
+      for (const uint32_t point : edge) has_border_[point] = true;
       Box box;
       for (const uint32_t point : edge)
         for (const double t : {shell_.heights.lo, shell_.heights.hi})
@@ -432,6 +452,7 @@ class ShellSource final : public program::NamedSource {
   std::vector<Box> boxes_;  // around each prism
   BoxTree triangles_, border_tree_;
   std::vector<std::array<uint32_t, 2>> border_;
+  std::vector<bool> has_border_;     // by point
   std::vector<double> from_border_;  // by prism: all its points are at least so far from the border, mm
   double longest_way_ = 0, lipschitz_ = 1;
   std::vector<std::array<uint32_t, 3>>

@@ -124,7 +124,7 @@ std::vector<MapReport> map_reports_of(const design::Design& design) {
     const auto outputs = MapOutputs::of(*node);
     if (!outputs) continue;
     const Box box = nodes::box_of({node, outputs->region}, design::design_space());
-    if (box.is_empty() || box.size().x >= design::design_limit_mm) continue;
+    if (box.is_empty() || !design::has_ends(box)) continue;
     Survey survey(design, *node, *outputs, box);
     MapReport& report = reports.emplace_back();
     for (const int side : sides) {

@@ -9,6 +9,7 @@
 #include "formats/mesh/mesh_document.h"
 #include "formats/slicers/slicer_settings.h"
 #include "formats/slicers/snapmaker_mixtures.h"
+#include "jobs/common/session.h"
 #include "jobs/mesh/mixed_filaments.h"
 
 namespace ombre::jobs {
@@ -102,8 +103,10 @@ void FilamentCheck::check_mixture(const Material& material) const {
   for (const MaterialId id : filaments)
     if (const Data* const own = member(*materials_.find(id), extruder_member);
         own && own->number() && *own->number() > formats::most_in_pattern)
-      reader_.fail(*own, "Snapmaker Orca mixes three filaments of the extruders 1 to " +
-                             std::to_string(formats::most_in_pattern) + " only");
+      reader_.fail(*own,
+                   "Snapmaker Orca mixes three filaments of the extruders 1 to " +
+                       std::to_string(formats::most_in_pattern) + " only",
+                   "give it one of these numbers, or mix two filaments");
 }
 
 // The numbers of the filaments of a table, and of the mixtures that are used.
@@ -180,6 +183,19 @@ std::string recipe(const FilamentMixture& mixture, const std::vector<formats::Fi
   return mixture.name + ": layers " + join(parts, ", ");
 }
 
+// Snapmaker Orca's patterns name a third filament by one digit.
+void check_patterns(const formats::SlicerProject& project) {
+  for (const formats::FilamentMixture& mixture : project.mixtures) {
+    if (mixture.parts.size() < 3 || mixture.parts.back().extruder <= formats::most_in_pattern) continue;
+    const uint32_t extruder = mixture.parts.back().extruder;
+    throw WrongArgument('"' + mixture.name + "\" has three filaments, one of them on extruder " +
+                        std::to_string(extruder) + ", and Snapmaker Orca mixes three of the extruders 1 to " +
+                        std::to_string(formats::most_in_pattern) + " only; give \"" +
+                        project.filaments[extruder - 1].name + "\" an \"extruder\" from 1 to " +
+                        std::to_string(formats::most_in_pattern) + " in the materials file");
+  }
+}
+
 }  // namespace
 
 bool describes_filaments(const design::MaterialTable& materials) {
@@ -207,6 +223,29 @@ void add_material_filaments(const design::MaterialTable& materials, const compil
   for (size_t n = 0; n < made.bodies.size(); ++n)
     formats::set_extruder(document.bodies[n], numbers.of(*made.bodies[n].region.material));
   for (const FilamentMixture& mixture : numbers.mixtures()) events.say(recipe(mixture, document.project.filaments));
+}
+
+void check_filament_numbers(const formats::MeshDocument& document, formats::SlicerFlavour flavour,
+                            bool are_of_materials) {
+  const formats::SlicerProject& project = document.project;
+  if (flavour == formats::SlicerFlavour::snapmaker) check_patterns(project);
+  const bool mixes = !project.mixtures.empty();
+  const size_t most = mixes ? formats::most_extruders(flavour) : formats::most_filaments;
+  const auto is_beyond = [&](const formats::MeshBody& body) { return formats::body_extruder(body) > most; };
+  if (std::ranges::none_of(document.bodies, is_beyond)) return;
+  const std::string program = std::string(formats::program_of(flavour)), limit = std::to_string(most);
+  if (mixes)
+    throw WrongArgument("mixtures are numbered after the last filament, which has number " +
+                        std::to_string(project.filaments.size()) + ", and a project of " + program + " has at most " +
+                        limit +
+                        " filaments and mixtures; give filaments smaller numbers by "
+                        "\"extruder\", or use fewer materials with \"mix_layers\"");
+  const std::string bodies = std::to_string(document.bodies.size());
+  if (are_of_materials)
+    throw WrongArgument(bodies + " bodies have a filament each, and a project has at most " + limit +
+                        "; use fewer materials, or mixtures by \"mix_layers\"");
+  throw WrongArgument(bodies + " bodies have a filament each, and a project has at most " + limit + "; write " +
+                      spelled::option("--setting", "extruder=1") + " for one filament");
 }
 
 }  // namespace ombre::jobs

@@ -27,4 +27,9 @@ void check_material_filaments(const design::MaterialTable& materials, formats::S
 void add_material_filaments(const design::MaterialTable& materials, const compile::MeshedDesign& made,
                             const Events& events, formats::MeshDocument& document);
 
+// Throws WrongArgument if the program has no filaments of these numbers, or cannot mix them. `are_of_materials` says
+// that the table described them.
+void check_filament_numbers(const formats::MeshDocument& document, formats::SlicerFlavour flavour,
+                            bool are_of_materials);
+
 }  // namespace ombre::jobs

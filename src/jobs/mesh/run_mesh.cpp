@@ -319,24 +319,6 @@ void choose_filaments(const MeshChoices& a, const compile::Loaded& loaded, compi
   add_material_filaments(loaded.design.materials, made, events, document);
 }
 
-void check_filaments(const MeshChoices& a, const formats::MeshDocument& document) {
-  if (!formats::is_project(a.flavour)) return;
-  const formats::SlicerProject& project = document.project;
-  const bool mixes = !project.mixtures.empty();
-  const size_t most = mixes ? formats::most_extruders(a.flavour) : formats::most_filaments;
-  for (const formats::MeshBody& body : document.bodies) {
-    if (formats::body_extruder(body) <= most) continue;
-    if (mixes)
-      throw WrongArgument(std::to_string(project.filaments.size()) + " filaments and " +
-                          std::to_string(project.mixtures.size()) + " mixtures are more than the " +
-                          std::to_string(most) + " that a project of " + std::string(formats::program_of(a.flavour)) +
-                          " has; use fewer materials with \"mix_layers\"");
-    throw WrongArgument(std::to_string(document.bodies.size()) +
-                        " bodies have a filament each, and a project has at most " + std::to_string(most) + "; write " +
-                        spelled::option("--setting", "extruder=1") + " for one filament");
-  }
-}
-
 int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDesign& made, const MeshOutput& output,
           const std::vector<SlicerSetting>& settings, PrintedDiagnostics& printed, Session& session) {
   formats::MeshDocument document = document_of(made, output.stem, a, settings);
@@ -344,7 +326,8 @@ int write(const MeshChoices& a, const compile::Loaded& loaded, compile::MeshedDe
   Diagnostics& diagnostics = printed.diagnostics();
   if (a.mix_layers > 0) add_mixed_filaments(loaded, made, a.mix_layers, session.events, diagnostics, document);
   choose_filaments(a, loaded, made, session.events, document);
-  check_filaments(a, document);
+  if (formats::is_project(a.flavour))
+    check_filament_numbers(document, a.flavour, may_take_material_filaments(a, loaded));
   tell_equal_bands(session.events, made, a, document);
   const bool good = colour(a, loaded, made.tolerance_mm, document, diagnostics, session) &&
                     add_ranges(a, loaded, document, diagnostics, session);

@@ -10,7 +10,9 @@ namespace {
 
 bool is_object(const Value& value, Object::Form form) { return value.object() && value.object()->form() == form; }
 
-bool is_number(const Value& value) { return value.number() && !std::isnan(*value.number()); }
+bool is_number(const Value& value) { return value.number() && std::isfinite(*value.number()); }
+bool is_radius(const Value& value) { return is_number(value) && *value.number() >= 0; }
+bool is_length(const Value& value) { return is_number(value) && *value.number() > 0; }
 bool is_numeric(const Value& value) { return is_number(value) || is_object(value, Object::Form::value); }
 
 // Operators take solids for the region inside them (data/library/ombre/regions.vcad).
@@ -61,7 +63,8 @@ constexpr PortType types[] = {
     {"points", "a list of points", is_list_of_points},
     {"point", "three numbers", is_place},
     {"direction", "three numbers that are not all 0", is_direction},
-    {"radius", "a number", is_number},
+    {"radius", "a number of 0 or more", is_radius},
+    {"length", "a number above 0", is_length},
     {"index", "an index: numbers that count cells",
      [](const Value& value) { return is_numeric(value) || is_numeric_list(value); }},
     {"truth", "true or false", [](const Value& value) { return value.boolean() != nullptr; }},
@@ -107,7 +110,14 @@ std::string expected_text(const DeclaredParameter& parameter, std::string_view e
 }
 
 std::string found_text(const Value& value) {
-  constexpr size_t longest = 40;
+  constexpr size_t longest = 40, most_items = 4;
+  const auto is_a_number = [](const Value& item) { return item.number() != nullptr; };
+  if (const List* list = value.list();
+      list && list->items.size() <= most_items && std::ranges::all_of(list->items, is_a_number)) {
+    std::vector<std::string> items;
+    for (const Value& item : list->items) items.push_back(number_text(*item.number()));
+    return '[' + join(items, ", ") + ']';
+  }
   if (value.number()) return number_text(*value.number());
   if (value.boolean()) return *value.boolean() ? "true" : "false";
   if (value.text() && value.text()->text.size() <= longest) return '"' + value.text()->text + '"';
@@ -115,6 +125,10 @@ std::string found_text(const Value& value) {
 }
 
 }  // namespace
+
+bool names_material(const DeclaredParameter& parameter) {
+  return parameter.type == "material" || parameter.type == "mixture";
+}
 
 std::string mismatch_of(const DeclaredParameter& parameter, const Value& value) {
   if (value.is_undef()) return "";  // stands for the default, or for nothing

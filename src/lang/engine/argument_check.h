@@ -12,4 +12,7 @@ namespace ombre::lang {
 // 20 (mm), found 25".
 std::string mismatch_of(const DeclaredParameter& parameter, const Value& value);
 
+// Returns whether a text that is given for the parameter is the name of a material.
+bool names_material(const DeclaredParameter& parameter);
+
 }  // namespace ombre::lang

@@ -192,7 +192,9 @@ void Evaluation<Language, Product>::check_arguments(const Declaration& declarati
       parameter = parameters.begin() + static_cast<std::ptrdiff_t>(position++);
     if (parameter == parameters.end()) continue;
     const Value* value = bound.own(symbol(parameter->name));
-    const std::string mismatch = value ? mismatch_of(*parameter, *value) : "";
+    std::string mismatch = value ? mismatch_of(*parameter, *value) : "";
+    if (mismatch.empty() && value && value->text() && names_material(*parameter))
+      mismatch = self().mismatch_of_material(value->text()->text);
     if (!mismatch.empty())
       self().stop_at_argument(argument.value->span, declaration.name + ": " + parameter->name + ": " + mismatch);
   }

@@ -481,21 +481,54 @@ module axes(
   from = [0, 0, 0], // point mm: Where they begin
   along = [1, 0, 0],// direction: Where they go
   over = [],        // points mm: What they pass
-  length = 1        // number mm: How far
+  length = 1,       // number mm: How far
+  thick = 1,        // radius mm: How thick
+  size = 1,         // length mm: How large
+  of = "red"        // material: Of what
 ) { show(from, along, over, length); }
 )";
   const Cases cases{
-      {"axes([1, 2]);", "8:6: error: axes: from: expected three numbers (mm), found a list of 2"},
-      {"axes(2);", "8:6: error: axes: from: expected three numbers (mm), found 2"},
+      {"axes([1, 2]);", "11:6: error: axes: from: expected three numbers (mm), found [1, 2]"},
+      {"axes(2);", "11:6: error: axes: from: expected three numbers (mm), found 2"},
       {"axes(along = [0, 0, 0]);",
-       "8:14: error: axes: along: expected three numbers that are not all 0, found a list of 3"},
-      {"axes(over = [1, 2]);", "8:13: error: axes: over: expected a list of points (mm), found a list of 2"},
+       "11:14: error: axes: along: expected three numbers that are not all 0, found [0, 0, 0]"},
+      {"axes(over = [1, 2]);", "11:13: error: axes: over: expected a list of points (mm), found [1, 2]"},
       {"axes(over = [[1, 2, 3], [1, \"a\", 3]]);",
-       "8:13: error: axes: over: expected a list of points (mm), found a list of 2"},
-      {"axes(length = 0/0);", "8:15: error: axes: length: expected a number (mm), found nan"},
-      {"axes([0, 0, 0/0]);", "8:6: error: axes: from: expected three numbers (mm), found a list of 3"}};
+       "11:13: error: axes: over: expected a list of points (mm), found a list of 2"},
+      {"axes(length = 0/0);", "11:15: error: axes: length: expected a number (mm), found nan"},
+      {"axes([0, 0, 0/0]);", "11:6: error: axes: from: expected three numbers (mm), found [0, 0, nan]"},
+      {"axes([0, 0, 1/0]);", "11:6: error: axes: from: expected three numbers (mm), found [0, 0, inf]"},
+      {"axes(length = -1/0);", "11:15: error: axes: length: expected a number (mm), found -inf"},
+      {"axes(thick = -1);", "11:14: error: axes: thick: expected a number of 0 or more (mm), found -1"},
+      {"axes(size = 0);", "11:13: error: axes: size: expected a number above 0 (mm), found 0"},
+      {"axes(of = \"redd\");", "11:11: error: axes: of: there is no material \"redd\"; did you mean \"red\"?"}};
   for (const auto& [call, message] : cases) expect_message(axes + call, message);
   expect_nodes(axes + "axes([1, 2, 3], [0, 0, 2], [[1, 2], [3, 4]], 5);", "show([1,2,3],[0,0,2],[[1,2],[3,4]],5)");
+}
+
+// Definitions of files that are used are suggested, and the library's file where none is used.
+TEST(Interpret, UnknownOperatorsAreSoughtInLibraries) {
+  Options options;
+  options.read_file = [](const std::string& path) {
+    return path == "mine.vcad" ? std::optional<std::string>("function rings(x) = x;\nmodule stack() {}") : std::nullopt;
+  };
+  options.library_of = [](std::string_view name) { return name == "honeycomb" ? "ombre/cellular.vcad" : ""; };
+  const auto message = [&](const std::string& text) { return first_message("use <mine.vcad>\n" + text, options); };
+  EXPECT_EQ(message("cube(ringss(2));"),
+            "part.vcad:2:6: error: there is no function \"ringss\"; did you mean \"rings\"?");
+  EXPECT_EQ(message("stak();"), "part.vcad:2:1: error: there is no node or module \"stak\"; did you mean \"stack\"?");
+  EXPECT_EQ(message("rings(3);"),
+            "part.vcad:2:1: error: there is no node or module \"rings\"; it is a function, whose "
+            "value stands in an expression or after =");
+  EXPECT_EQ(message("cube(stack());"),
+            "part.vcad:2:6: error: there is no function \"stack\"; \"stack\" is a node, and "
+            "stands in statements only");
+  EXPECT_EQ(message("honeycomb(3);"),
+            "part.vcad:2:1: error: there is no node or module \"honeycomb\"; a library has it; "
+            "write at the top: use <ombre/cellular.vcad>");
+  EXPECT_EQ(message("cube(honeycomb(3));"),
+            "part.vcad:2:6: error: there is no function \"honeycomb\"; a library has it; "
+            "write at the top: use <ombre/cellular.vcad>");
 }
 
 TEST(Interpret, LibrariesAreSearchedLast) {

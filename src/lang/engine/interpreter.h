@@ -78,6 +78,9 @@ class Interpreter : Evaluation<Interpreter, Product> {
   [[noreturn]] Value value_of_unknown(const ast::Name& name, const Scope& scope);
   [[noreturn]] void fail_unknown_function(const ast::Name& name, const Scope& scope);
   [[noreturn]] void fail_unknown_module(const ast::Name& name, const Scope& scope);
+  std::string hint_of_libraries(const ast::Name& name) const;
+  // Returns what is wrong with the name of a material, or "".
+  std::string mismatch_of_material(const std::string& name) const;
 
   // Defined in interpreter_statements.cpp.
   void begin(const Unit& unit, Scope& scope);

@@ -1,5 +1,6 @@
 // Diagnostics of the interpreter. Each is reported once.
 #include <algorithm>
+#include <functional>
 
 #include "lang/engine/interpreter.h"
 
@@ -122,6 +123,31 @@ void Interpreter::fail_unknown(Code code, const ast::Name& name, const char* wha
         {"similar", suggestion.empty() ? "" : closest_name(name.text(), candidates).value_or("")}});
 }
 
+namespace {
+
+// Calls of(plan) for the definitions of each scope, and for those of the files that it uses.
+void for_each_plan(const Scope& scope, const std::function<void(const ast::Plan&)>& of) {
+  for (const Scope* at = &scope; at; at = at->parent().get()) {
+    if (at->plan()) of(*at->plan());
+    if (!at->unit()) continue;
+    for (const Unit* used : at->unit()->uses) of(used->plan);
+  }
+}
+
+}  // namespace
+
+// Returns what to write if a library has an operator of this name.
+std::string Interpreter::hint_of_libraries(const ast::Name& name) const {
+  const std::string file = options_.library_of ? options_.library_of(name.text()) : "";
+  return file.empty() ? "" : "a library has it; write at the top: use <" + file + '>';
+}
+
+std::string Interpreter::mismatch_of_material(const std::string& name) const {
+  if (const auto known = vocabulary_.constant(name); known && known->string()) return "";
+  const std::string similar = did_you_mean(name, vocabulary_.constants());
+  return "there is no material \"" + name + '"' + (similar.empty() ? "" : "; " + similar);
+}
+
 Value Interpreter::value_of_unknown(const ast::Name& name, const Scope& scope) {
   std::vector<std::string> candidates = vocabulary_.constants();
   for (const auto& [symbol, value] : specials_) candidates.push_back(*symbol);
@@ -145,12 +171,16 @@ void Interpreter::fail_unknown_function(const ast::Name& name, const Scope& scop
   std::vector<std::string> candidates;
   for (const auto& [symbol, builtin] : builtins_) candidates.push_back(*symbol);
   for (const std::string& value : vocabulary_.value_names()) candidates.push_back(value);
-  for (const Scope* at = &scope; at; at = at->parent().get()) {
-    if (!at->plan()) continue;
-    for (const ast::FunctionDef* function : at->plan()->functions) candidates.push_back(function->name.text());
-  }
-  const std::string otherwise = knows(name) ? '"' + name.text() + "\" is a node, and stands in statements only"
-                                            : "define it first: function " + name.text() + "(...) = ...;";
+  bool is_module = knows(name);
+  for_each_plan(scope, [&](const ast::Plan& plan) {
+    for (const ast::FunctionDef* function : plan.functions) candidates.push_back(function->name.text());
+    is_module = is_module || plan.module(name.symbol);
+  });
+  if (const std::string hint = hint_of_libraries(name); !hint.empty())
+    fail(Code::unknown_function, name.span, "there is no function \"" + name.text() + '"', hint,
+         {{"name", name.text()}});
+  const std::string otherwise = is_module ? '"' + name.text() + "\" is a node, and stands in statements only"
+                                          : "define it first: function " + name.text() + "(...) = ...;";
   fail_unknown(Code::unknown_function, name, "function", std::move(candidates), otherwise);
 }
 
@@ -160,10 +190,17 @@ void Interpreter::fail_unknown_module(const ast::Name& name, const Scope& scope)
          {{"node", name.text()}});
   std::vector<std::string> candidates = vocabulary_.names();
   candidates.emplace_back("children");
-  for (const Scope* at = &scope; at; at = at->parent().get()) {
-    if (!at->plan()) continue;
-    for (const ast::ModuleDef* module : at->plan()->modules) candidates.push_back(module->name.text());
-  }
+  bool is_function = false;
+  for_each_plan(scope, [&](const ast::Plan& plan) {
+    for (const ast::ModuleDef* module : plan.modules) candidates.push_back(module->name.text());
+    is_function = is_function || plan.function(name.symbol);
+  });
+  const auto stop = [&](const std::string& hint) {
+    fail(Code::unknown_node, name.span, "there is no node or module \"" + name.text() + '"', hint,
+         {{"node", name.text()}});
+  };
+  if (is_function) stop("it is a function, whose value stands in an expression or after =");
+  if (const std::string hint = hint_of_libraries(name); !hint.empty()) stop(hint);
   fail_unknown(Code::unknown_node, name, "node or module", std::move(candidates),
                "define it first: module " + name.text() + "(...) { ... }");
 }

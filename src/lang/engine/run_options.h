@@ -40,6 +40,8 @@ struct Options {
   std::function<std::optional<std::string>(const std::string& path)> read_file;
   Dialect dialect = Dialect::vcad;
   std::vector<std::string> libraries;  // folders that `include` and `use` search last
+  // Returns the file of a library, as `use` names it, that has an operator of this name, or "". May be empty.
+  std::function<std::string(std::string_view name)> library_of;
 };
 
 }  // namespace ombre::lang

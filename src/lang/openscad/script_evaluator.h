@@ -233,6 +233,7 @@ class Evaluator : Evaluation<Evaluator, solids::TreePtr> {
   [[noreturn]] void stop_at_argument(const ast::Span& where, std::string message) {
     stop(std::move(message), where, Code::parameter_type);
   }
+  static std::string mismatch_of_material(const std::string&) { return ""; }  // scripts have no table of materials
   void report_too_many(const ast::Argument& argument, const ast::Span& where,
                        const std::vector<ast::Parameter>& parameters);
   void report_parameter(const ast::Name& name, const ast::Span& where, const std::vector<ast::Parameter>& parameters);

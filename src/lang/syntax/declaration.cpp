@@ -185,9 +185,9 @@ std::optional<Declaration> read(const Definition& definition, bool is_module, Di
 }  // namespace
 
 const std::vector<std::string>& port_types() {
-  static const std::vector<std::string> types{"number", "value",     "vector", "colour", "mixture", "material",
-                                              "text",   "solid",     "region", "frame",  "curve",   "points",
-                                              "point",  "direction", "radius", "image",  "index",   "truth"};
+  static const std::vector<std::string> types{
+      "number", "value",  "vector", "colour",    "mixture", "material", "text",  "solid", "region", "frame",
+      "curve",  "points", "point",  "direction", "radius",  "length",   "image", "index", "truth"};
   return types;
 }
 

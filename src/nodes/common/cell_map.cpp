@@ -52,6 +52,15 @@ std::optional<double> value_everywhere(const Number& number, const Box& where) {
   return is_value ? std::optional(middle) : std::nullopt;
 }
 
+// Returns false for places with steps, as floor(x) has, whose slopes are constant as well.
+bool rises_evenly(const Number& place, int axis, const Box& where, double corner, double step) {
+  constexpr double rounding = 1e-9;
+  const Interval range = place.range(where);
+  const double low = (where.lo[axis] - corner) / step, high = (where.hi[axis] - corner) / step;
+  const double most = rounding * std::max({1.0, std::abs(low), std::abs(high)});
+  return range.is_bounded() && std::abs(range.lo - low) <= most && std::abs(range.hi - high) <= most;
+}
+
 }  // namespace
 
 std::optional<EqualBoxes> equal_boxes(const CellMap& map) {
@@ -69,6 +78,7 @@ std::optional<EqualBoxes> equal_boxes(const CellMap& map) {
     }
     const Interval place = part(map.place).range({at, at});
     found.corner[axis] = at[axis] - 0.5 * (place.lo + place.hi) * found.steps[axis];
+    if (!rises_evenly(part(map.place), axis, where, found.corner[axis], found.steps[axis])) return std::nullopt;
   }
   return found;
 }
@@ -115,6 +125,7 @@ bool Port<nodes::CellMap>::read(const Data& data, const Domain&, nodes::CellMap&
   constexpr std::string_view slopes[] = {"slope_u", "slope_v", "slope_w"};
   for (size_t axis = 0; axis < 3; ++axis) value.slopes[axis] = vector_of(node, *node->type().output(slopes[axis]));
   value.size = vector_of(node, *node->type().output("size"));
+  value.index = vector_of(node, *node->type().output("index"));
   const Data perpendicular = node->constant(*node->type().output("perpendicular"));
   value.is_perpendicular = perpendicular.boolean() && *perpendicular.boolean();
   if (const auto border = output_called(*node, "border", OutputForm::numbers))

@@ -15,6 +15,7 @@ struct CellMap {
   design::Numbers3 place;
   std::array<design::Numbers3, 3> slopes;     // derivatives of u, v and w by x, y and z
   design::Numbers3 size;                      // lengths of the edges of a cell, mm
+  design::Numbers3 index;                     // whole numbers of the cell along u, v and w
   bool is_perpendicular = false;              // the edges of cells are perpendicular everywhere
   std::optional<design::Number> from_border;  // distance to the border of the surface that cells lie on, mm
   design::SolidName region;                   // the part of space with cells; none: all space

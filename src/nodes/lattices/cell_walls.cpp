@@ -47,7 +47,7 @@ struct Plates {
   }
 
   Field membership(const Inputs& in, const Point& p, Border border) const {
-    const Field half = square(thickness(p) * 0.5);
+    const Field half = signed_square(thickness(p) * 0.5);
     std::vector<Field> walls;
     for (const auto& [off, squared] : levels(p)) walls.push_back(at_most(square(off), half * squared, border));
     return map.cut_membership(program::fold(walls, program::logical_or), in, p, border);
@@ -114,7 +114,7 @@ struct Honeycomb {
     return map.cut(sqrt(nearest(p)) - thickness(p) * 0.5, in, p);
   }
   Field membership(const Inputs& in, const Point& p, Border border) const {
-    return map.cut_membership(at_most(nearest(p), square(thickness(p) * 0.5), border), in, p, border);
+    return map.cut_membership(at_most(nearest(p), signed_square(thickness(p) * 0.5), border), in, p, border);
   }
 
  private:
@@ -188,7 +188,7 @@ struct Folds {
   }
   Field membership(const Inputs& in, const Point& p, Border border) const {
     const auto [off, squared] = level(p);
-    return map.cut_membership(at_most(square(off), square(thickness(p) * 0.5) * squared, border), in, p, border);
+    return map.cut_membership(at_most(square(off), signed_square(thickness(p) * 0.5) * squared, border), in, p, border);
   }
 
  private:
@@ -198,9 +198,7 @@ struct Folds {
 
   // Returns the cells along w that have a sheet: those of the region.
   Interval layers() const {
-    if (!map.region.node) return Interval::everything();
-    const NodePtr node(NodePtr(), map.from.node);
-    return Number(expression_of({node, *node->type().output("index"), 2})).range(map.reach(design_space(), 0));
+    return map.region.node ? map.index.z.range(map.reach(design_space(), 0)) : Interval::everything();
   }
 
   // Returns the distance, in cells, from a place along w to the nearest sheet, when all are moved to whole numbers.

@@ -264,14 +264,15 @@ struct Tpms {
       return reader.refuse("the density of a formula's surface is not known",
                            "write " + std::string(kind == "sheet" ? "the thickness" : "the level") +
                                ", and measure the density with ombre characterise");
-    const bool is_flat = !map.is_given() && (!cell.along || design::is_constant(*cell.along)) && level.constant();
-    if (kind == "sheet" && !is_flat)
-      return reader.refuse("the density of a sheet needs cells of constant size, and a constant level",
+    if (kind == "solid") {
+      level = value_below_which(*density, {});
+      return true;
+    }
+    const std::optional<Vec3> lengths = constant_lengths();
+    if (!lengths || !level.constant())
+      return reader.refuse("the density of a sheet needs cells that are equal boxes, and a constant level",
                            "write the thickness, or " + spelled::parameter("kind", "\"solid\""));
-    if (kind == "sheet")
-      thickness = value_below_which(*density);
-    else
-      level = value_below_which(*density);
+    thickness = value_below_which(*density, *lengths);
     return true;
   }
 
@@ -289,7 +290,7 @@ struct Tpms {
   Field membership(const Inputs& in, const Point& p, Border border) const {
     const auto [value, slope] = at(p);
     const Field flag = kind == "solid" ? at_most(value, p.constant(0), border)
-                                       : at_most(square(value), square(thickness(p) * 0.5) * slope, border);
+                                       : at_most(square(value), signed_square(thickness(p) * 0.5) * slope, border);
     return map.cut_membership(flag, in, p, border);
   }
 
@@ -313,17 +314,28 @@ struct Tpms {
     return axis == 0 ? cell.along->x : axis == 1 ? cell.along->y : cell.along->z;
   }
 
-  // Returns the level, or the thickness of a sheet, for which this share of a cell is filled. Points of a lattice
-  // sample the function. Its numbers of points have no common divisor, and it is moved off the planes of symmetry, so
-  // that no two points are alike by the symmetry of the surface. The error of the share is less than 1e-3.
-  double value_below_which(double share) const {
+  // Returns the lengths of cells that are equal boxes.
+  std::optional<Vec3> constant_lengths() const {
+    if (map.is_given()) {
+      const auto boxes = equal_boxes(map);
+      return boxes ? std::optional(boxes->steps) : std::nullopt;
+    }
+    if (cell.along && !design::is_constant(*cell.along)) return std::nullopt;
+    return Vec3{*period(0).constant(), *period(1).constant(), *period(2).constant()};
+  }
+
+  // Returns the level, or the thickness of a sheet in cells of these lengths, for which this share of a cell is filled.
+  // Points of a lattice sample the function. Its numbers of points have no common divisor, and it is moved off the
+  // planes of symmetry, so that no two points are alike by the symmetry of the surface. The error of the share is less
+  // than 1e-3.
+  double value_below_which(double share, Vec3 lengths) const {
     const std::vector<Surface::Sample> samples = chosen().samples({97, 101, 103});
     std::vector<double> values;
     values.reserve(samples.size());
     for (const auto& [value, by] : samples) {
       double squared = 0;
       for (size_t n = 0; n < 3 && kind == "sheet"; ++n) {
-        const double slope = by[n] * turn / *period(static_cast<int>(n)).constant();
+        const double slope = by[n] * turn / lengths[static_cast<int>(n)];
         squared += slope * slope;
       }
       values.push_back(kind == "sheet" ? 2 * std::abs(value - *level.constant()) / std::sqrt(squared) : value);
@@ -343,15 +355,15 @@ struct Tpms {
     return builder.constant_value(function_value(p, {constant(at.x), constant(at.y), constant(at.z)}));
   }
 
-  // Returns the size of the region along u, v and w, in cells; unbounded without a region.
-  Vec3 extent() const {
+  // Returns the numbers of cells of the region along u, v and w; infinity without a region.
+  Vec3 counts_of_cells() const {
     if (!map.region.node) return {Box::inf, Box::inf, Box::inf};
     const Box box = map.reach(design_space(), 0);
-    const auto of = [&](const Number& number) {
-      const Interval range = number.range(box);
-      return range.hi - range.lo;
+    const auto of = [&](const Number& index) {
+      const Interval range = index.range(box);
+      return range.hi - range.lo + 1;
     };
-    return {of(map.place.x), of(map.place.y), of(map.place.z)};
+    return {of(map.index.x), of(map.index.y), of(map.index.z)};
   }
 
   // Walls of an equation meet at the borders of cells if its period is 1. The walls of a sheet also do if its sign
@@ -359,18 +371,18 @@ struct Tpms {
   void warn_if_not_periodic(const Reader& reader) const {
     const expr::Expression* formula = equation->expression();
     if (!formula || !formula->inputs().empty() || !level.constant()) return;
-    for (const char* name : {"x", "y", "z", "ci", "cj", "ck"})
-      if (formula->uses(name)) return;
-    constexpr double tolerance = 1e-6, one_cell = 1 + 1e-6;
+    if (std::ranges::any_of(expr::coordinate_names(), [&](const std::string& name) { return formula->uses(name); }))
+      return;
+    constexpr double tolerance = 1e-6, one_cell = 1.5;
     constexpr std::array places{Vec3{0.137, 0.411, 0.773}, Vec3{0.619, 0.283, 0.057}, Vec3{0.871, 0.937, 0.349}};
-    const Vec3 cells = extent();
+    const Vec3 cells = counts_of_cells();
     for (int axis = 0; axis < 3; ++axis) {
       if (cells[axis] <= one_cell) continue;
       for (const Vec3 place : places) {
         Vec3 next = place;
         next[axis] += 1;
         const auto here = value_of_equation(place), there = value_of_equation(next);
-        if (!here || !there) return;
+        if (!here || !there || std::isnan(*here) || std::isnan(*there)) return;
         const double allowed = tolerance * (1 + std::abs(*here));
         if (std::abs(*here - *there) <= allowed) continue;
         if (kind == "sheet" && *level.constant() == 0 && std::abs(*here + *there) <= allowed) continue;

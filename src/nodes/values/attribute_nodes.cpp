@@ -140,13 +140,16 @@ struct Attribute {
                                  "convert its value and leave out the unit, or give it a name of your own");
       return;
     }
+    const Box where = reader.inputs && !reader.inputs->empty() ? reader.inputs->front()->bounds(design_space()) : Box();
     for (const Number& number : value.used()) {
       const double* constant = number.constant();
-      if (!constant || (*constant >= standard->range.lo && *constant <= standard->range.hi)) continue;
-      reader.diagnostics.warning(
-          reader.where,
-          "the attribute \"" + name + "\" is " + range_text(*standard) + ", found " + format_number(*constant),
-          "give it a name of your own if you mean something else");
+      const Interval found = constant ? Interval(*constant) : number.range(where.is_empty() ? design_space() : where);
+      if (found.hi >= standard->range.lo && found.lo <= standard->range.hi) continue;
+      const std::string text =
+          constant ? format_number(*constant) : format_rounded(found.lo, 4) + " to " + format_rounded(found.hi, 4);
+      reader.diagnostics.warning(reader.where,
+                                 "the attribute \"" + name + "\" is " + range_text(*standard) + ", found " + text,
+                                 "give it a name of your own if you mean something else");
     }
   }
 

@@ -47,7 +47,7 @@ struct BetweenCells : CellOutputs<BetweenCells> {
     if (box.is_empty())
       return reader.refuse("the solid outer of between_cells lies outside of the region of its map",
                            "make the map around the solids");
-    if (!box.is_bounded() || box.size().x >= design_limit_mm) return true;
+    if (!has_ends(box)) return true;
     return has_a_gap(reader, box) && does_not_fold(reader, box);
   }
 

@@ -90,7 +90,7 @@ struct FormulaCells : CellOutputs<FormulaCells> {
 
   bool does_not_fold(const Reader& reader) const {
     const Box box = region_within(design_space());
-    if (!box.is_bounded() || box.size().x >= design_limit_mm) return true;
+    if (!has_ends(box)) return true;
     std::vector<NodePtr> roots{NodePtr(NodePtr(), region.node)};
     for (const Number& number : {u, v, w}) add_nodes_of(number, roots);
     if (of.is_given()) roots.push_back(NodePtr(NodePtr(), of.from.node));

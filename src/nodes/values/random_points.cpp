@@ -52,8 +52,7 @@ struct RandomPoints {
                            "write for example " + spelled::parameter("distance", "2"));
     const Box box = box_of(solid, design_space());
     if (box.is_empty()) return true;
-    if (!box.is_bounded() || box.size().x >= design_limit_mm || box.size().y >= design_limit_mm ||
-        box.size().z >= design_limit_mm)
+    if (!has_ends(box))
       return reader.refuse("the solid of scattered_points has no end",
                            "cut it, for example with an intersection with a cube");
     if (clearance > 0) warn_of_implicit_distance(reader, *solid.node, "clearance");
@@ -79,6 +78,9 @@ struct RandomPoints {
     ScatteredPoints found = scatter_points(host, {static_cast<uint64_t>(seed), relax, clearance});
     if (!found.problem.empty()) return reader.refuse("scattered_points: " + found.problem, found.hint);
     points.at = std::move(found.points);
+    if (points.at.empty())
+      reader.diagnostics.warning(reader.where, "scattered_points found no place for a point in the solid",
+                                 "take a smaller distance, or a smaller clearance from its border");
     return true;
   }
 

@@ -41,7 +41,7 @@ export function portType(kind: string): PortType {
   if (/mixture|material/.test(kind)) return "mixture";
   if (/truth|bool/.test(kind)) return "truth";
   if (/vector|point|colour|frame|curve|axis|size/.test(kind)) return "vector";
-  if (/number|field|value|region|index|integer|formula/.test(kind)) return "number";
+  if (/number|field|value|region|index|integer|formula|radius|length/.test(kind)) return "number";
   if (/text|file|choice|image|one of/.test(kind)) return "text";
   return "other";
 }
