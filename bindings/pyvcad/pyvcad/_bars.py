@@ -10,7 +10,7 @@ import numpy
 import ombre
 
 from ._arguments import Point, instance_of, length, number, read, vector
-from ._solids import _Leaf, _one, _unset
+from ._solids import _Leaf, _one, _unset, is_unset
 
 
 class CapMode(enum.Enum):
@@ -84,7 +84,7 @@ class Strut(_Leaf):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         if not self._caps:
-            ends = "round" if self._material is _unset else "flat"
+            ends = "round" if is_unset(self._material) else "flat"
             return ombre.strut(self._start, self._end, self._radius, self._material, caps=ends)
         start, end = numpy.array(self._start), numpy.array(self._end)
         height = float(numpy.linalg.norm(end - start))

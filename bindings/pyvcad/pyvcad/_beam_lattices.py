@@ -103,4 +103,4 @@ class BeamLattice(_Leaf):
         parts = [Strut(self._points[b.v1], self._points[b.v2], b.r1, b.r2, b.cap1, b.cap2)._make([]) for b in self._beams]
         parts += [ombre.translate(ombre.sphere(radius, self._material), self._points[vertex])
                   for vertex, radius in self._balls.items()]
-        return ombre.union(parts, materials="first")
+        return ombre.material(ombre.union(parts, materials="first"), self._material)

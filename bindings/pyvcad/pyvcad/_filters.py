@@ -165,6 +165,9 @@ class Voxels(_Leaf):
         """Is not there: Function takes formulas."""
         raise NotImplementedError("Voxels.populate_with_equation is not in Ombre yet; write Function(expression)")
 
+    def _says_material(self) -> bool:
+        return True
+
     def _own_materials(self) -> set[int]:
         return set()
 

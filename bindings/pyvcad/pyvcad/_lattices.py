@@ -188,6 +188,9 @@ class MappedGraphLattice(MappedLattice):
         """The position along the nearest strut, from 0 to 1, for attributes of the lattice."""
         return FloatAttribute(ombre.t)
 
+    def _says_material(self) -> bool:
+        return super()._says_material() or bool(self._cell.material_tags)
+
     def _own_materials(self) -> set[int]:
         return {self._material, *(self._cell.material_tags or ())}
 

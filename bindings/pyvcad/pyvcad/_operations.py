@@ -1,9 +1,10 @@
 """Nodes that work on others: transforms, booleans, materials."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import ombre
+from ombre._materials import current_factory
 
 from ._arguments import Optional, Point, boolean, length, material, number, radius_of_blend, read, vector
 from ._errors import WrongValue
@@ -103,6 +104,23 @@ def _resolved(node: NAry, whole: ombre.Solid, solids: list[ombre.Solid]) -> ombr
     return whole
 
 
+def _completed(node: NAry, solids: list[ombre.Solid], rule: Literal["first", "mix"]) -> list[ombre.Solid]:
+    """The solids. If some have fractions, those of which nothing says a material have the one of the others where they meet."""
+    children = node._inputs()
+    if not any(child._has_fractions for child in children) or all(child._has_material for child in children):
+        return solids
+    others = ombre.union([solid for child, solid in zip(children, solids) if child._has_material], materials=rule)
+    is_there = ombre.distance_to(others).inside > 0.5
+    ids = sorted({id for child in children for id in child.material_list()})
+    names = ombre.Materials(_factory=current_factory()).names
+    theirs = [ombre.composition_of(others, names[id]).share for id in ids]
+
+    def completed(child: Node, solid: ombre.Solid) -> ombre.Solid:
+        own = child.material_list()  # the one that stands for none
+        return ombre.fgrade(solid, [ombre.where(is_there, share, float(id in own)) for id, share in zip(ids, theirs)], ids)
+    return [solid if child._has_material else completed(child, solid) for child, solid in zip(children, solids)]
+
+
 class _Boolean(NAry):
     """Forms: (), (mix), (mix, children), (k), (k, mix), (k, mix, children), (k, children), (children), (a, b, ...).
 
@@ -119,8 +137,8 @@ class _Boolean(NAry):
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        rule = "mix" if self._mix or self._mixes() else "first"
-        whole: ombre.Solid = getattr(ombre, self._operation)(solids, materials=rule, blend=self._blend,
+        rule: Literal["first", "mix"] = "mix" if self._mix or self._mixes() else "first"
+        whole: ombre.Solid = getattr(ombre, self._operation)(_completed(self, solids, rule), materials=rule, blend=self._blend,
                                                              attributes=self._attribute_rules())
         return _resolved(self, whole, solids)
 
@@ -148,7 +166,8 @@ class BBoxUnion(NAry):
         self._blend: float = values.get("k", 0.0)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        whole: ombre.Solid = ombre.union(solids, materials="mix" if self._mixes() else "first", blend=self._blend,
+        rule: Literal["first", "mix"] = "mix" if self._mixes() else "first"
+        whole: ombre.Solid = ombre.union(_completed(self, solids, rule), materials=rule, blend=self._blend,
                                          attributes=self._attribute_rules())
         return _resolved(self, whole, solids)
 
@@ -161,7 +180,8 @@ class BBoxIntersection(NAry):
         super().__init__(values["children"])
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        whole: ombre.Solid = ombre.intersection(solids, materials="mix" if self._mixes() else "first",
+        rule: Literal["first", "mix"] = "mix" if self._mixes() else "first"
+        whole: ombre.Solid = ombre.intersection(_completed(self, solids, rule), materials=rule,
                                                 attributes=self._attribute_rules())
         return _resolved(self, whole, solids)
 
@@ -272,6 +292,9 @@ class FGrade(Unary):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return ombre.fgrade(solids[0], self._functions, self._materials, mode=self._mode)
+
+    def _says_material(self) -> bool:
+        return True
 
     def _own_materials(self) -> set[int]:
         return set(self._materials)

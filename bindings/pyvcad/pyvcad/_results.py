@@ -49,10 +49,15 @@ class SimulationField(_Leaf):
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         moves: Any = ombre.results(self._mesh, "displacement", values=self._table, outside="nearest")
         solid: ombre.Solid = ombre.mesh(self._solid_path or self._mesh, self._materials[0])
-        for name, value in zip(("dx", "dy", "dz", "len"), (moves.vector.x, moves.vector.y, moves.vector.z,
-                                                             moves.magnitude)):
+        for name, value in zip(self._own_attributes(), (moves.vector.x, moves.vector.y, moves.vector.z, moves.magnitude)):
             solid = ombre.attribute(solid, name, value)
         return ombre.fgrade(solid, self._functions, self._materials, mode=self._mode)
+
+    def _own_attributes(self) -> list[str]:
+        return ["dx", "dy", "dz", "len"]
+
+    def _says_material(self) -> bool:
+        return True
 
     def _own_materials(self) -> set[int]:
         return set(self._materials)

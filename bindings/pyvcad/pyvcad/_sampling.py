@@ -1,6 +1,7 @@
 """Samples a tree at points and on grids, attribute by attribute."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, cast
 
 import numpy
@@ -12,9 +13,9 @@ from ._arguments import number
 from ._arguments import voxel_size as read_voxel
 from ._attributes import FloatAttribute
 from ._colour_maps import ColorMap
-from ._defined import FRACTIONS, are_everywhere, marked, marker
+from ._defined import FRACTIONS, are_everywhere, given, marked_design, marker, names_of
 from ._errors import WrongValue
-from ._materials import expect_table
+from ._materials import MaterialDefs, expect_table
 from ._samples import AttributeSamples
 from ._tree import Node, as_node
 from ._vectors import Vec3, Vec4
@@ -41,32 +42,22 @@ def _distributions(design: ombre.Design, fractions: dict[str, numpy.ndarray]) ->
     return [{material: share for material, share in zip(ids, row) if share > 0} for row in rows]
 
 
-def _marked_design(node: Node, names: list[str]) -> ombre.Design:
-    """The design with markers of attributes, kept until the tree changes; without them where the root gives them all."""
-    design = node._design()
-    if are_everywhere(node, names):
-        return design
-    if node._marked is None or node._marked[0] is not node._solid:
-        node._marked = node._solid, marked(node, names)._design()
-    return cast("ombre.Design", node._marked[1])
-
-
 def sampled(node: Node, points: numpy.ndarray) -> list[tuple[float, AttributeSamples | None]]:
     """The distance at each point, of the shape (N, 3), and the attributes that are given there; None outside."""
-    own = node.attribute_list()
-    design = _marked_design(node, own)
+    own = names_of(node)
+    is_everywhere = are_everywhere(node, own)
+    design = node._design() if is_everywhere else marked_design(node)
     found = design.sample(points)
-    given = {name: found.attribute[marker(name)] > 0.5 for name in own if marker(name) in found.attribute}
-    columns = {name: _values(values) for name, values in found.attribute.items()
-               if name not in map(marker, given)}
-    if FRACTIONS in own:
+    markers = {name: found.attribute.pop(marker(name), None) for name in {*own, FRACTIONS}}
+    columns = {name: _values(values) for name, values in found.attribute.items()}
+    if FRACTIONS in own and (is_everywhere or markers[FRACTIONS] is not None):
         columns[FRACTIONS] = _distributions(design, found.material)
     rows: list[dict[str, Any]] = [{} for _ in points]
-    for name in columns:
-        if name in found.attribute:
-            _check_finite(name, found.attribute[name], points, (found.distance <= 0) & given.get(name, True))
     for name, values in columns.items():
-        is_given = given.get(name, numpy.ones(len(points), dtype=bool))
+        found_marker = markers.get(name)
+        is_given = numpy.ones(len(points), dtype=bool) if found_marker is None else found_marker > 0.5
+        if name in found.attribute:
+            _check_finite(name, found.attribute[name], points, (found.distance <= 0) & is_given)
         for row, value, has in zip(rows, values, _listed(is_given)):
             if has:
                 row[name] = value
@@ -85,7 +76,8 @@ def _check_finite(name: str, values: numpy.ndarray, points: numpy.ndarray, where
 class TreeSampler:
     """Samples a tree on the voxels of its bounding box: TreeSampler(root, voxel_size, material_defs=None).
 
-    Arrays have the shape (nx, ny, nz), with one more axis for vectors, colours and materials.
+    Arrays have the shape (nx, ny, nz), with one more axis for vectors, colours and materials. They are 0 outside, and where
+    nothing gives the attribute.
     """
 
     def __init__(self, root: Any, voxel_size: Any, material_defs: Any = None) -> None:
@@ -97,9 +89,14 @@ class TreeSampler:
         self._override: tuple[float, float] | None = None
         self._shows_undefined = True
 
-    def _points(self) -> numpy.ndarray:
+    def _in_layers(self, take: Callable[[numpy.ndarray], numpy.ndarray], progress: Any) -> numpy.ndarray:
+        """What a function gives for points, at all voxels: of the shape (nz, ny, nx, ...)."""
         axes = _grids.centers(self._design.bounds, self._voxel)
-        return numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1)
+        return numpy.concatenate([take(points) for _, points in _grids.slabs(axes, progress)])
+
+    def _on_grid(self, take: Callable[[numpy.ndarray], numpy.ndarray], progress: Any) -> numpy.ndarray:
+        """The same, of the shape (nx, ny, nz, ...)."""
+        return numpy.ascontiguousarray(self._in_layers(take, progress).swapaxes(0, 2))
 
     def sample_dimensions(self) -> tuple[int, int, int]:
         x, y, z = (len(axis) for axis in _grids.centers(self._design.bounds, self._voxel))
@@ -111,33 +108,41 @@ class TreeSampler:
         return nx, ny, nz, grid.transpose(2, 1, 0).reshape(-1)
 
     def as_float_array(self, name: str, progress: Any = None) -> numpy.ndarray:
-        return self._attribute(name, 1)
+        return self._on_grid(lambda points: self._attribute(name, 1, points), progress)
 
     def as_vec3_array(self, name: str, progress: Any = None) -> numpy.ndarray:
-        return self._attribute(name, 3)
+        return self._on_grid(lambda points: self._attribute(name, 3, points), progress)
 
     def as_vec4_array(self, name: str, progress: Any = None) -> numpy.ndarray:
-        return self._attribute(name, 4)
+        return self._on_grid(lambda points: self._attribute(name, 4, points), progress)
 
-    def _attribute(self, name: str, size: int, points: Any = None) -> numpy.ndarray:
-        values = self._design.attribute(name, self._points() if points is None else points)
-        found = 1 if values.ndim == (4 if points is None else 2) - 1 else values.shape[-1]
+    def _attribute(self, name: str, size: int, points: numpy.ndarray) -> numpy.ndarray:
+        values = self._design.attribute(name, points)
+        found = 1 if values.ndim == points.ndim - 1 else values.shape[-1]
         if found != size:
             raise RuntimeError(f"TreeSampler: the attribute {name!r} has {found} numbers, not {size}")
+        values[~self._is_given(name, points)] = 0
         return values.astype(numpy.float32)
 
+    def _is_given(self, name: str, points: numpy.ndarray) -> numpy.ndarray:
+        """True within the part where the tree gives the attribute."""
+        return cast("numpy.ndarray", self._design.inside(points) & given(self._root, name, points))
+
     def as_material_fraction_array(self, name: str = "volume_fractions", progress: Any = None) -> numpy.ndarray:
+        grid = self._on_grid(lambda points: self._fractions(name, points), progress)
+        return grid.reshape(-1, grid.shape[-1])
+
+    def _fractions(self, name: str, points: numpy.ndarray) -> numpy.ndarray:
         if self._materials is None:
             raise RuntimeError("TreeSampler: fractions of materials need material_defs")
-        points = self._points().reshape(-1, 3)
-        return self._fractions(points)
-
-    def _fractions(self, points: numpy.ndarray) -> numpy.ndarray:
+        if name != FRACTIONS:
+            raise RuntimeError(f"TreeSampler: fractions are those of the attribute {FRACTIONS!r}, found {name!r}")
         design = self._design
         names = design.materials.names
-        result = numpy.zeros((len(points), len(names)), dtype=numpy.float32)
+        result = numpy.zeros((*points.shape[:-1], len(names)), dtype=numpy.float32)
         for material, values in design.material(points).items():
-            result[:, names.index(material)] = values
+            result[..., names.index(material)] = values
+        result[~self._is_given(name, points)] = 0
         return result
 
     # Colours.
@@ -169,40 +174,44 @@ class TreeSampler:
         Numbers have the colour of the map at 0 to 1, for the least to the greatest of them. Vectors and colours are colours
         themselves; fractions are those of the materials, mixed or that of the greatest.
         """
-        nx, ny, nz = self.sample_dimensions()
-        points = self._points().transpose(2, 1, 0, 3).reshape(-1, 3)
-        return nx, ny, nz, self._colours(points, name, color_map, blend).reshape(-1)
+        shades = self._in_layers(self._shades_of(name, blend), progress)
+        nz, ny, nx, columns = shades.shape
+        return nx, ny, nz, self._colours(shades.reshape(-1, columns), name, color_map).reshape(-1)
 
     def sample_points_to_colors(self, points: Any, name: str, color_map: Any, blend: bool = True) -> list[Vec4]:
         """Red, green, blue and opacity of each point, 0 to 1."""
-        return [Vec4(*row) for row in _listed(self._colours(_array(points), name, color_map, blend) / 255)]
+        return [Vec4(*row) for row in _listed(self._colours(self._shades_of(name, blend)(_array(points)), name, color_map) / 255)]
 
-    def _colours(self, points: numpy.ndarray, name: str, color_map: Any, blend: bool) -> numpy.ndarray:
-        inside = self._design.inside(points)
+    def _shades_of(self, name: str, blend: bool) -> Callable[[numpy.ndarray], numpy.ndarray]:
+        """A function of points: whether they are inside, whether the attribute is given there, and its numbers, or the colour of
+        fractions."""
         own = self._root.attribute_list()
         if name not in own:
             raise RuntimeError(f"TreeSampler: no node of the tree has the attribute {name!r}; it has {', '.join(own) or 'none'}")
-        is_given = inside.copy()
-        if not are_everywhere(self._root, [name]):
-            is_given &= _marked_design(self._root, own).attribute(marker(name), points) > 0.5
-        colours = self._fraction_colours(points, blend) if name == FRACTIONS else \
-            self._value_colours(name, points, is_given, color_map)
+
+        def at(points: numpy.ndarray) -> numpy.ndarray:
+            values = self._fraction_colours(points, blend) if name == FRACTIONS else self._design.attribute(name, points)
+            numbers = values[..., None] if values.ndim < points.ndim else values
+            claims = [self._design.inside(points)[..., None], self._is_given(name, points)[..., None]]
+            return numpy.concatenate([*claims, numbers], axis=-1)
+        return at
+
+    def _colours(self, shades: numpy.ndarray, name: str, color_map: Any) -> numpy.ndarray:
+        inside, is_given, values = shades[:, 0] > 0, shades[:, 1] > 0, shades[:, 2:]
+        colours = values if name == FRACTIONS else self._value_colours(values, is_given, color_map)
         colours[inside & ~is_given] = (128, 128, 128, 255) if self._shows_undefined else 0
         colours[~inside] = 0
         return numpy.rint(colours).astype(numpy.uint8)
 
     def _fraction_colours(self, points: numpy.ndarray, blend: bool) -> numpy.ndarray:
-        if self._materials is None:
-            raise RuntimeError("TreeSampler: fractions of materials need material_defs")
-        fractions = self._fractions(points)
-        palette = numpy.array([list(self._materials.color(id)) for id in range(fractions.shape[1])])
-        return fractions @ palette if blend else palette[fractions.argmax(axis=1)].astype(float)
+        fractions, table = self._fractions(FRACTIONS, points), cast("MaterialDefs", self._materials)
+        palette = numpy.array([list(table.color(id)) for id in range(fractions.shape[-1])])
+        return fractions @ palette if blend else palette[fractions.argmax(axis=-1)].astype(float)
 
-    def _value_colours(self, name: str, points: numpy.ndarray, is_given: numpy.ndarray, color_map: Any) -> numpy.ndarray:
-        values = self._design.attribute(name, points)
-        if values.ndim == 1:
-            values = self._mapped(values, is_given, color_map)
-        opaque = numpy.ones((len(points), 1))
+    def _value_colours(self, values: numpy.ndarray, is_given: numpy.ndarray, color_map: Any) -> numpy.ndarray:
+        if values.shape[1] == 1:
+            values = self._mapped(values[:, 0], is_given, color_map)
+        opaque = numpy.ones((len(values), 1))
         return 255 * numpy.clip(values if values.shape[1] == 4 else numpy.concatenate([values, opaque], axis=1), 0, 1)
 
     def _mapped(self, values: numpy.ndarray, is_given: numpy.ndarray, color_map: Any) -> numpy.ndarray:
@@ -240,9 +249,7 @@ class TreeSampler:
         return [Vec4(*map(float, v)) for v in self._attribute(name, 4, _array(points))]
 
     def sample_points_to_material_fraction_array(self, points: Any, name: str = "volume_fractions") -> numpy.ndarray:
-        if self._materials is None:
-            raise RuntimeError("TreeSampler: fractions of materials need material_defs")
-        return self._fractions(_array(points))
+        return self._fractions(name, _array(points))
 
 
 OCCUPANCY = "occupancy"

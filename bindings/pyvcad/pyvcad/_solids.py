@@ -12,7 +12,7 @@ from ._arguments import (Optional, Point, boolean, instance_of, length, material
                          vector)
 from ._enums import LatticeType
 from ._functions import expression
-from ._tree import Node, _call_place
+from ._tree import Node, _call_place, in_order
 from ._volumes import FloatVolume
 
 class _Unset(int):
@@ -23,13 +23,24 @@ _unset = _Unset(1)
 _one = Optional(material, _unset)
 
 
-def is_unset(node: Node) -> bool:
-    """True if the node is a solid that was given no material."""
-    return isinstance(node, _Leaf) and isinstance(node._material, _Unset)
+def is_unset(material: int) -> bool:
+    """True if it stands for no material that was given."""
+    return isinstance(material, _Unset)
+
+
+def with_unset(tree: Node, material: int) -> Node:
+    """The tree, in which nodes that were given no material are of this one, as if it were the one that they have anyway."""
+    for node in in_order(tree):
+        if is_unset(getattr(node, "_material", 0)):
+            node._material = _Unset(material)  # type: ignore[attr-defined]
+    return tree
 
 
 class _Leaf(Node):
     _material: int
+
+    def _says_material(self) -> bool:
+        return super()._says_material() or not is_unset(self._material)
 
     def _own_materials(self) -> set[int]:
         return {self._material}
@@ -50,11 +61,12 @@ class RectPrism(_Leaf):
         self._material = values.get("material", _unset)
 
     @staticmethod
-    def FromMinAndMax(min: Any, max: Any, material: int = 1) -> RectPrism:
+    def FromMinAndMax(min: Any, max: Any, material: int = _unset) -> RectPrism:
         """The block between two opposite corners."""
         low, high = vector(min), vector(max)
         center = tuple((a + b) / 2 for a, b in zip(low, high))
-        return RectPrism(center, tuple(b - a for a, b in zip(low, high)), material)
+        given = {} if is_unset(material) else {"material": material}
+        return RectPrism(center, tuple(b - a for a, b in zip(low, high)), **given)
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return _at(self._center, ombre.rectprism(self._size, self._material))

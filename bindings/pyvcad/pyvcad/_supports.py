@@ -5,7 +5,8 @@ from typing import Any
 
 import ombre
 
-from ._arguments import Optional, Point, material, read, voxel_size
+from ._arguments import Point, read, voxel_size
+from ._solids import _one, is_unset
 from ._tree import Node, Unary, as_node
 
 
@@ -18,6 +19,9 @@ class _Support(Unary):
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
         return ombre.support(solids[0], material=self._material, pitch=self._cell)
+
+    def _says_material(self) -> bool:
+        return super()._says_material() or not is_unset(self._material)
 
     def _own_materials(self) -> set[int]:
         return {self._material}
@@ -33,7 +37,7 @@ class SupportAnalyzer:
     """
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
-        form = {"input_model": as_node, "voxel_size": voxel_size, "material_id": Optional(material, 1)}
+        form = {"input_model": as_node, "voxel_size": voxel_size, "material_id": _one}
         values = read(type(self).__name__, (form,), arguments, named)
         self._support = _Support(values["input_model"], values["voxel_size"], values["material_id"])
 

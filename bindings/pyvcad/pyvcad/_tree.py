@@ -49,6 +49,7 @@ class Node:
         self._checked_at = -1  # Changes.count at the last check that nothing below had changed
         self._attributes: dict[str, Attribute] = {}
         self._marked: Any = None  # the design with markers of attributes, and the solid that it is of
+        self._has_fractions = self._has_material = False  # whether it, or what it is composed of, says some; set by _refresh
         self._epsilon: float | None = None  # the step of gradients, if it was set
         self._place = _call_place()
         self._home: Any = current_factory()  # the materials in use where it was made
@@ -85,9 +86,17 @@ class Node:
         attribute = self._attributes.get("volume_fractions")
         return attribute._materials() if attribute else None
 
+    def _says_material(self) -> bool:
+        """True if all of it is of what it says itself: of fractions, or of a material that it was given."""
+        return "volume_fractions" in self._attributes
+
     def _computed(self) -> dict[str, list[str]]:
         """The attributes that it computes, each with those that it takes."""
         return {}
+
+    def _own_attributes(self) -> list[str]:
+        """The attributes that its solid has before any are set."""
+        return []
 
     def _part_names(self) -> set[str]:
         """The attributes that parts of it have."""
@@ -138,6 +147,9 @@ class Node:
         is_same = (versions == self._built_with and len(solids) == len(self._built_from)
                    and all(map(operator.is_, solids, self._built_from)))
         if self._solid is None or self._factory is not factory or not is_same:
+            composing = self._composing()
+            self._has_fractions = self._fractions() is not None or any(node._has_fractions for node in composing)
+            self._has_material = self._has_fractions or self._says_material() or any(node._has_material for node in composing)
             try:
                 with made_at(self._place):
                     self._solid = self._with_attributes(self._make(solids))
@@ -368,6 +380,9 @@ class _Resolving(Node):
         if not isinstance(name, str) or not hasattr(resolver, "_combine"):
             raise TypeError("set_attribute_conflict_resolver: expected a name and a resolver such as "
                             "resolvers.AverageConflictResolver()")
+        if name == "volume_fractions" and resolver._rule != "mean":
+            raise WrongValue(f"set_attribute_conflict_resolver: {name} have a mean and no other rule, found a "
+                             f"{type(resolver).__name__}; write resolvers.AverageConflictResolver()")
         self._rules[name] = resolver
         self._changed()
 
@@ -464,6 +479,12 @@ class Wrapped(Node):
         if len(parts) > 1:
             with using(design._core.factory):
                 self._whole = ombre.union(*parts)
+
+    def _says_material(self) -> bool:
+        return True
+
+    def _own_attributes(self) -> list[str]:
+        return self._given.attributes
 
     def _own_materials(self) -> set[int]:
         return {self._given.materials[name]["id"] for solid in solids_of(self._whole)

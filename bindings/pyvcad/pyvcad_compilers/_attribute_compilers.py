@@ -3,23 +3,20 @@ from __future__ import annotations
 
 import os
 import struct
-from collections.abc import Callable
+from collections.abc import Iterable
 from typing import Any
 
 import numpy
 
+import ombre
 from pyvcad._arguments import number, size
-from pyvcad._attributes import FloatAttribute
-from pyvcad._defined import are_everywhere, marked, marker
+from pyvcad._defined import are_everywhere, given
 from pyvcad._grids import centers, slabs
 from pyvcad._sampling import OCCUPANCY, with_occupancy
 from pyvcad._materials import expect_table
-from pyvcad._tree import Node, as_node, in_order
+from pyvcad._tree import as_node
 
 from ._compilers import Path, _Compiler, _voxel
-
-
-_is_undefined = "attribute_is_undefined"  # 1 where no solid gives the attribute
 
 
 class _AttributeCompiler(_Compiler):
@@ -35,36 +32,37 @@ class _AttributeCompiler(_Compiler):
         """Makes places of the part without the attribute an error, before anything is written."""
         self._is_strict = bool(strict)
 
+    def _check_strictly(self, names: Iterable[str]) -> None:
+        """In strict mode, checks that all of the part has these attributes."""
+        for name in names if self._is_strict else ():
+            self._check_given(name)
+
     def _check_given(self, name: str) -> None:
         """Raises RuntimeError at the first voxel of the part where nothing gives the attribute."""
         if are_everywhere(self._root, [name]):
             return
-        design = marked(self._root, self._root.attribute_list())._design()
+        design = self._root._design()
         for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
-            bad = design.inside(points) & ~(design.attribute(marker(name), points) > 0.5)
-            if bad.any():
-                raise self._nothing_gives(name, points[bad][0])
+            self._check_points(name, points[design.inside(points)])
 
-    def _nothing_gives(self, name: str, point: Any) -> RuntimeError:
-        x, y, z = (float(c) for c in point)
-        return RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g}); set it on a node above, or "
-                            "on each child")
+    def _check_points(self, name: str, points: numpy.ndarray) -> None:
+        """Raises RuntimeError at the first of these points of the part where nothing gives the attribute."""
+        bad = ~given(self._root, name, points)
+        if bad.any():
+            x, y, z = (float(c) for c in points[bad][0])
+            raise RuntimeError(f"{type(self).__name__}: nothing gives {name} at ({x:g}, {y:g}, {z:g}); set it on a node above, "
+                               "or on each child")
 
-    def _check_everywhere(self, name: str, lacks: Callable[[Node], bool], has: Callable[[Node], bool]) -> None:
-        """Raises RuntimeError at the first voxel of nodes that lack the attribute, where none above has it."""
-        tree = self._root.clone()
-        for node in in_order(tree):
-            if lacks(node):
-                node._attributes[_is_undefined] = FloatAttribute(1)
-            if has(node):
-                node._attributes[_is_undefined] = FloatAttribute(0)
-        design = tree._design()
-        if _is_undefined not in design.attributes:
-            return
-        for _, points in slabs(centers(design.bounds, self._voxel), lambda share: self._share(0.0)):
-            bad = design.inside(points) & (design.attribute(_is_undefined, points) > 0.5)
-            if bad.any():
-                raise self._nothing_gives(name, points[bad][0])
+    def _numbers(self, name: str, design: ombre.Design, points: numpy.ndarray, usual: float) -> numpy.ndarray:
+        """The attribute at points, or where nothing gives it the usual number. Raises RuntimeError where one is not finite."""
+        if name not in design.attributes:
+            return numpy.full(points.shape[:-1], usual)
+        numbers = numpy.where(given(self._root, name, points), design.attribute(name, points), usual)
+        bad = design.inside(points) & ~numpy.isfinite(numbers)
+        if bad.any():
+            x, y, z = (float(c) for c in points[bad][0])
+            raise RuntimeError(f"{type(self).__name__}: {name} is not finite at ({x:g}, {y:g}, {z:g})")
+        return numpy.nan_to_num(numbers)
 
     def _check_attributes(self) -> None:
         absent = [name for name in self._required if name not in self._root.attribute_list()]
@@ -108,16 +106,12 @@ class VatCompiler(_AttributeCompiler):
     def supported_attributes(self) -> list[str]:
         return ["intensity"]
 
-    def _check_strictly(self) -> None:
-        if self._is_strict:
-            self._check_given("intensity")
-
     def set_fallback_intensity(self, value: float) -> None:
         self._fallback = min(1.0, max(0.0, number(value)))
 
     def compile(self) -> None:
         self._is_stopped = False
-        self._check_strictly()
+        self._check_strictly(["intensity"])
         design = self._root._design()
         low, high = (list(map(float, corner)) for corner in design.bounds)
         if self._volume:
@@ -129,8 +123,7 @@ class VatCompiler(_AttributeCompiler):
         axes = centers((tuple(low), tuple(high)), self._voxel)
         layers = []
         for _, points in slabs(axes, self._share):
-            value = (design.attribute("intensity", points) if "intensity" in design.attributes
-                     else numpy.full(points.shape[:-1], self._fallback))
+            value = self._numbers("intensity", design, points, self._fallback)
             gray = numpy.where(design.distance(points) <= 0, numpy.clip(value, 0, 1), 0)
             layers += list(numpy.rint(255 * gray).astype(numpy.uint8)[:, ::-1])
         while layers and not layers[0].any():
@@ -164,6 +157,7 @@ class VdbCompiler(_AttributeCompiler):
         absent = [name for name in names if name not in design.attributes]
         if absent:
             raise RuntimeError(f"VdbCompiler: no node of the tree has the attribute {', '.join(absent)}")
+        self._check_strictly(names)
         design.write_voxels(self._path, voxel=",".join(map(repr, self._voxel)), what=",".join(["distance", *names, *([OCCUPANCY] if self._has_occupancy else [])]),
                             force=True, progress=self._share)
         self._report(1.0)

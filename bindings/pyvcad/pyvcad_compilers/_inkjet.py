@@ -11,11 +11,12 @@ from typing import Any, Literal
 
 import ombre
 from pyvcad._arguments import number
-from pyvcad._attributes import Vec4Attribute
+from pyvcad._defined import FRACTIONS, are_everywhere, marked, marked_design, marker
 from pyvcad._keep_out import KeepOut
 from pyvcad._materials import MaterialDefs, default_materials, expect_table, j750_materials
-from pyvcad._solids import is_unset
-from pyvcad._tree import Node, Unary, as_node, in_order
+from pyvcad._resolvers import numbers_of
+from pyvcad._solids import with_unset
+from pyvcad._tree import Node, Unary, as_node
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path, _voxel
@@ -51,15 +52,11 @@ class _InkjetCompiler(_AttributeCompiler):
         """Returns the tree with materials that is printed."""
         raise NotImplementedError
 
-    def _check_strictly(self) -> None:
-        raise NotImplementedError
-
     def compile(self) -> None:
         self._check_attributes()
         self._is_stopped = False
         begin = time.monotonic()
-        if self._is_strict:
-            self._check_strictly()
+        self._check_strictly(self._required)
         design = self._tree()._ombre_design_(self._materials)
         prepared = time.monotonic()
         os.makedirs(self._folder, exist_ok=True)
@@ -128,40 +125,65 @@ class MaterialInkjetCompiler(_InkjetCompiler):
         (self._materials or default_materials).name(id)  # raises an error if there is none
         self._fallback = id
 
-    def _check_strictly(self) -> None:
-        self._check_everywhere("volume_fractions", is_unset, lambda node: node._fractions() is not None)
-
     def _tree(self) -> Node:
-        """Returns a copy, in which solids without a material have the fallback."""
-        tree = self._root.clone()
-        for node in in_order(tree):
-            if is_unset(node):
-                node._material = self._fallback  # type: ignore[attr-defined]
+        tree: Node = self._root
+        if not are_everywhere(tree, [FRACTIONS]):
+            tree = _Completed(tree, self._fallback)
         return KeepOut(tree, self._keep_out, self._materials) if self._keep_out > 0 else tree
+
+
+class _Completed(Unary):
+    """The part, of the fallback material where nothing says of what it is."""
+
+    def __init__(self, part: Node, fallback: int) -> None:
+        super().__init__(with_unset(marked(part), fallback))
+        self._is_said = marker(FRACTIONS) in marked_design(part).attributes
+        self._fallback = fallback
+
+    def _fractions(self) -> set[int] | None:
+        return {*self._inputs()[0].material_list(), self._fallback}
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        said, filled = solids[0], ombre.material(solids[0], self._fallback)
+        if not self._is_said:
+            return filled
+        low, high = said.bounds
+        gaps = ombre.function(ombre.attribute_of(said, marker(FRACTIONS)).value - 0.5, self._fallback, min=low, max=high)
+        # The first one lies in the second, so that they have its distances together.
+        return ombre.union([ombre.intersection([filled, gaps], materials="first"), said], materials="first")
 
 
 _inks = ("VeroCyan", "VeroMagenta", "VeroYellow", "VeroBlack", "VeroPureWht")
 _clear = "VeroClear"
+_color = "color_rgba"
 
 
 class _Coloured(Unary):
-    """The child, of the materials that show its attribute color_rgba.
+    """The part, of the materials that show its attribute color_rgba.
 
     Args:
+        fallback: the colour where nothing gives one.
         profile: the path of an ICC profile of cyan, magenta, yellow and black; None: by the mean of their light.
     """
 
-    def __init__(self, child: Node, profile: str | None) -> None:
-        super().__init__(child)
-        self._profile = profile
+    def __init__(self, part: Node, fallback: list[float], profile: str | None) -> None:
+        super().__init__(marked(part))
+        self._is_given = marker(_color) in marked_design(part).attributes
+        self._fallback, self._profile = fallback, profile
+
+    def _colour(self, solid: ombre.Solid) -> list[Any]:
+        if not self._is_given:
+            return self._fallback
+        is_given = ombre.attribute_of(solid, marker(_color)).value > 0.5
+        return [ombre.where(is_given, *values) for values in zip(numbers_of(solid, _color), self._fallback)]
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        colour = ombre.attribute_of(solids[0], "color_rgba")
+        *shade, alpha = self._colour(solids[0])
         if self._profile is None:
-            opaque = ombre.colour_mixture(colour.vector, list(_inks)).mixture
+            opaque = ombre.colour_mixture(shade, list(_inks)).mixture
         else:
-            opaque = ombre.ink_mixture(colour.vector, self._profile, list(_inks)).mixture
-        return ombre.material(solids[0], [ombre.mix(_clear, opaque, colour.alpha)])
+            opaque = ombre.ink_mixture(shade, self._profile, list(_inks)).mixture
+        return ombre.material(solids[0], [ombre.mix(_clear, opaque, alpha)])
 
 
 class ColorPipeline:
@@ -221,7 +243,7 @@ class ColorInkjetCompiler(_InkjetCompiler):
             of one in the folder of ColorPipeline.
     """
 
-    _required = ("color_rgba",)
+    _required = (_color,)
 
     def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, icc_profile: str = "default",
                  export_mode: ColorInkjetExportMode = ColorInkjetExportMode.STOCHASTIC,
@@ -230,18 +252,12 @@ class ColorInkjetCompiler(_InkjetCompiler):
         self._profile = _profile_path(os.fspath(icc_profile)) if steps.icc_profile_enabled else None
         super().__init__(root, voxel_size, output_directory, file_prefix, export_mode)
         self._materials = j750_materials
-        self._fallback: Any = (0, 0, 0, 0)
+        self._fallback = [0.0, 0.0, 0.0, 0.0]
 
     def set_fallback_color(self, color: Any) -> None:
         """Sets the colour, from 0 to 1, of places without any; clear at first."""
-        self._fallback = tuple(color)
-
-    def _check_strictly(self) -> None:
-        self._check_given("color_rgba")
+        red, green, blue, alpha = map(number, color)
+        self._fallback = [red, green, blue, alpha]
 
     def _tree(self) -> Node:
-        tree = self._root.clone()
-        for node in in_order(tree):
-            if not node._inputs() and "color_rgba" not in node._attributes:
-                node._attributes["color_rgba"] = Vec4Attribute(*self._fallback)
-        return _Coloured(tree, self._profile)
+        return _Coloured(self._root, self._fallback, self._profile)

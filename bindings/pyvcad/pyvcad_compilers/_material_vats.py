@@ -13,7 +13,6 @@ import numpy
 from pyvcad import Vec3
 from pyvcad._arguments import number
 from pyvcad._materials import expect_table
-from pyvcad._solids import is_unset
 from pyvcad._tree import as_node
 
 from ._attribute_compilers import _AttributeCompiler
@@ -43,8 +42,8 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
     """Writes a gray PNG for each vat and layer: vat_a/vata_layer_0000.png, ... from below.
 
     A draw for each pixel picks the vat by "volume_fractions"; its gray is the attribute MATERIAL_intensity, from 0 to 1, or
-    255 without it. The share of the material 0 stays black. The part lies in the middle of 1280 x 800 pixels, which are
-    55.01 x 34.38 mm, x to the right and y downward; the first layer begins at its lowest point.
+    255 where nothing gives it. The share of the material 0 stays black. The part lies in the middle of 1280 x 800 pixels,
+    which are 55.01 x 34.38 mm, x to the right and y downward; the first layer begins at its lowest point.
 
     Args:
         root: a node.
@@ -97,7 +96,7 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
         if (high - low > numpy.array(_volume) + 1e-6).any():
             raise RuntimeError(f"{what}: the part measures " + " x ".join(f"{c:.4g}" for c in high - low)
                                + " mm, more than the printer's " + " x ".join(f"{c:g}" for c in _volume))
-        self._check_everywhere("volume_fractions", is_unset, lambda node: node._fractions() is not None)
+        self._check_given("volume_fractions")
         folder = tempfile.mkdtemp(prefix="ombre_", dir=os.path.dirname(os.path.abspath(self._path)))
         try:
             self._write_layers(design, low, high, folder)
@@ -129,12 +128,8 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
                 image[numpy.ix_(near[1], near[0])] = gray
                 write_gray(os.path.join(folder, f"vat_{vat}", f"vat{vat}_layer_{layer:04}.png"), image)
 
-    @staticmethod
-    def _gray(design: Any, name: str, points: numpy.ndarray) -> Any:
-        attribute = f"{name}_intensity"
-        if attribute not in design.attributes:
-            return 255
-        return numpy.rint(255 * numpy.clip(design.attribute(attribute, points), 0, 1))
+    def _gray(self, design: Any, name: str, points: numpy.ndarray) -> numpy.ndarray:
+        return numpy.rint(255 * numpy.clip(self._numbers(f"{name}_intensity", design, points, 1.0), 0, 1))
 
     def _hand_over(self, folder: str) -> None:
         """Moves the images to where they are wanted."""

@@ -14,7 +14,6 @@ from ombre._materials import current_factory
 from pyvcad._arguments import not_negative
 from pyvcad._grids import centers, slabs
 from pyvcad._materials import MaterialDefs, default_materials, table_of
-from pyvcad._solids import is_unset
 from pyvcad._tree import Node, Unary
 
 from ._attribute_compilers import _AttributeCompiler
@@ -125,12 +124,8 @@ class MixedProject:
     def write(self, root: Node, voxel: Any, path: str, flavour: Any) -> None:
         kind = self._kind(root)
         share = self._compiler._share
-        if kind == BY_COLOUR:
-            self._compiler._check_given(kind)
-            candidates, points, numbers = self._by_colour()
-        else:
-            self._compiler._check_everywhere(kind, is_unset, lambda node: node._fractions() is not None)
-            candidates, points, numbers = self._by_shares()
+        self._compiler._check_given(kind)
+        candidates, points, numbers = self._by_colour() if kind == BY_COLOUR else self._by_shares()
         scored = _Scored(root, numbers)
         values, counts = self._values(scored, voxel, points, lambda done: share(done / 2))
         palette = palette_of(values, counts, points, self._rules.most)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy
 
 from pyvcad._arguments import length, number
+from pyvcad._defined import FRACTIONS, given
 from pyvcad._errors import missing
 from pyvcad._grids import centers, slabs
 from pyvcad._materials import default_materials, expect_table
@@ -23,7 +24,8 @@ _mm_per_inch = 25.4
 class MyersonCompiler(_AttributeCompiler):
     """Writes a BMP of one bit for each material and layer, black where it is: MATERIAL_00000.bmp, ... from below.
 
-    A draw for each pixel picks the material by "volume_fractions", the same in each run. The upper row has the greatest y.
+    A draw for each pixel picks the material by "volume_fractions", the same in each run; where nothing gives them there is none.
+    The upper row has the greatest y.
 
     Args:
         layer_height: mm.
@@ -51,12 +53,14 @@ class MyersonCompiler(_AttributeCompiler):
         self._check_attributes()
         names = [self._materials.name(id) for id in sorted(set(self._root.material_list()) - {0})]
         design = self._root._ombre_design_(self._materials)
+        self._check_strictly(self._required)
         os.makedirs(self._folder, exist_ok=True)
         for layers, points in slabs(centers(design.bounds, self._voxel), self._share):
             for n, layer in enumerate(range(layers.start, layers.stop)):
                 chosen = drawn_materials(type(self).__name__, design, points[n], names, numpy.random.default_rng(layer))
+                is_said = given(self._root, FRACTIONS, points[n])
                 for material, name in enumerate(names):
-                    _write_bits(os.path.join(self._folder, f"{name}_{layer:05}.bmp"), chosen == material)
+                    _write_bits(os.path.join(self._folder, f"{name}_{layer:05}.bmp"), is_said & (chosen == material))
         self._report(1.0)
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy
 
 from pyvcad._arguments import boolean, voxel_size
+from pyvcad._defined import FRACTIONS
 from pyvcad._simulation.element_meshes import described, tetra_criteria
 from pyvcad._simulation.elements import Elements, bricks_of, tetrahedra_of
 from pyvcad._simulation.hdf5 import h5py
@@ -128,6 +129,7 @@ class SimulationCompiler(_AttributeCompiler):
             h5py("SimulationCompiler with FENICSX_XDMF")
         self._files = []
         elements = self._elements()
+        self._check_elements(elements, names)
         self._model = self._described(elements, names)
         if settings.backend is not SimulationBackend.GENERIC:
             self._write(elements)
@@ -151,6 +153,13 @@ class SimulationCompiler(_AttributeCompiler):
             cell = voxel_size(settings.hex_settings.voxel_size)
             return bricks_of(design, cell, settings.random_seed, self._share)
         return tetrahedra_of(design, tetra_criteria(settings.tet_fixed_settings), settings.random_seed, self._share)
+
+    def _check_elements(self, elements: Elements, names: list[str]) -> None:
+        """In strict mode, checks that all elements have the attributes, and fractions if some have them."""
+        if self._is_strict:
+            middles = elements.centroids[self._root._design().inside(elements.centroids)]
+            for name in [*names, *({FRACTIONS} & {*self._root.attribute_list()})]:
+                self._check_points(name, middles)
 
     def _described(self, elements: Elements, names: list[str]) -> SimulationModel:
         each = elements.cells.shape[1]

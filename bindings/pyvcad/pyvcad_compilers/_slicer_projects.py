@@ -2,10 +2,16 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+import re
+from typing import Any, NamedTuple
 
+import numpy
+
+import ombre
 from pyvcad._attributes import DefaultAttributes
-from pyvcad._tree import as_node
+from pyvcad._defined import are_everywhere, given, marked, marker
+from pyvcad._grids import centers, slabs
+from pyvcad._tree import Node, Unary, as_node
 
 from ._attribute_compilers import _AttributeCompiler
 from ._compilers import Path, _voxel
@@ -21,8 +27,9 @@ _settings = ("INFILL_DENSITY FUZZY_SKIN_POINT_DISTANCE FUZZY_SKIN_THICKNESS BRID
 
 class PrusaSlicerProjectCompiler(_AttributeCompiler):
     """Writes a .3mf for PrusaSlicer: a body for each band of slicers' attributes (infill_density, perimeter_speed, ...),
-    with the settings of the band's middle. Several attributes are crossed, each in so many bands. The attributes temperature and
-    flow_rate become tools of one nozzle, whose changes set them; they need both profiles.
+    with the settings of the band's middle. Several attributes are crossed, each in so many bands. Places without an attribute are
+    bodies without its setting; if there are some, attributes that are everywhere have a band more. The attributes temperature and
+    flow_rate become tools of one nozzle, whose changes set them; they need both profiles, and a value everywhere.
 
     Args:
         root: a node.
@@ -79,10 +86,40 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         if tools and len(self._profiles) < 2:
             raise RuntimeError(f"PrusaSlicerProjectCompiler: {' and '.join(tools)} of tools need printer_profile_path and "
                                "filament_profile_path")
+        self._check_strictly(chosen)
+        for name in tools:
+            self._check_given(name)
+        gaps = self._gaps(chosen)
         os.makedirs(os.path.dirname(os.path.abspath(self._path)), exist_ok=True)
-        self._root._design().mesh(self._path, by=",".join(chosen), bands=self._bands, flavour="prusa", force=True,
-                                  tolerance=min(self._voxel) / 8, virtual_tools=bool(tools), progress=self._share)
+        root: Node = _Filled(self._root, gaps) if gaps else self._root
+        root._design().mesh(self._path, by=",".join(chosen), bands=self._bands + bool(gaps), flavour="prusa", force=True,
+                            tolerance=min(self._voxel) / 8, virtual_tools=bool(tools), progress=self._share)
+        if gaps:
+            rewrite(self._path, lambda name, content: _without_settings(content, list(gaps)) if name in _bodies else content)
         self._finish()
+
+    def _gaps(self, names: list[str]) -> dict[str, _Range]:
+        """The ranges of the attributes that nothing gives in some places of the part, with a band for these places."""
+        partial = [name for name in names if not are_everywhere(self._root, [name])]
+        if not partial:
+            return {}
+        design = self._root._design()
+        pitch = max(high - low for low, high in zip(*design.bounds)) / _samples
+        found: dict[str, list[numpy.ndarray]] = {name: [] for name in partial}
+        has_gap = dict.fromkeys(partial, False)
+        for _, grid in slabs(centers(design.bounds, (pitch, pitch, pitch)), lambda share: self._share(0.0)):
+            points = grid[design.inside(grid)]
+            for name in partial:
+                is_given = given(self._root, name, points)
+                values = design.attribute(name, points[is_given])
+                found[name].append(values[numpy.isfinite(values)])
+                has_gap[name] |= not is_given.all()
+        values = {name: numpy.concatenate(found[name]) for name in partial if has_gap[name]}
+        return {name: self._range(float(of.min()), float(of.max())) for name, of in values.items() if len(of)}
+
+    def _range(self, low: float, high: float) -> _Range:
+        width = max((high - low) / self._bands, _least_width * max(abs(low), abs(high), 1))
+        return _Range(low, high, high + _beyond * width)
 
     def _mix(self, banded: list[str]) -> None:
         if banded:
@@ -102,6 +139,50 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         return self._mixed.recipes
 
 
+class _Range(NamedTuple):
+    """The least and the greatest number of an attribute, and one for places without it, which is a band farther up."""
+
+    low: float
+    high: float
+    beyond: float
+
+
+class _Filled(Unary):
+    """The part, whose attributes have their number beyond the range where nothing gives them."""
+
+    def __init__(self, part: Node, ranges: dict[str, _Range]) -> None:
+        super().__init__(marked(part))
+        self._ranges = ranges
+
+    def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
+        solid = solids[0]
+        for name, (low, high, beyond) in self._ranges.items():
+            is_given = ombre.attribute_of(solids[0], marker(name)).value > 0.5
+            value = ombre.clamp(low, ombre.attribute_of(solids[0], name).value, high)
+            solid = ombre.attribute(solid, name, ombre.where(is_given, value, beyond))
+        return solid
+
+
+def _without_settings(content: bytes, names: list[str]) -> bytes:
+    """The list of bodies, or of their materials, in which those of the last band have no setting by these attributes."""
+    text = content.decode()
+    for name in names:
+        text = re.sub(rf"\b{name} from [^,\"]*", f"without {name}", text)
+    return re.sub(r"<volume .*?</volume>", lambda body: _without_keys(body[0], names), text, flags=re.DOTALL).encode()
+
+
+def _without_keys(body: str, names: list[str]) -> str:
+    for name in names:
+        # PrusaSlicer's keys are the attributes' names or parts of them.
+        keys = [key for key in re.findall(r'key="(\w+)"', body) if key in name]
+        if keys and re.search(rf"\bwithout {name}\b", body):
+            body = re.sub(rf'<metadata [^>]*key="{max(keys, key=len)}"[^>]*/>\n?', "", body)
+    return body
+
+
+_samples = 96  # points along the longest side of the box, for ranges
+_beyond, _least_width = 1.001, 1e-4  # of the band of places without an attribute, in bands; of bands, in the numbers themselves
+_bodies = ("3D/3dmodel.model", "Metadata/Slic3r_PE_model.config")
 _tools = ("temperature", "flow_rate")
 _config = "Metadata/Slic3r_PE.config"
 # What a project assumes unless a profile says it, and what stands between the values of its extruders.

@@ -145,14 +145,14 @@ def _spread(inside: Callable[[int], tuple[numpy.ndarray, numpy.ndarray]], is_den
 
 
 class _Within(Unary):
-    """What a function makes of a body, such as struts that lie in it."""
+    """What a function makes of a body, such as struts that lie in it; of the body's materials and attributes."""
 
     def __init__(self, host: Node, make: Callable[[ombre.Solid], ombre.Solid]) -> None:
         super().__init__(host)
         self._of = make
 
     def _make(self, solids: list[ombre.Solid]) -> ombre.Solid:
-        return self._of(solids[0])
+        return _cut(solids[0], self._of(solids[0]))
 
 
 def _places(what: str, points: Any) -> list[list[float]]:
@@ -192,8 +192,8 @@ def _struts(what: str, host: Any, places: list[list[float]], edges: list[Any], o
         if closes or fillet:
             struts = of_points(places, radius, region=body, closed=closes, **({"blend": fillet} if fillet else {}))
         else:
-            struts = _cut(body, ombre.lattice(edges=edges, radius=radius))
-        return struts if balls is None else ombre.union(struts, _cut(body, _balls(edges, balls)), materials="first")
+            struts = ombre.lattice(edges=edges, radius=radius)
+        return struts if balls is None else ombre.union(struts, _balls(edges, balls), materials="first")
     return _Within(as_node(host), make)
 
 
