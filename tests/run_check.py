@@ -139,6 +139,12 @@ def trays_find_the_files_of_their_parts(folder):
         expect(point["inside"], f"{point}")
 
 
+def trays_are_json(folder):
+    folder.write("one.vcad", "cube(2);")
+    error = folder.run("tray", "one.vcad", *machine(folder), "-o", "tray.txt", status=2).stderr
+    expect("give it a name that ends in .json" in error, error)
+
+
 def examples_have_no_faults(folder):
     for design in sorted((program.SOURCE / "examples").glob("*.vcad")):
         if design.stem in LARGE:
@@ -151,7 +157,7 @@ def examples_have_no_faults(folder):
 
 CHECKS = program.named([faults_are_corrected_by_so_much, hollows_get_drains, what_it_cannot_correct_is_said,
                         slicing_warns_beforehand, trays_hold_copies,
-                        trays_find_the_files_of_their_parts])
+                        trays_find_the_files_of_their_parts, trays_are_json])
 LONG = program.named([examples_have_no_faults])
 
 if __name__ == "__main__":

@@ -125,8 +125,7 @@ int run(const ResolveChoices& a, const ResolvePlan& plan, Session& session) {
 void check_choices(const ResolveChoices& a) {
   if (!a.output.empty() && a.printers.size() > 1)
     throw WrongArgument("-o writes the design for one printer; give one " + spelled::option("--printer"));
-  if (!a.output.empty() && !a.output.ends_with(".json"))
-    throw WrongArgument("-o writes a design file; give it a name that ends in .json");
+  if (!a.output.empty()) check_design_file(a.output);
   for (const std::string& file : {a.output, a.report.file})
     if (!file.empty()) refuse_to_overwrite(file, a.report.force);
 }

@@ -104,7 +104,10 @@ int run(const TrayPlan& made, const TrayChoices& a, Session& session) {
 
 int tray(const TrayChoices& a, Session& session) {
   JobSteps<TrayPlan> steps;
-  steps.refuse = [&] { refuse_to_overwrite(a.output, a.force); };
+  steps.refuse = [&] {
+    check_design_file(a.output);
+    refuse_to_overwrite(a.output, a.force);
+  };
   steps.plan = [&](Diagnostics& diagnostics) { return plan(a, session, diagnostics); };
   steps.run = [&](const TrayPlan& made) { return run(made, a, session); };
   return take_steps(steps, session);
