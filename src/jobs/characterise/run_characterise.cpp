@@ -170,7 +170,7 @@ std::optional<Characteristics> characterise(const CharacteriseChoices& a, Sessio
   const auto options = loaded ? plan_options({}, a.work, session, diagnostics) : std::nullopt;
   if (!options) return std::nullopt;
   compile::CharacteriseRequest request = request_of(a, session);
-  JobProgress progress(session.events);
+  JobProgress progress(session.events, Counted::steps);  // layers of voxels, then slabs of the mesh
   request.progress = &progress;
   auto found = characteristics_of(loaded, request, *options, diagnostics);
   progress.finish();
