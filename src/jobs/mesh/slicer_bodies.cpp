@@ -45,7 +45,7 @@ Settings settings_of(const std::vector<SlicerSetting>& settings, size_t body, co
       throw WrongArgument(spelled::option("--setting", setting.key()) + " lists " + std::to_string(setting.listed()) +
                           " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
     if (setting.is_of_object(choices.flavour)) continue;
-    values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
+    values.emplace_back(setting.key(), setting.value(choices.flavour, body, made.bodies[body].share));
   }
   add_attributes(made.bodies[body].region, choices.flavour, values);
   // Bodies of materials and parts have an extruder each, in their order; bands share one.
@@ -75,7 +75,7 @@ formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string
   }
   for (const SlicerSetting& setting : settings)
     if (setting.is_of_object(choices.flavour))
-      document.project.object_settings.emplace_back(setting.key(), setting.value(0, 0));
+      document.project.object_settings.emplace_back(setting.key(), setting.value(choices.flavour, 0, 0));
   return document;
 }
 
