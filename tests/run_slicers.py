@@ -319,6 +319,10 @@ def slips_get_remedies(designs):
         expect(message in reported, f"{options}: {reported}")
     reported = designs.mesh("halves.vcad", "--by", "temperature", "--bands", "2", "--flavour", "prusa")
     expect("temperature is no setting of a body in PrusaSlicer" in reported and "--virtual-tools" in reported, reported)
+    for low, words in (("0.25 + z/100", "have fill_density=0%"), ("25 + z", "")):
+        designs.write("dense.vcad", f'attribute("infill_density", "{low}") cube(10);')  # 0.2 to 0.3, and 20 to 30
+        reported = designs.mesh("dense.vcad", "--by", "infill_density", "--bands", "2", "--flavour", "prusa")
+        expect(words in reported and reported.count("become the same setting") == bool(words), reported)
     designs.mesh("halves.vcad", "--flavour", "orca", "--setting", "brim_width=3", "--setting", "sparse_infill_pattern=gyroid")
     config = designs.entry("Metadata/model_settings.config")
     expect(config.index('key="brim_width"') < config.index("<part") < config.index('key="sparse_infill_pattern"'), config)
