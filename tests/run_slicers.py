@@ -328,6 +328,14 @@ def slips_get_remedies(designs):
     expect(config.index('key="brim_width"') < config.index("<part") < config.index('key="sparse_infill_pattern"'), config)
 
 
+def files_without_settings_refuse_them(designs):
+    for options in (["--setting", "perimeters=3"], ["--flavour", "prusa"], ["--setting", "perimeters=3", "--flavour", "prusa"]):
+        result = program.run([designs.ombre, "mesh", "halves.vcad", "-o", "out.stl", *options], cwd=designs.path)
+        expect(result.returncode == 1 and "out.stl holds no settings of slicers; write .3mf or .amf" in result.stderr,
+               f"{options}: {result.stderr}")
+        expect(not (designs.path / "out.stl").exists(), f"{options} were lost")
+
+
 def commands_of_the_page_work(designs):
     page = (program.SOURCE / "docs" / "user" / "fff-projects.md").read_text(encoding="utf-8")
     designs.write("handle.vcad", re.search(r"```openscad\n(.*?)```", page, re.DOTALL)[1])
@@ -340,7 +348,7 @@ def commands_of_the_page_work(designs):
 
 CHECKS = program.named([materials_are_filaments, mixtures_are_layer_cycles, materials_are_mixed_of_filaments, tools_set_temperature_and_flow,
                         heights_have_settings, bands_are_as_few_as_their_distance_takes, surfaces_are_painted,
-                        slips_get_remedies, commands_of_the_page_work])
+                        slips_get_remedies, files_without_settings_refuse_them, commands_of_the_page_work])
 
 if __name__ == "__main__":
     raise SystemExit(program.main(Designs, CHECKS))
