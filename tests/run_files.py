@@ -411,6 +411,15 @@ def reference_is_up_to_date(job):
                                  f"{job.ombre} {command} --markdown > docs/reference/{command}.md")
 
 
+def rows_of_tables_have_the_cells_of_their_heads(job):
+    for page in sorted((program.SOURCE / "docs").rglob("*.md")):
+        cells = None
+        for line in page.read_text(encoding="utf-8").splitlines():
+            count = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else None
+            expect(cells is None or count is None or count == cells, f"{page}: {line}")
+            cells = count
+
+
 def examples_of_nodes_slice(job):
     listed = program.run([job.ombre, "nodes", "--json"]).stdout
     for node in map(json.loads, listed.splitlines()):
@@ -431,6 +440,7 @@ CHECKS = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make
           gray_images_show_brightness, images_of_values_have_channels, masks_resume_and_are_replaced, layers_of_masks_have_several_files,
           layers_are_those_of_the_job, boxes_cut_layers, boxes_cut_jobs, layers_have_names_and_are_not_overwritten,
           wrong_layers_are_explained, links_lead_to_what_lies_beside_them, bundles_slice_as_their_designs_do, reference_is_up_to_date,
+          rows_of_tables_have_the_cells_of_their_heads,
           examples_of_nodes_slice, suggestions_of_examples_work, designs_of_openscad_are_explained]
 
 if __name__ == "__main__":
