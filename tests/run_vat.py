@@ -143,7 +143,7 @@ def doses_follow_the_working_curve(folder):
     wrong = folder.run(*arguments, status=1).stderr
     expect("black gets no light" in wrong and "--range 0," in wrong, wrong)
     said = folder.run(*arguments[:-1], "clipped.sl1", "--range", "0,20").stderr
-    # exp(1 + x/10) * 8 is above 20 from x = -0.84 on, so in the 15 columns from x = -0.9 + 0.1 on.
+    # 8 exp(1 + x/10) is above 20 from x = -0.84 on.
     columns = sum(GEL * math.exp((0.1 + 0.01 * (-2 + 0.2 * (i + 0.5))) / DEPTH) > 20 for i in range(20))
     layers = sum(name.startswith("layer") for name in layers_of(folder.path / "clipped.sl1"))
     expect(f"dose is above the range of the images, which ends at 20 mJ/cm2 ({columns * 20 * layers:,} voxels" in said, said)
