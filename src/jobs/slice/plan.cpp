@@ -230,7 +230,8 @@ bool warn_of_joined(const design::Design& design, const Box& box, int threads, c
   const auto found = find_materials(design, box, threads, diagnostics);
   if (found && found->names.size() > 1)
     diagnostics.warning(where, "images of coverage show " + join(found->names, " and ") + " alike, as one material",
-                        "write " + spelled::option("--by", found->names.front()) + " for one of them");
+                        "write " + spelled::option("--by", found->names.front()) + " in place of " +
+                            spelled::option("--antialias") + " for one of them");
   return found.has_value();
 }
 
