@@ -163,7 +163,7 @@ def wrong_use_is_reported_before_anything_is_measured(folder):
             ([*curve, "--key", "densty"], 'did you mean "density"?'),
             (["--stiffness", *curve, "--key", "modulus"], 'no column "modulus"')):
         said = run(folder, "wall = 2;\nsphere(wall);", "--voxel", "0.5", *arguments, status=1).stderr
-        expect(words in said and "volume" not in said and ": density" not in said, f"{arguments}: {said}")
+        expect(words in said and "volume " not in said and ": density" not in said, f"{arguments}: {said}")
 
 
 def random_cells_are_counted(folder):

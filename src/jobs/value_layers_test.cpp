@@ -141,7 +141,8 @@ TEST(ValueLayers, ColoursHaveNoRange) {
   }
 }
 
-// The dose is below 3 in the lowest four layers of 24 x 24 voxels, and above 7 in the highest four.
+// The dose is below 3 in the lowest four layers of 24 x 24 voxels, and above 7 in the highest four. It is 0 in the 24
+// layers of the cuboid beside, which has none.
 TEST(ValueLayers, VoxelsBeyondAChosenRangeAreCounted) {
   const Plan plan = planned(dosed, {"dose", Interval(3, 7)});
   EXPECT_EQ(plan.request.check_texts,
@@ -152,11 +153,12 @@ TEST(ValueLayers, VoxelsBeyondAChosenRangeAreCounted) {
     sums.add(layer.checks);
   const auto reports = sums.reports();
   ASSERT_EQ(reports.size(), 2u);
-  for (const CheckReport& report : reports) EXPECT_EQ(report.voxels, 4u * 24 * 24) << report.text;
+  EXPECT_EQ(reports[0].voxels, (4u + 24) * 24 * 24);
+  EXPECT_EQ(reports[1].voxels, 4u * 24 * 24);
   EXPECT_DOUBLE_EQ(reports[0].first_mm.z, -2.875);
   EXPECT_DOUBLE_EQ(reports[1].first_mm.z, 2.125);
   EXPECT_TRUE(planned(dosed, {"dose", std::nullopt}).request.check_texts.empty());
-  const Plan wide = planned(dosed, {"dose", Interval(2, 8)});
+  const Plan wide = planned(dosed, {"dose", Interval(0, 8)});
   for (const voxel::LayerResult& layer : wide.producer(0, 24, nullptr))
     for (const voxel::CheckHits& hits : layer.checks) EXPECT_EQ(hits.count, 0u);
 }

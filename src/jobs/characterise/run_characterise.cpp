@@ -84,8 +84,8 @@ bool is_of_stiffness(const std::string& name) {
 
 void refuse_key(const std::string& key, const std::vector<std::string>& names) {
   const std::string close = did_you_mean(key, names);
-  throw WrongArgument("there is no column \"" + key + "\"; there are " + join(names, ", ") +
-                      (close.empty() ? "" : "; " + close));
+  throw WrongArgument("there is no column \"" + key + "\"; " +
+                      (close.empty() ? "there are " + join(names, ", ") : close));
 }
 
 // Refuses a column that no table has. Those of a stiffness are known once there is one.
