@@ -158,6 +158,7 @@ TEST(ValueLayers, VoxelsBeyondAChosenRangeAreCounted) {
   EXPECT_DOUBLE_EQ(reports[0].first_mm.z, -2.875);
   EXPECT_DOUBLE_EQ(reports[1].first_mm.z, 2.125);
   EXPECT_TRUE(planned(dosed, {"dose", std::nullopt}).request.check_texts.empty());
+  EXPECT_TRUE(planned(dosed, {"dose", Interval(3, 7), 1}).request.check_texts.empty());  // a mask has no more values
   const Plan wide = planned(dosed, {"dose", Interval(0, 8)});
   for (const voxel::LayerResult& layer : wide.producer(0, 24, nullptr))
     for (const voxel::CheckHits& hits : layer.checks) EXPECT_EQ(hits.count, 0u);

@@ -246,7 +246,8 @@ std::optional<Plan> plan_value(const LoadedPtr& loaded, const PlanOptions& optio
   plan.stages = stages_of(design);
   plan.request = base_request(options, lattice, design::hash(loaded->design), *channel);
   if (!set_light(plan.request, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
-  const RangeChecks checks = options.value->range ? RangeChecks::both_ends : RangeChecks::none;
+  const bool has_own_range = options.value->range && voxel::channel_kind(channel->type).is_dose();
+  const RangeChecks checks = has_own_range ? RangeChecks::both_ends : RangeChecks::none;
   if (checks == RangeChecks::both_ends) plan.request.check_texts = texts_of_range_checks(*channel);
   auto regions = value_layers(design, lattice, plan.request.channels, plan.request.evaluator, diagnostics, checks);
   if (!regions) return std::nullopt;
