@@ -75,6 +75,20 @@ class Folder:
     def read(self, name):
         return (self.path / name).read_text(encoding="utf-8")
 
+    def write_design_of_files(self, attributes=""):
+        """Writes sub/part.vcad, which reads files beside it: a mesh with the corners 0 and 6, and a table from 1 to 2."""
+        corners = [(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6)]
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        (self.path / "sub").mkdir()
+        self.write("sub/corner.off", "\n".join(["OFF", "4 4 0"] + [" ".join(map(str, c)) for c in corners] +
+                                               [" ".join(map(str, (3, *f))) for f in faces]) + "\n")
+        self.write("sub/sizes.csv", "0,1\n10,2\n")
+        self.write("sub/part.vcad", attributes + """union() {
+  mesh("corner.off");
+  translate(20, 0, 0) sphere(table("sizes.csv", "z"));
+}
+""")
+
     def bytes(self, name):
         return (self.path / name).read_bytes()
 

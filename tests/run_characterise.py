@@ -152,6 +152,20 @@ def wrong_use_is_reported(folder):
     expect("unbounded" in reported('tpms("gyroid", material="red");', "--voxel", "1"), "no box")
 
 
+def wrong_use_is_reported_before_anything_is_measured(folder):
+    folder.write("heat.json", {"physics": "heat", "materials": {"red": {"conductivity_w_mk": 1}}})
+    curve = ["--sweep", "wall=1..2:3", "-o", "a.csv"]
+    for arguments, words in (
+            (["--stiffness"], 'no elastic properties of "red"'),
+            (["--stiffness", "-o", "a.json"], 'no elastic properties of "red"'),
+            (["--stiffness", *curve], 'no elastic properties of "red"'),
+            (["--stiffness", "--study", "heat.json", "--picture", "h.svg"], "--picture h.svg is a chart of stiffness"),
+            ([*curve, "--key", "densty"], 'did you mean "density"?'),
+            (["--stiffness", *curve, "--key", "modulus"], 'no column "modulus"')):
+        said = run(folder, "wall = 2;\nsphere(wall);", "--voxel", "0.5", *arguments, status=1).stderr
+        expect(words in said and "volume " not in said and ": density" not in said, f"{arguments}: {said}")
+
+
 def random_cells_are_counted(folder):
     """Points of a body-centred lattice have truncated octahedra as cells: 14 faces, 36 edges of sqrt(2)/4 of its side."""
     design = ("points = [for (i = [0:3], j = [0:3], k = [0:3], off = [0, 0.5]) [4*(i + off), 4*(j + off), 4*(k + off)]];\n"
@@ -199,7 +213,7 @@ translate(20, 0, 0) lattice(edges=[[(0, 0, 0), (3, 0, 0)], [(3, 0, 0), (8, 0, 0)
 
 CHECKS = [graphs_of_cells_are_counted, graphs_of_edges_are_counted, random_cells_are_counted, balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
           walls_have_their_thickness, folded_sheets_have_their_slope, thin_struts_have_their_length, stiffness_is_that_of_homogenise, curves_are_tables,
-          wrong_use_is_reported]
+          wrong_use_is_reported, wrong_use_is_reported_before_anything_is_measured]
 
 
 if __name__ == "__main__":

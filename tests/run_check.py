@@ -123,6 +123,27 @@ def trays_hold_copies(folder):
         expect(part in error, error)
 
 
+def trays_find_the_files_of_their_parts(folder):
+    """A tray names files relative to itself, wherever it is used."""
+    printer = machine(folder)
+    folder.write_design_of_files()
+    folder.run("tray", "sub/part.vcad", "--count", "2", *printer, "-o", "sub/tray.json")
+    expect('"path": "corner.off"' in folder.read("sub/tray.json"), folder.read("sub/tray.json"))
+    (folder.path / "other").mkdir()
+    folder.run("tray", "sub/part.vcad", *printer, "-o", "other/tray.json")
+    written = folder.read("other/tray.json")
+    expect('"../sub/corner.off"' in written and '"../sub/sizes.csv"' in written, written)
+    for place in ("sub", "other"):
+        probed = program.run([folder.ombre, "probe", "tray.json", "--at", "1,1,1"], cwd=folder.path / place)
+        expect(probed.returncode == 0, probed.stderr)
+
+
+def trays_are_json(folder):
+    folder.write("one.vcad", "cube(2);")
+    error = folder.run("tray", "one.vcad", *machine(folder), "-o", "tray.txt", status=1).stderr
+    expect("give it a name that ends in .json" in error, error)
+
+
 def examples_have_no_faults(folder):
     for design in sorted((program.SOURCE / "examples").glob("*.vcad")):
         if design.stem in LARGE:
@@ -134,7 +155,8 @@ def examples_have_no_faults(folder):
 
 
 CHECKS = program.named([faults_are_corrected_by_so_much, hollows_get_drains, what_it_cannot_correct_is_said,
-                        slicing_warns_beforehand, trays_hold_copies])
+                        slicing_warns_beforehand, trays_hold_copies,
+                        trays_find_the_files_of_their_parts, trays_are_json])
 LONG = program.named([examples_have_no_faults])
 
 if __name__ == "__main__":

@@ -411,6 +411,36 @@ def reference_is_up_to_date(job):
                                  f"{job.ombre} {command} --markdown > docs/reference/{command}.md")
 
 
+def listings_of_pages_are_up_to_date(job):
+    page = (program.SOURCE / "docs/user/materials-and-printers.md").read_text(encoding="utf-8")
+    listing = program.run([job.ombre, "printers"]).stdout
+    expect(f"$ ombre printers\n{listing}```" in page, "docs/user/materials-and-printers.md lists other printers than the program")
+
+
+def headings(text):
+    """The names of a page's headings as links have them."""
+    return {re.sub(r" ", "-", re.sub(r"[^\w\- ]", "", re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading)).lower())
+            for heading in re.findall(r"^#+ +(.*)$", text, re.MULTILINE)}
+
+
+def links_of_pages_lead_to_headings(job):
+    pages = [*program.SOURCE.resolve().glob("*.md"), *(program.SOURCE.resolve() / "docs").rglob("*.md")]
+    texts = {page: re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL) for page in pages}
+    for page, text in texts.items():
+        for name, heading in re.findall(r"\]\(([^):#\s]*)#([^)\s]+)\)", text):
+            target = (page.parent / name).resolve() if name else page
+            expect(target not in texts or heading in headings(texts[target]), f"{page} links to {name}#{heading}")
+
+
+def rows_of_tables_have_the_cells_of_their_heads(job):
+    for page in sorted((program.SOURCE / "docs").rglob("*.md")):
+        cells = None
+        for line in page.read_text(encoding="utf-8").splitlines():
+            count = len(re.findall(r"(?<!\\)\|", line)) if line.startswith("|") else None
+            expect(cells is None or count is None or count == cells, f"{page}: {line}")
+            cells = count
+
+
 def examples_of_nodes_slice(job):
     listed = program.run([job.ombre, "nodes", "--json"]).stdout
     for node in map(json.loads, listed.splitlines()):
@@ -431,6 +461,7 @@ CHECKS = [threads_do_not_change_bytes, memory_does_not_change_bytes, pieces_make
           gray_images_show_brightness, images_of_values_have_channels, masks_resume_and_are_replaced, layers_of_masks_have_several_files,
           layers_are_those_of_the_job, boxes_cut_layers, boxes_cut_jobs, layers_have_names_and_are_not_overwritten,
           wrong_layers_are_explained, links_lead_to_what_lies_beside_them, bundles_slice_as_their_designs_do, reference_is_up_to_date,
+          rows_of_tables_have_the_cells_of_their_heads, listings_of_pages_are_up_to_date, links_of_pages_lead_to_headings,
           examples_of_nodes_slice, suggestions_of_examples_work, designs_of_openscad_are_explained]
 
 if __name__ == "__main__":

@@ -264,6 +264,16 @@ def resolved_designs_are_designs(folder):
     expect("takes temperature and flow_rate, not layers of materials" in wrong, wrong)
 
 
+def resolved_designs_find_their_files(folder):
+    folder.write_design_of_files('attribute("temperature", "238 + 3*z") ')
+    (folder.path / "other").mkdir()
+    for place, name in (("sub", "corner.off"), ("other", "../sub/corner.off")):
+        folder.run("resolve", "sub/part.vcad", "--printer", "fff-foaming-pla", "-o", f"{place}/resolved.json")
+        expect(f'"{name}"' in folder.read(f"{place}/resolved.json"), place)
+        result = program.run([folder.ombre, "probe", "resolved.json", "--at", "1,1,1", "--json"], cwd=folder.path / place)
+        expect(json.loads(result.stdout)["inside"], result.stderr)
+
+
 def values_are_resolved_too(folder):
     """Layers that show an attribute which the design does not give itself."""
     folder.write("hot.vcad", 'attribute("temperature", "238 + 3*x") cube(10);')
@@ -300,6 +310,7 @@ def wrong_words(folder):
 CHECKS = program.named((slices_have_the_fractions, out_of_reach_is_refused, reports_of_intent,
                         two_properties_choose_three_materials, mixtures_of_ones_own_are_judged, processes_compare, five_processes, shipped_processes,
                         slices_take_what_decides, what_remains_is_left_to_the_next_process, resolved_designs_are_designs,
+                        resolved_designs_find_their_files,
                         values_are_resolved_too, a_job_without_a_calibration_says_so, wrong_words))
 
 if __name__ == "__main__":

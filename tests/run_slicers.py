@@ -322,6 +322,13 @@ def slips_get_remedies(designs):
             (["--flavour", "bambu", "--setting", "gyroid_optimized=1"], "Bambu Studio has no such setting"),
             (["--by", "red", "--bands", "2", "--setting", "brim_width=1,2"], "one for all bodies of a part"),
             (["--setting", "extruder=20"], "numbered from 1 to 16"),
+            (["--setting", "perimeters=two"], "a whole number, 0 or more; write for example --setting perimeters=3"),
+            (["--setting", "perimeters=-3"], "a whole number, 0 or more"),
+            (["--by", "red", "--bands", "2", "--setting", "perimeters=2,2.5"], "a whole number, 0 or more"),
+            (["--setting", "layer_height=abc"], "a number above 0"),
+            (["--setting", "infill_speed=fast"], "a number, 0 or more"),
+            (["--setting", "fill_density=900%"], "a share from 0% to 100%"),
+            (["--by", "red", "--bands", "2", "--setting", "fill_density=10%..120%"], "fill_density=120%"),
             (["--mix-layers", "4"], "--flavour prusa, bambu, orca or snapmaker"),
             (["--flavour", "prusa", "--mix-layers", "9"], "6"),
             (["--flavour", "bambu", "--virtual-tools"], "--flavour prusa, orca or snapmaker"),
@@ -331,9 +338,24 @@ def slips_get_remedies(designs):
         expect(message in reported, f"{options}: {reported}")
     reported = designs.mesh("halves.vcad", "--by", "temperature", "--bands", "2", "--flavour", "prusa")
     expect("temperature is no setting of a body in PrusaSlicer" in reported and "--virtual-tools" in reported, reported)
+    designs.write("walls.vcad", 'attribute("perimeters", "3 + z/10") cube(10);')
+    reported = designs.mesh("walls.vcad", "--by", "perimeters", "--bands", "2", "--flavour", "prusa")
+    expect("perimeters below 3:" in reported and "perimeters from 3:" in reported, reported)
+    for low, words in (("0.25 + z/100", "have fill_density=0%"), ("25 + z", "")):
+        designs.write("dense.vcad", f'attribute("infill_density", "{low}") cube(10);')  # 0.2 to 0.3, and 20 to 30
+        reported = designs.mesh("dense.vcad", "--by", "infill_density", "--bands", "2", "--flavour", "prusa")
+        expect(words in reported and reported.count("become the same setting") == bool(words), reported)
     designs.mesh("halves.vcad", "--flavour", "orca", "--setting", "brim_width=3", "--setting", "sparse_infill_pattern=gyroid")
     config = designs.entry("Metadata/model_settings.config")
     expect(config.index('key="brim_width"') < config.index("<part") < config.index('key="sparse_infill_pattern"'), config)
+
+
+def files_without_settings_refuse_them(designs):
+    for options in (["--setting", "perimeters=3"], ["--flavour", "prusa"], ["--setting", "perimeters=3", "--flavour", "prusa"]):
+        result = program.run([designs.ombre, "mesh", "halves.vcad", "-o", "out.stl", *options], cwd=designs.path)
+        expect(result.returncode == 1 and "out.stl holds no settings of slicers; write .3mf or .amf" in result.stderr,
+               f"{options}: {result.stderr}")
+        expect(not (designs.path / "out.stl").exists(), f"{options} were lost")
 
 
 def commands_of_the_page_work(designs):
@@ -348,7 +370,7 @@ def commands_of_the_page_work(designs):
 
 CHECKS = program.named([materials_are_filaments, mixtures_are_layer_cycles, materials_are_mixed_of_filaments, numbers_of_filaments_have_limits, tools_set_temperature_and_flow,
                         heights_have_settings, bands_are_as_few_as_their_distance_takes, surfaces_are_painted,
-                        slips_get_remedies, commands_of_the_page_work])
+                        slips_get_remedies, files_without_settings_refuse_them, commands_of_the_page_work])
 
 if __name__ == "__main__":
     raise SystemExit(program.main(Designs, CHECKS))

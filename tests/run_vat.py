@@ -142,6 +142,12 @@ def doses_follow_the_working_curve(folder):
     arguments = ["slice", "part.vcad", "--printer", "./grey.json", "--by", "dose", "-o", "other.sl1"]
     wrong = folder.run(*arguments, status=1).stderr
     expect("black gets no light" in wrong and "--range 0," in wrong, wrong)
+    said = folder.run(*arguments[:-1], "clipped.sl1", "--range", "0,20").stderr
+    # 8 exp(1 + x/10) is above 20 from x = -0.84 on.
+    columns = sum(GEL * math.exp((0.1 + 0.01 * (-2 + 0.2 * (i + 0.5))) / DEPTH) > 20 for i in range(20))
+    layers = sum(name.startswith("layer") for name in layers_of(folder.path / "clipped.sl1"))
+    expect(f"dose is above the range of the images, which ends at 20 mJ/cm2 ({columns * 20 * layers:,} voxels" in said, said)
+    expect("below the range" not in said, said)
     folder.write("deep.vcad", 'attribute("cure_depth", "0.3 + 0.1*x") cube(4);')
     wrong = folder.run("slice", "deep.vcad", *arguments[2:], "--range", "0,400", status=1).stderr
     expect("cure_depth is out of reach at" in wrong, wrong)

@@ -1,6 +1,7 @@
 // `ombre commands` lists the commands with their options.
 #include <memory>
 
+#include "base/text/markdown.h"
 #include "base/text/text.h"
 #include "jobs/all_jobs.h"
 #include "ombre/commands.h"
@@ -9,23 +10,14 @@
 namespace ombre::cli {
 namespace {
 
-// Returns the text for a cell of a table, in one line.
-std::string cell(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    if (c == '|') line += '\\';
-    line += c == '\n' ? ' ' : c;
-  }
-  return line;
-}
-
 std::string table_of(const jobs::JobKind& kind) {
   std::string text = "\n## " + kind.name + "\n\n" + kind.help + ".\n\n| option | takes | |\n| --- | --- | --- |\n";
   for (const options::Option& option : kind.options()) {
     const std::string takes = option.choices.empty() ? option.placeholder : join(option.choices, ", ");
-    text += "| `" + option.names + "` | " + (takes.empty() ? "" : "`" + cell(takes) + "`") +
-            (option.takes == options::Takes::several ? ", several times" : "") + " | " + cell(option.help) +
-            (option.is_required ? "; required" : "") + " |\n";
+    text += table_row(
+        {"`" + option.names + "`",
+         (takes.empty() ? "" : "`" + takes + "`") + (option.takes == options::Takes::several ? ", several times" : ""),
+         option.help + (option.is_required ? "; required" : "")});
   }
   return text;
 }

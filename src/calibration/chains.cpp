@@ -70,6 +70,13 @@ class Search {
     return sources;
   }
 
+  // Returns the quantities to which steps lead.
+  std::vector<std::string> reached() const {
+    std::vector<std::string> names;
+    for (const auto& [name, steps] : steps_) names.push_back(name);
+    return names;
+  }
+
  private:
   // Takes all steps from what is known. Returns false if nothing new is known then.
   bool take_all() {
@@ -152,10 +159,12 @@ std::variant<std::vector<Chain>, ChainProblem> find_chains(const std::vector<Cal
   const Search search(calibrations, given);
   const std::string has = given.empty() ? "the design gives no attribute" : "the design gives " + join(given, ", ");
   if (!search.knows(wanted)) {
-    const std::vector<std::string> sources = search.sources_of(wanted);
-    return ChainProblem{
-        has + ", and no calibration leads from there to " + wanted,
-        sources.empty() ? "no calibration that is chosen gives " + wanted : "it could give " + join(sources, ", or ")};
+    const std::vector<std::string> sources = search.sources_of(wanted), reached = search.reached();
+    std::string hint =
+        sources.empty() ? "no calibration that is chosen gives " + wanted : "it could give " + join(sources, ", or ");
+    if (!reached.empty())
+      hint += "; calibrations lead to " + join(reached, ", ") + ", for machines whose profile names it in \"needs\"";
+    return ChainProblem{has + ", and no calibration leads from there to " + wanted, std::move(hint)};
   }
   return search.chains(wanted);
 }

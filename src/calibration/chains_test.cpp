@@ -67,6 +67,9 @@ TEST(Chains, SeveralInputsComeTogether) {
 TEST(Chains, NoneSaysWhatCouldBeGiven) {
   EXPECT_EQ(found({by_fraction("m", "modulus")}, {"hu"}, "fractions"),
             "the design gives hu, and no calibration leads from there to fractions; it could give modulus (m)");
+  EXPECT_EQ(found({by("resin", "cure_depth", "dose")}, {"cure_depth"}, "fractions"),
+            "the design gives cure_depth, and no calibration leads from there to fractions; no calibration that is "
+            "chosen gives fractions; calibrations lead to dose, for machines whose profile names it in \"needs\"");
   EXPECT_EQ(found({}, {}, "fractions"),
             "the design gives no attribute, and no calibration leads from there to fractions; no calibration that is "
             "chosen gives fractions");

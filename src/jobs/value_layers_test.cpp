@@ -141,6 +141,29 @@ TEST(ValueLayers, ColoursHaveNoRange) {
   }
 }
 
+// The dose is below 3 in the lowest four layers of 24 x 24 voxels, and above 7 in the highest four. It is 0 in the 24
+// layers of the cuboid beside, which has none.
+TEST(ValueLayers, VoxelsBeyondAChosenRangeAreCounted) {
+  const Plan plan = planned(dosed, {"dose", Interval(3, 7)});
+  EXPECT_EQ(plan.request.check_texts,
+            (std::vector<std::string>{"dose is below the range of the images, which begins at 3 J",
+                                      "dose is above the range of the images, which ends at 7 J"}));
+  CheckSums sums(plan.request);
+  for (const voxel::LayerResult& layer : plan.producer(0, plan.request.lattice.count[2], nullptr))
+    sums.add(layer.checks);
+  const auto reports = sums.reports();
+  ASSERT_EQ(reports.size(), 2u);
+  EXPECT_EQ(reports[0].voxels, (4u + 24) * 24 * 24);
+  EXPECT_EQ(reports[1].voxels, 4u * 24 * 24);
+  EXPECT_DOUBLE_EQ(reports[0].first_mm.z, -2.875);
+  EXPECT_DOUBLE_EQ(reports[1].first_mm.z, 2.125);
+  EXPECT_TRUE(planned(dosed, {"dose", std::nullopt}).request.check_texts.empty());
+  EXPECT_TRUE(planned(dosed, {"dose", Interval(3, 7), 1}).request.check_texts.empty());  // a mask has no more values
+  const Plan wide = planned(dosed, {"dose", Interval(0, 8)});
+  for (const voxel::LayerResult& layer : wide.producer(0, 24, nullptr))
+    for (const voxel::CheckHits& hits : layer.checks) EXPECT_EQ(hits.count, 0u);
+}
+
 // A layer may have several channels, each with its own image.
 TEST_F(Slice, EachChannelHasItsImageAndItsCounts) {
   Diagnostics diagnostics;

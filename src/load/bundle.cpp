@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/system/named_files.h"
 #include "base/system/temporary_folder.h"
 #include "base/text/error.h"
 #include "base/text/json.h"

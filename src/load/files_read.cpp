@@ -1,12 +1,11 @@
 #include "load/files_read.h"
 
+#include "base/system/named_files.h"
 #include "load/load.h"
 
 namespace ombre::compile {
 
 namespace fs = std::filesystem;
-
-fs::path whole_path(const fs::path& file) { return fs::canonical(fs::absolute(file).parent_path()) / file.filename(); }
 
 std::optional<std::set<fs::path>> files_read(const std::string& path, const LoadOptions& options,
                                              Diagnostics& diagnostics) {

@@ -11,9 +11,6 @@
 
 namespace ombre::compile {
 
-// Returns a file's absolute path, in which links of folders are resolved. A file that is a link itself stays one.
-std::filesystem::path whole_path(const std::filesystem::path& file);
-
 // Returns the absolute paths of the files that loading a design reads: the design, its includes, meshes, pictures,
 // tables and materials. Returns nothing, and adds diagnostics, when the design is wrong.
 std::optional<std::set<std::filesystem::path>> files_read(const std::string& path, const LoadOptions& options,

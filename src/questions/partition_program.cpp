@@ -156,8 +156,7 @@ class RegionBuilder {
     const auto value = question_.attribute(rule_.of, diagnostics_);
     if (!value) return false;
     scores_.push_back(*value);
-    const design::AttributeDeclaration* declared = question_.declaration(rule_.of);
-    add_bands(rule_.of, 1, declared && !declared->unit.empty() ? " " + declared->unit : "");
+    add_bands(rule_.of, 1, unit_text(rule_.of));
     return true;
   }
 

@@ -53,7 +53,8 @@ std::optional<Font> system_font(const std::string& name, const TextRequest& use,
   return Font{found->file, found->index, wants_italic(use) && !found->is_italic ? slant_of_italics : 0};
 }
 
-std::optional<Font> find_font(const TextRequest& use, sources::Loading& loading) {
+// Finds the font. The name of a file becomes the path where the file was found.
+std::optional<Font> find_font(TextRequest& use, sources::Loading& loading) {
   const Reader& reader = loading.reader();
   const std::string& name = use.font.name;
   if (!is_font_file(name)) return system_font(name, use, reader);
@@ -64,6 +65,7 @@ std::optional<Font> find_font(const TextRequest& use, sources::Loading& loading)
                              "leave style out, or give the file with these letters");
     return std::nullopt;
   }
+  use.font.name = file.path;
   return Font{file.path};
 }
 

@@ -36,6 +36,8 @@ std::vector<std::string> places_of(const std::string& path, const std::string& n
   return places;
 }
 
+fs::path whole_path(const fs::path& file) { return fs::canonical(fs::absolute(file).parent_path()) / file.filename(); }
+
 // The iterators of libstdc++ end the program if there is no memory for them.
 std::vector<std::string> names_in(const std::string& folder) {
   const auto fail = [&] {

@@ -61,6 +61,29 @@ TEST(Settings, HaveTheNamesOfTheirSlicer) {
   EXPECT_FALSE(slicer_key_of(""));
 }
 
+TEST(Settings, TakeNumbersOfTheirKind) {
+  const auto takes = [](SlicerFlavour flavour, const char* key, double number, const char* unit = "") {
+    const ValueKind* const kind = kind_of(flavour, key);
+    return kind && kind->takes(number, unit);
+  };
+  for (const SlicerFlavour flavour : {SlicerFlavour::prusa, SlicerFlavour::orca}) {
+    const bool is_prusa = flavour == SlicerFlavour::prusa;
+    const char* const walls = is_prusa ? "perimeters" : "wall_loops";
+    EXPECT_TRUE(takes(flavour, walls, 0) && takes(flavour, walls, 3)) << walls;
+    EXPECT_FALSE(takes(flavour, walls, -3) || takes(flavour, walls, 2.5) || takes(flavour, walls, 3, "%")) << walls;
+    const char* const density = is_prusa ? "fill_density" : "sparse_infill_density";
+    EXPECT_TRUE(takes(flavour, density, 100, "%") && takes(flavour, density, 20)) << density;
+    EXPECT_FALSE(takes(flavour, density, 900, "%") || takes(flavour, density, -1, "%")) << density;
+    EXPECT_TRUE(takes(flavour, "layer_height", 0.2));
+    EXPECT_FALSE(takes(flavour, "layer_height", 0) || takes(flavour, "layer_height", 0.2, "mm"));
+  }
+  EXPECT_TRUE(takes(SlicerFlavour::prusa, "fill_angle", -45));
+  EXPECT_TRUE(takes(SlicerFlavour::prusa, "extrusion_width", 105, "%"));
+  EXPECT_FALSE(kind_of(SlicerFlavour::prusa, "fill_pattern"));
+  EXPECT_FALSE(kind_of(SlicerFlavour::prusa, "sparse_infill_density"));
+  EXPECT_FALSE(scope_of(SlicerFlavour::prusa, "perimeters#"));
+}
+
 // A key of the table that a program does not know would be lost.
 TEST(Settings, KnowTheKeysOfTheirTable) {
   for (const SlicerKey& row : slicer_keys()) {

@@ -37,8 +37,8 @@ struct CharacteriseChoices {
         flag("--stiffness", &C::stiffness, "Homogenise the box, too, as ombre homogenise does"),
         option("--study", &C::study, kind::file, "Properties of materials for the stiffness; a .json file", "FILE")
             .needs("--stiffness"),
-        option("--cell", &C::cell_mm, kind::number, "Size of the bricks for the stiffness, mm (default: the voxels')",
-               "MM")
+        option("--cell", &C::cell_mm, kind::number,
+               "Approximate size of the bricks for the stiffness, mm (default: about the voxels')", "MM")
             .between(1e-6, 1e6)
             .needs("--stiffness"),
         option("--picture", &C::picture, kind::file, "A chart of Young's modulus by direction, .svg", "FILE")

@@ -1,6 +1,7 @@
 // `ombre characterise` says what a part or a cell is like: density, surfaces, topology, thinnest places, stiffness.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/text/error.h"
 #include "base/text/json.h"
@@ -15,12 +16,9 @@
 #include "jobs/common/job_steps.h"
 #include "jobs/common/overwrite.h"
 #include "jobs/common/session.h"
-#include "jobs/homogenise/homogenise_choices.h"
+#include "jobs/homogenise/homogenise_job.h"
 
 namespace ombre::jobs {
-
-JobKind homogenise_kind();
-
 namespace {
 
 using compile::CharacteriseChoices;
@@ -78,9 +76,31 @@ Periodic periodic_of(const std::string& axes) {
   return periodic;
 }
 
+// True for the numbers of a homogenisation that a table has.
+bool is_of_stiffness(const std::string& name) {
+  return name.find("mpa") != std::string::npos || name.find("ratio") != std::string::npos ||
+         name.find("conductivity") != std::string::npos;
+}
+
+void refuse_key(const std::string& key, const std::vector<std::string>& names) {
+  const std::string close = did_you_mean(key, names);
+  throw WrongArgument("there is no column \"" + key + "\"; " +
+                      (close.empty() ? "there are " + join(names, ", ") : close));
+}
+
+// Refuses a column that no table has. Those of a stiffness are known once there is one.
+void check_key(const CharacteriseChoices& a, const std::string& variable) {
+  Characteristics any;
+  any.periodic = periodic_of(a.periodic);
+  std::vector<std::string> names{variable};
+  for (const auto& [name, value] : any.numbers()) names.push_back(name);
+  const bool is_known = std::ranges::find(names, a.key) != names.end();
+  if (!a.key.empty() && !is_known && !(a.stiffness && is_of_stiffness(a.key))) refuse_key(a.key, names);
+}
+
 void refuse(const CharacteriseChoices& a) {
   periodic_of(a.periodic);
-  if (!a.sweep.empty()) curve_of(a.sweep);
+  if (!a.sweep.empty()) check_key(a, curve_of(a.sweep).name);
   if (!a.picture.empty() && !to_lower(a.picture).ends_with(".svg"))
     throw WrongArgument(spelled::option("--picture", a.picture) + " does not say a format; let it end in .svg");
   if (!a.picture.empty()) refuse_to_overwrite(a.picture, a.force);
@@ -170,7 +190,7 @@ std::optional<Characteristics> characterise(const CharacteriseChoices& a, Sessio
   const auto options = loaded ? plan_options({}, a.work, session, diagnostics) : std::nullopt;
   if (!options) return std::nullopt;
   compile::CharacteriseRequest request = request_of(a, session);
-  JobProgress progress(session.events);
+  JobProgress progress(session.events, Counted::steps);  // layers of voxels, then slabs of the mesh
   request.progress = &progress;
   auto found = characteristics_of(loaded, request, *options, diagnostics);
   progress.finish();
@@ -190,20 +210,38 @@ compile::HomogeniseChoices homogenise_choices(const CharacteriseChoices& a) {
   return choices;
 }
 
+// Lets work of the session give its events to a function instead.
+template <class Work>
+auto with_events(Session& session, const std::function<void(const DataMembers&)>& on_event, const Work& work) {
+  const DataEvents events(FrontEnd::command_line, on_event, [](const std::string&) {});
+  Session own{events, session.stop, session.load, session.cache, session.program, session.quit_at_once};
+  return work(own);
+}
+
 // Runs the homogenisation, and returns what it reports as data. If it fails it runs again, to tell the session why.
 std::optional<DataMembers> stiffness(const CharacteriseChoices& a, Session& session) {
   std::optional<DataMembers> found;
-  const DataEvents events(
-      FrontEnd::command_line,
-      [&](const DataMembers& event) {
-        if (*Data(event).find("event") == Data("homogenised")) found = event;
-      },
-      [](const std::string&) {});
-  Session own{events, session.stop, session.load, session.cache, session.program, session.quit_at_once};
   const compile::HomogeniseChoices choices = homogenise_choices(a);
-  homogenise_kind().run(&choices, own);
+  const auto keep = [&](const DataMembers& event) {
+    if (*Data(event).find("event") == Data("homogenised")) found = event;
+  };
+  with_events(session, keep, [&](Session& own) { return homogenise_kind().run(&choices, own); });
   if (!found) homogenise_kind().run(&choices, session);
   return found;
+}
+
+// Sees before anything is measured whether the homogenisation can be done. Returns false, and adds diagnostics, if not.
+bool can_homogenise(const CharacteriseChoices& a, Session& session, Diagnostics& diagnostics) {
+  if (!a.stiffness) return true;
+  const compile::HomogeniseChoices choices = homogenise_choices(a);
+  Diagnostics found;
+  const auto is_stiffness = with_events(
+      session, [](const DataMembers&) {}, [&](Session& own) { return gives_stiffness(choices, own, found); });
+  if (!is_stiffness) diagnostics.add_all(found);  // else the homogenisation tells them
+  if (is_stiffness == false && !a.picture.empty())
+    throw WrongArgument(spelled::option("--picture", a.picture) +
+                        " is a chart of stiffness: conductivities have none; leave it out");
+  return is_stiffness.has_value();
 }
 
 // Adds the numbers of an event: those of a list by their places, which begin with 1.
@@ -216,9 +254,7 @@ void add_numbers(const std::string& name, const Data& value, std::vector<std::pa
 
 void add_stiffness(const DataMembers& event, std::vector<std::pair<std::string, double>>& rows) {
   for (const auto& [name, value] : event)
-    if (name.find("mpa") != std::string::npos || name.find("ratio") != std::string::npos ||
-        name.find("conductivity") != std::string::npos)
-      add_numbers(name, value, rows);
+    if (is_of_stiffness(name)) add_numbers(name, value, rows);
 }
 
 void write_json(const CharacteriseChoices& a, const Data& data, Session& session, DataList& files) {
@@ -258,6 +294,8 @@ std::optional<Row> row_of(const CharacteriseChoices& a, const Curve& curve, int 
   CharacteriseChoices one = a;
   one.design.needed = {curve.name};
   one.design.definitions.push_back(curve.name + "=" + format_number(curve.value(n)));
+  const bool is_first = n == 0;
+  if (is_first && !can_homogenise(one, session, diagnostics)) return std::nullopt;
   const auto found = characterise(one, session, diagnostics);
   if (!found) return std::nullopt;
   Row row{{curve.name, curve.value(n)}};
@@ -270,15 +308,22 @@ std::optional<Row> row_of(const CharacteriseChoices& a, const Curve& curve, int 
   return row;
 }
 
+std::vector<std::string> names_of(const Row& row) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : row) names.push_back(name);
+  return names;
+}
+
+void check_column(const std::string& key, const Row& row) {
+  const std::vector<std::string> names = names_of(row);
+  if (std::ranges::find(names, key) == names.end()) refuse_key(key, names);
+}
+
 // Puts the column first and sorts the rows by it. Throws WrongArgument if there is no such column, or values repeat.
 void sort_by(const std::string& key, std::vector<Row>& rows) {
   for (Row& row : rows) {
+    check_column(key, row);
     const auto column = std::ranges::find(row, key, &std::pair<std::string, double>::first);
-    if (column == row.end()) {
-      std::vector<std::string> names;
-      for (const auto& [name, value] : row) names.push_back(name);
-      throw WrongArgument("there is no column \"" + key + "\"; there are " + join(names, ", "));
-    }
     std::rotate(row.begin(), column, column + 1);
   }
   std::ranges::sort(rows, {}, [](const Row& row) { return row.front().second; });
@@ -289,9 +334,7 @@ void sort_by(const std::string& key, std::vector<Row>& rows) {
 }
 
 std::string table_of(const std::vector<Row>& rows) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : rows.front()) names.push_back(name);
-  std::string table = join(names, ",") + "\n";
+  std::string table = join(names_of(rows.front()), ",") + "\n";
   for (const Row& row : rows) {
     std::vector<std::string> values;
     for (const auto& [name, value] : row) values.push_back(format_rounded(value, 10));
@@ -315,6 +358,7 @@ int run_curve(const CharacteriseChoices& a, Session& session) {
     session.events.say(curve.name + " = " + format_rounded(curve.value(n), 5) + ": density " +
                        format_rounded((*row)[1].second, 5));
     rows.push_back(std::move(*row));
+    if (n == 0 && !a.key.empty()) check_column(a.key, rows.front());
   }
   if (!a.key.empty()) sort_by(a.key, rows);
   DataList list;
@@ -339,7 +383,9 @@ int run_characterise(const CharacteriseChoices& a, Session& session) {
   if (!a.sweep.empty()) return run_curve(a, session);
   JobSteps<Characteristics> steps;
   steps.refuse = [&] { refuse(a); };
-  steps.plan = [&](Diagnostics& diagnostics) { return characterise(a, session, diagnostics); };
+  steps.plan = [&](Diagnostics& diagnostics) {
+    return can_homogenise(a, session, diagnostics) ? characterise(a, session, diagnostics) : std::nullopt;
+  };
   steps.run = [&](const Characteristics& found) { return run_one(a, found, session); };
   return take_steps(steps, session);
 }

@@ -236,7 +236,6 @@ SolidGrid solid_grid(const Plan& plan, int threads, size_t memory_bytes, Progres
   options.memory_bytes = memory_bytes;
   const WorkSize work = size_work(plan.request, options);
   const int64_t step = work.slab_layers;
-  const auto of_layer = static_cast<uint64_t>(count[0] * count[1]);
   run_ordered<std::vector<CountedLayer>>(
       static_cast<size_t>((count[2] + step - 1) / step), work.threads, work.window,
       [&](size_t n) {
@@ -246,7 +245,7 @@ SolidGrid solid_grid(const Plan& plan, int threads, size_t memory_bytes, Progres
           made.push_back(counted(layer, count));
         return made;
       },
-      [&](size_t n, std::vector<CountedLayer>& made) {
+      [&](size_t, std::vector<CountedLayer>& made) {
         for (CountedLayer& layer : made) {
           const size_t k = grid.layers.size();
           grid.sections[2][k] = layer.solid.count();
@@ -255,9 +254,7 @@ SolidGrid solid_grid(const Plan& plan, int threads, size_t memory_bytes, Progres
           for (const auto& [id, number] : layer.of_material) voxels[id] += number;
           grid.layers.push_back(std::move(layer.solid));
         }
-        if (progress)
-          progress->update({static_cast<uint64_t>(n + 1) * static_cast<uint64_t>(step) * of_layer,
-                            static_cast<uint64_t>(count[2]) * of_layer});
+        if (progress) progress->update({grid.layers.size(), static_cast<uint64_t>(count[2])});
       });
   for (const SliceMaterial& material : plan.request.materials)
     if (voxels.contains(material.id)) grid.of_material[material.name] = voxels[material.id];

@@ -7,6 +7,7 @@
 
 #include "base/text/error.h"
 #include "export/output_file.h"
+#include "jobs/common/session.h"
 
 namespace ombre::jobs {
 namespace {
@@ -32,6 +33,10 @@ void refuse_to_overwrite(const std::string& path, bool force) {
     throw Error(Code::exists,
                 path + " exists already; replace it with " + spelled::option("--force") + ", or choose another name",
                 {{"file", path}});
+}
+
+void check_design_file(const std::string& path) {
+  if (!path.ends_with(".json")) throw WrongArgument("-o writes a design file; give it a name that ends in .json");
 }
 
 void refuse_joined(const std::vector<std::string>& paths) {

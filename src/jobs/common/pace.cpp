@@ -36,7 +36,10 @@ std::string rate_text(double voxels_per_second) {
 std::optional<Pace> PaceMeter::update(const HowFar& how_far) {
   const std::scoped_lock lock(mutex_);
   const auto now = Clock::now();
-  if (!started_) {
+  // Threads may report a little out of order; a fall by half is the beginning of other work.
+  const bool begins = !started_ || how_far.done < most_done_ / 2;
+  most_done_ = begins ? how_far.done : std::max(most_done_, how_far.done);
+  if (begins) {
     started_ = true;
     start_ = reported_ = now;
     done_at_start_ = how_far.done;  // work of an earlier run tells nothing about the pace of this one
@@ -45,7 +48,7 @@ std::optional<Pace> PaceMeter::update(const HowFar& how_far) {
   if (!is_due()) return std::nullopt;
   Pace pace = pace_of(how_far);
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  if (elapsed > 0 && counted_ == Counted::voxels)
+  if (elapsed > 0 && counted_ == Counted::voxels && how_far.done > done_at_start_)
     pace.voxels_per_second = static_cast<double>(how_far.done - done_at_start_) / elapsed;
   return pace;
 }

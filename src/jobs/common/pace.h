@@ -23,7 +23,8 @@ struct Pace {
 std::string duration_text(double seconds);  // "0:34", "1:02:03"
 std::string rate_text(double voxels_per_second);
 
-// Measures the pace of one piece of work. Each method returns the pace when it is time to report it. Thread-safe.
+// Measures the pace of work. If less is done than before, other work has begun, and its pace is measured. Each method
+// returns the pace when it is time to report it. Thread-safe.
 class PaceMeter {
  public:
   PaceMeter(Counted counted, double interval_s) : counted_(counted), interval_s_(interval_s) {}
@@ -42,7 +43,7 @@ class PaceMeter {
   double interval_s_;
   std::mutex mutex_;
   bool started_ = false, has_begun_ = false;
-  uint64_t done_at_start_ = 0;
+  uint64_t done_at_start_ = 0, most_done_ = 0;
   Clock::time_point start_, reported_;
 };
 

@@ -20,6 +20,7 @@
 #include "jobs/common/study_source.h"
 #include "jobs/fea/periodic_box.h"
 #include "jobs/homogenise/homogenise_choices.h"
+#include "jobs/homogenise/homogenise_job.h"
 
 namespace ombre::jobs {
 namespace {
@@ -336,6 +337,10 @@ std::optional<HomogenisePlan> plan_job(const HomogeniseChoices& a, Session& sess
   return plan;
 }
 
+void check_size(const HomogeniseChoices& a, const HomogenisePlan& plan, const Events& events) {
+  tell_size(a, events, plan.model.bricks, plan.solve_bytes());
+}
+
 int solve(const HomogeniseChoices& a, const HomogenisePlan& plan, Session& session) {
   fea::SolveOptions options;
   options.tolerance = a.tolerance;
@@ -355,14 +360,21 @@ int run_homogenise(const HomogeniseChoices& a, Session& session) {
   JobSteps<HomogenisePlan> steps;
   steps.refuse = [&] { check_output(a); };
   steps.plan = [&](Diagnostics& diagnostics) { return plan_job(a, session, diagnostics); };
-  steps.check = [&](const HomogenisePlan& plan) {
-    tell_size(a, session.events, plan.model.bricks, plan.solve_bytes());
-  };
+  steps.check = [&](const HomogenisePlan& plan) { check_size(a, plan, session.events); };
   steps.run = [&](const HomogenisePlan& plan) { return solve(a, plan, session); };
   return take_steps(steps, session);
 }
 
 }  // namespace
+
+std::optional<bool> gives_stiffness(const HomogeniseChoices& a, Session& session, Diagnostics& diagnostics) {
+  const auto study = study_of(a, diagnostics);
+  auto model = study ? make_model(a, *study, session, diagnostics) : std::nullopt;
+  if (!model) return std::nullopt;
+  const HomogenisePlan plan{std::move(*model), std::nullopt, study->physics};
+  check_size(a, plan, session.events);
+  return plan.is_mechanics();
+}
 
 JobKind homogenise_kind() {
   return job_kind<HomogeniseChoices>("homogenise", "Say how stiff a cell of a design is as a material",

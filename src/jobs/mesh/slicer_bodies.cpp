@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "base/text/text.h"
 #include "formats/slicers/known_keys.h"
@@ -26,14 +29,18 @@ std::string body_key_of(const std::string& attribute, SlicerFlavour flavour) {
   return is_of_body ? key : "";
 }
 
+// Returns what slicers take for the middle of a band.
+std::string setting_text(const formats::SlicerKey& row, double middle) {
+  return format_rounded(row.is_whole ? std::round(middle) : middle, 4) + std::string(row.unit);
+}
+
 // Adds the settings of the middles of a body's bands, unless others were given.
 void add_attributes(const compile::Region& region, SlicerFlavour flavour, Settings& values) {
   for (const auto& [attribute, middle] : region.attributes) {
     const std::string key = body_key_of(attribute, flavour);
     const auto is_given = [&](const auto& value) { return value.first == key; };
     if (key.empty() || std::ranges::any_of(values, is_given)) continue;
-    const formats::SlicerKey& row = *formats::slicer_key_of(attribute);
-    values.emplace_back(key, format_rounded(row.is_whole ? std::round(middle) : middle, 4) + std::string(row.unit));
+    values.emplace_back(key, setting_text(*formats::slicer_key_of(attribute), middle));
   }
 }
 
@@ -45,7 +52,7 @@ Settings settings_of(const std::vector<SlicerSetting>& settings, size_t body, co
       throw WrongArgument(spelled::option("--setting", setting.key()) + " lists " + std::to_string(setting.listed()) +
                           " values, and there are " + std::to_string(made.bodies.size()) + " bodies");
     if (setting.is_of_object(choices.flavour)) continue;
-    values.emplace_back(setting.key(), setting.value(body, made.bodies[body].share));
+    values.emplace_back(setting.key(), setting.value(choices.flavour, body, made.bodies[body].share));
   }
   add_attributes(made.bodies[body].region, choices.flavour, values);
   // Bodies of materials and parts have an extruder each, in their order; bands share one.
@@ -53,6 +60,44 @@ Settings settings_of(const std::vector<SlicerSetting>& settings, size_t body, co
   if (!is_given && !made.bodies[body].region.material && choices.regions.by != "parts")
     values.emplace_back("extruder", "1");
   return values;
+}
+
+using Middles = std::set<double>;
+
+// Returns the middles of an attribute's bands, by the settings that slicers take for them.
+std::map<std::string, Middles> middles_by_setting(const compile::MeshedDesign& made, const std::string& attribute) {
+  std::map<std::string, Middles> middles;
+  for (const compile::RegionBody& body : made.bodies)
+    for (const auto& [own, middle] : body.region.attributes)
+      if (own == attribute) middles[setting_text(*formats::slicer_key_of(attribute), middle)].insert(middle);
+  return middles;
+}
+
+// Warns of bands whose middles become the same setting, as where slicers take whole numbers for it.
+void tell_rounded_bands(const Events& events, const compile::MeshedDesign& made, const MeshChoices& choices,
+                        const std::string& attribute) {
+  const std::string key = formats::key_in(choices.flavour, body_key_of(attribute, choices.flavour));
+  std::vector<std::string> equal;
+  for (const auto& [setting, middles] : middles_by_setting(made, attribute)) {
+    if (middles.size() < 2) continue;
+    std::vector<std::string> texts;
+    for (const double middle : middles) texts.push_back(format_rounded(middle));
+    equal.push_back("those around " + join(texts, ", ") + " have " + key + "=" + setting);
+  }
+  if (equal.empty()) return;
+  events.warn("bands of " + attribute + " become the same setting: " + join(equal, ", ") +
+              "; choose fewer bands, or values that are further apart");
+}
+
+// Returns the attributes that bands of the design have and --setting does not choose.
+std::set<std::string> attributes_of(const compile::MeshedDesign& made, const MeshChoices& choices) {
+  std::set<std::string> given, attributes;
+  for (const std::string& setting : choices.settings) given.insert(SlicerSetting(setting).key());
+  for (const compile::RegionBody& body : made.bodies)
+    for (const auto& [attribute, middle] : body.region.attributes)
+      if (formats::slicer_key_of(attribute) && !given.contains(body_key_of(attribute, choices.flavour)))
+        attributes.insert(attribute);
+  return attributes;
 }
 
 }  // namespace
@@ -75,16 +120,16 @@ formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string
   }
   for (const SlicerSetting& setting : settings)
     if (setting.is_of_object(choices.flavour))
-      document.project.object_settings.emplace_back(setting.key(), setting.value(0, 0));
+      document.project.object_settings.emplace_back(setting.key(), setting.value(choices.flavour, 0, 0));
   return document;
 }
 
 void tell_lost_attributes(const Events& events, const compile::MeshedDesign& made, const MeshChoices& choices) {
-  std::set<std::string> lost;
-  for (const compile::RegionBody& body : made.bodies)
-    for (const auto& [attribute, middle] : body.region.attributes)
-      if (formats::slicer_key_of(attribute) && body_key_of(attribute, choices.flavour).empty()) lost.insert(attribute);
-  for (const std::string& attribute : lost) {
+  for (const std::string& attribute : attributes_of(made, choices)) {
+    if (!body_key_of(attribute, choices.flavour).empty()) {
+      tell_rounded_bands(events, made, choices, attribute);
+      continue;
+    }
     const bool is_of_tool = attribute == "temperature" || attribute == "flow_rate";
     if (is_of_tool && choices.virtual_tools) continue;
     Phrase remedy("");

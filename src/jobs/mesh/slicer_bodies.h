@@ -17,7 +17,8 @@ namespace ombre::jobs {
 formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
                                   const compile::MeshChoices& choices, const std::vector<SlicerSetting>& settings);
 
-// Warns of attributes of bands that are no settings of bodies in the slicer.
+// Warns of attributes of bands that are no settings of bodies in the slicer, or that are the same one for several
+// bands.
 void tell_lost_attributes(const Events& events, const compile::MeshedDesign& made, const compile::MeshChoices& choices);
 
 // Gives a project whose bodies all have the first filament that one, with the names of the materials inside; says so if

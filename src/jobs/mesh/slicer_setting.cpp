@@ -64,6 +64,7 @@ void SlicerSetting::check(formats::SlicerFlavour flavour) const {
   }
   if (is_of_object(flavour) && (is_range_ || values_.size() > 1))
     throw WrongArgument(written + ": in " + program + " this setting is one for all bodies of a part; write one value");
+  check_values(flavour);
   if (key_ != "extruder") return;
   for (const std::string& value : values_) {
     const auto extruder = parse_number(value);
@@ -74,8 +75,29 @@ void SlicerSetting::check(formats::SlicerFlavour flavour) const {
   }
 }
 
-std::string SlicerSetting::value(size_t number, double share) const {
-  if (is_range_) return format_rounded(first_ + share * (last_ - first_), 4) + unit_;
+void SlicerSetting::check_values(formats::SlicerFlavour flavour) const {
+  const formats::ValueKind* const kind = formats::kind_of(flavour, formats::key_in(flavour, key_));
+  if (!kind) return;
+  const auto refuse = [&](const std::string& value) {
+    throw WrongArgument(spelled::option("--setting", key_ + "=" + value) + ": this setting is " +
+                        std::string(kind->name) + "; write for example " +
+                        spelled::option("--setting", key_ + "=" + std::string(kind->example)));
+  };
+  for (const std::string& value : values_) {
+    const auto amount = parse_amount(value);
+    if (!amount || !kind->takes(amount->number, amount->unit)) refuse(value);
+  }
+  if (!is_range_) return;
+  for (const double end : {first_, last_})
+    if (!kind->takes(end, unit_)) refuse(format_rounded(end, 4) + unit_);
+}
+
+std::string SlicerSetting::value(formats::SlicerFlavour flavour, size_t number, double share) const {
+  if (is_range_) {
+    const formats::ValueKind* const kind = formats::kind_of(flavour, formats::key_in(flavour, key_));
+    const double between = first_ + share * (last_ - first_);
+    return format_rounded(kind && kind->limits.is_whole ? std::round(between) : between, 4) + unit_;
+  }
   return values_.size() == 1 ? values_[0] : values_[number];
 }
 

@@ -17,7 +17,8 @@ class SlicerSetting {
   // Throws WrongArgument.
   explicit SlicerSetting(const std::string& text);
 
-  // Throws WrongArgument if the program does not know the setting, or not for each body by itself.
+  // Throws WrongArgument if the program does not know the setting, or not for each body by itself, or if a value is
+  // none that it takes.
   void check(formats::SlicerFlavour flavour) const;
   bool is_of_object(formats::SlicerFlavour flavour) const;
 
@@ -25,10 +26,13 @@ class SlicerSetting {
   // Returns the number of listed values; 0 if there is one for all.
   size_t listed() const { return values_.size() == 1 ? 0 : values_.size(); }
   // Returns the value for region `number`, counted from 0, which lies at `share` between the first (0) and the last
-  // (1).
-  std::string value(size_t number, double share) const;
+  // (1). Settings that count something get whole numbers.
+  std::string value(formats::SlicerFlavour flavour, size_t number, double share) const;
 
  private:
+  // Throws WrongArgument if a value is not of the setting's kind.
+  void check_values(formats::SlicerFlavour flavour) const;
+
   std::string key_;
   std::vector<std::string> values_;
   bool is_range_ = false;

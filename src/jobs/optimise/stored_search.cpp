@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/system/named_files.h"
 #include "base/text/json.h"
 #include "base/text/text.h"
 #include "formats/containers/file.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text/markdown.h"
 #include "base/text/text.h"
 #include "load/library_folders.h"
 #include "load/library_operators.h"
@@ -78,12 +79,12 @@ std::string section(const Operator& op) {
   text += "\n![" + declared.name + "](operators/" + declared.name + ".png)\n";
   if (!declared.parameters.empty()) text += "\n| parameter | is | default | |\n| --- | --- | --- | --- |\n";
   for (const DeclaredParameter& parameter : declared.parameters)
-    text += "| `" + parameter.name + "` | " + kind_text(parameter) + " | " +
-            (parameter.default_text.empty() ? "required" : "`" + parameter.default_text + "`") + " | " +
-            parameter.sentence + " |\n";
+    text += table_row({"`" + parameter.name + "`", kind_text(parameter),
+                       parameter.default_text.empty() ? "required" : "`" + parameter.default_text + "`",
+                       parameter.sentence});
   if (!declared.outputs.empty()) text += "\n| output | is |\n| --- | --- |\n";
   for (const DeclaredOutput& output : declared.outputs)
-    text += "| " + (output.name.empty() ? "" : "`" + output.name + "`") + " | " + output_text(output) + " |\n";
+    text += table_row({output.name.empty() ? "" : "`" + output.name + "`", output_text(output)});
   if (!declared.source.empty()) text += "\nSource: " + declared.source + ".\n";
   return text;
 }

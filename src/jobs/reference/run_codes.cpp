@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/text/code.h"
+#include "base/text/markdown.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/reference/list_or_page.h"
 
@@ -31,8 +32,7 @@ std::string codes_reference() {
       "write instead (`hint`) is spelled in the language of the\ndesign. A value may be missing where it says "
       "nothing.\n\n| code | means | values |\n| --- | --- | --- |\n";
   for (const CodeInfo& info : codes())
-    text += "| `" + std::string(info.name) + "` | " + std::string(info.sentence) + " | " + std::string(info.values) +
-            " |\n";
+    text += table_row({"`" + std::string(info.name) + "`", std::string(info.sentence), std::string(info.values)});
   return text;
 }
 

@@ -1,6 +1,7 @@
 // ombre formats: the formats of files that designs read and jobs write.
 #include <algorithm>
 
+#include "base/text/markdown.h"
 #include "base/text/text.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/reference/list_or_page.h"
@@ -60,8 +61,7 @@ std::string limits_of_readers() {
       "|\n| --- | --- | --- |\n";
   for (const FileFormat& format : sources::file_formats()) {
     if (format.refused.empty() && format.left_out.empty()) continue;
-    text += "| " + std::string(format.name) + " | " + std::string(format.refused) + " | " +
-            std::string(format.left_out) + " |\n";
+    text += table_row({std::string(format.name), std::string(format.refused), std::string(format.left_out)});
   }
   return text;
 }
@@ -73,12 +73,12 @@ std::string formats_reference() {
       "packages "
       "are Debian's, the option\nCMake's.\n\n| format | endings | holds | | needs |\n| --- | --- | --- | --- | --- |\n";
   for (const FileFormat& format : sources::file_formats()) {
-    text += "| " + std::string(format.name) + " | `" +
-            join(std::vector<std::string>(format.endings.begin(), format.endings.end()), "` `") + "` | " +
-            std::string(name_of(format.content)) + " | " + use_of(format) + " | ";
-    if (const Module* module = format.module)
-      text += std::string(module->library) + " (" + module->packages + ", `" + module->option + "`) ";
-    text += "|\n";
+    const Module* const module = format.module;
+    text += table_row(
+        {std::string(format.name),
+         "`" + join(std::vector<std::string>(format.endings.begin(), format.endings.end()), "` `") + "`",
+         std::string(name_of(format.content)), use_of(format),
+         module ? std::string(module->library) + " (" + module->packages + ", `" + module->option + "`)" : ""});
   }
   return text + limits_of_readers();
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/text/json.h"
+#include "base/text/markdown.h"
 #include "base/text/text.h"
 #include "jobs/common/job_kind.h"
 #include "jobs/common/session.h"
@@ -118,15 +119,15 @@ std::string reference() {
     if (!type->parameters.empty()) text += "\n| parameter | is | default | |\n| --- | --- | --- | --- |\n";
     for (const ParameterInfo& parameter : type->parameters) {
       const std::string domain = domain_text(parameter.domain);
-      text += "| `" + parameter.name + "` | " + parameter.text.kind + (domain.empty() ? "" : ", " + domain) + " | " +
-              (parameter.domain.required           ? "required"
-               : parameter.default_value.is_null() ? "none"
-                                                   : "`" + print_json_line(parameter.default_value) + "`") +
-              " | " + parameter.doc + " |\n";
+      text += table_row({"`" + parameter.name + "`", parameter.text.kind + (domain.empty() ? "" : ", " + domain),
+                         parameter.domain.required           ? "required"
+                         : parameter.default_value.is_null() ? "none"
+                                                             : "`" + print_json_line(parameter.default_value) + "`",
+                         parameter.doc});
     }
     if (!type->outputs.empty()) text += "\n| output | is | |\n| --- | --- | --- |\n";
     for (const OutputInfo& output : type->outputs)
-      text += "| `" + output.name + "` | " + output.type.name + " | " + output.doc + " |\n";
+      text += table_row({"`" + output.name + "`", output.type.name, output.doc});
   }
   return text;
 }

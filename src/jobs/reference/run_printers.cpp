@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/text/markdown.h"
 #include "base/text/record.h"
 #include "base/text/text.h"
 #include "calibration/calibration.h"
@@ -93,22 +94,22 @@ std::string printer_row(const voxel::Printer& printer) {
   std::string box = "any size";
   if (const auto& build = printer.build_mm)
     box = format_rounded(build->x, 6) + " x " + format_rounded(build->y, 6) + " x " + format_rounded(build->z, 6);
-  return "| `" + printer.name + "` | " + printer.title + " | " + dpi(0) + " x " + dpi(1) + " | " +
-         format_number(1000 * printer.pitch[2].mm()) + " | " + voxel::to_text(printer.format) + " | " +
-         std::to_string(printer.max_materials) + " | " + box + " |\n";
+  return table_row({"`" + printer.name + "`", printer.title, dpi(0) + " x " + dpi(1),
+                    format_number(1000 * printer.pitch[2].mm()), voxel::to_text(printer.format),
+                    std::to_string(printer.max_materials), box});
 }
 
 std::string image_row(const std::string& name) {
   const voxel::ImageKind& kind = voxel::image_kind(*voxel::image_format(name));
   std::vector<std::string> shown;
   for (const voxel::ChannelType type : kind.takes) shown.push_back(voxel::channel_kind(type).plural);
-  return "| `" + name + "` | " + kind.pixels + " | " + join(shown, ", ") + " |\n";
+  return table_row({"`" + name + "`", kind.pixels, join(shown, ", ")});
 }
 
 std::string member_rows(const std::vector<MemberInfo>& members) {
   std::string text = "| member | | means |\n| --- | --- | --- |\n";
   for (const MemberInfo& member : members)
-    text += "| `" + member.name + "` | " + (member.is_required ? "required" : "") + " | " + member.meaning + " |\n";
+    text += table_row({"`" + member.name + "`", member.is_required ? "required" : "", member.meaning});
   return text;
 }
 

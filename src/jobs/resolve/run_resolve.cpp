@@ -1,8 +1,8 @@
 // `ombre resolve` says how a design's properties become what printers need, and what the printers give.
 #include <algorithm>
 
-#include "base/text/json.h"
 #include "base/text/text.h"
+#include "design/design_file.h"
 #include "export/output_file.h"
 #include "jobs/common/job_design.h"
 #include "jobs/common/job_kind.h"
@@ -10,6 +10,7 @@
 #include "jobs/common/overwrite.h"
 #include "jobs/resolve/resolve_choices.h"
 #include "jobs/resolve/resolve_report.h"
+#include "load/node_registry.h"
 #include "questions/build.h"
 
 namespace ombre::jobs {
@@ -90,7 +91,8 @@ std::optional<ResolvedPart> resolved_part(const ResolvePlan& plan, const compile
 
 void write_files(const ResolveChoices& a, const std::vector<ResolvedPart>& parts, const Session& session) {
   if (!a.output.empty()) {
-    exporting::write_file(a.output, print_json(design::to_data(parts.front().resolution.loaded->design)));
+    const Data design = design::to_data(parts.front().resolution.loaded->design);
+    exporting::write_file(a.output, design::design_text(design, compile::node_registry(), a.output));
     session.events.say("wrote " + a.output);
   }
   if (!a.report.file.empty()) {
@@ -123,8 +125,7 @@ int run(const ResolveChoices& a, const ResolvePlan& plan, Session& session) {
 void check_choices(const ResolveChoices& a) {
   if (!a.output.empty() && a.printers.size() > 1)
     throw WrongArgument("-o writes the design for one printer; give one " + spelled::option("--printer"));
-  if (!a.output.empty() && !a.output.ends_with(".json"))
-    throw WrongArgument("-o writes a design file; give it a name that ends in .json");
+  if (!a.output.empty()) check_design_file(a.output);
   for (const std::string& file : {a.output, a.report.file})
     if (!file.empty()) refuse_to_overwrite(file, a.report.force);
 }

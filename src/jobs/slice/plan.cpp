@@ -230,7 +230,8 @@ bool warn_of_joined(const design::Design& design, const Box& box, int threads, c
   const auto found = find_materials(design, box, threads, diagnostics);
   if (found && found->names.size() > 1)
     diagnostics.warning(where, "images of coverage show " + join(found->names, " and ") + " alike, as one material",
-                        "write " + spelled::option("--by", found->names.front()) + " for one of them");
+                        "write " + spelled::option("--by", found->names.front()) + " in place of " +
+                            spelled::option("--antialias") + " for one of them");
   return found.has_value();
 }
 
@@ -245,7 +246,10 @@ std::optional<Plan> plan_value(const LoadedPtr& loaded, const PlanOptions& optio
   plan.stages = stages_of(design);
   plan.request = base_request(options, lattice, design::hash(loaded->design), *channel);
   if (!set_light(plan.request, {loaded->source, 0, 0}, diagnostics)) return std::nullopt;
-  auto regions = value_layers(design, lattice, plan.request.channels, plan.request.evaluator, diagnostics);
+  const bool has_own_range = options.value->range && voxel::channel_kind(channel->type).is_dose();
+  const RangeChecks checks = has_own_range ? RangeChecks::both_ends : RangeChecks::none;
+  if (checks == RangeChecks::both_ends) plan.request.check_texts = texts_of_range_checks(*channel);
+  auto regions = value_layers(design, lattice, plan.request.channels, plan.request.evaluator, diagnostics, checks);
   if (!regions) return std::nullopt;
   plan.regions = [loaded, regions = std::move(*regions)](const voxel::TileBox& region, const StopFlag* stop) {
     return regions(region, stop);

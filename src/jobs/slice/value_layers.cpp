@@ -1,11 +1,13 @@
 #include "jobs/slice/value_layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
 
 #include "base/text/error.h"
+#include "base/text/text.h"
 #include "design/attributes.h"
 #include "jobs/slice/coverage_layers.h"
 #include "questions/question.h"
@@ -45,6 +47,24 @@ Field place_in(const Interval& range, int last, Field number, Question& question
   const double width = range.hi > range.lo ? range.hi - range.lo : 1;
   const Field share = min(max((number - range.lo) * (1 / width), 0.0), builder.constant(1));
   return select(logical_and(question.inside(), is_finite(number)), share * last, builder.constant(0));
+}
+
+// Adds outputs that are 1 where the numbers of a channel lie below its range, and above it, by more than rounding.
+bool add_beyond(const Channel& channel, Question& question, program::Outputs& outputs, Diagnostics& diagnostics) {
+  constexpr double share = 1e-5, precision = 1e-6;  // of the range, and of floats
+  const Interval& range = channel.range;
+  const double slack = share * (range.hi - range.lo) + precision * std::max(std::abs(range.lo), std::abs(range.hi));
+  const auto number = question.value(channel.name, diagnostics);
+  if (!number) return false;
+  program::Builder& builder = question.builder();
+  const Field counts = logical_and(question.inside(), is_finite(*number));
+  const auto add = [&](const Field& is_beyond) {
+    outputs.emplace_back(channel.name,
+                         select(logical_and(counts, is_beyond), builder.constant(1), builder.constant(0)));
+  };
+  add(*number < range.lo - slack);
+  add(less(builder.constant(range.hi + slack), *number));
+  return true;
 }
 
 // Adds the outputs of a channel. Returns false, and adds a diagnostic, when the design has no such value.
@@ -122,17 +142,20 @@ struct RowAppender {
 
 class ValueLayers {
  public:
+  // The program's outputs are the numbers of the channels, then `checks` that are 1 where one fails.
   ValueLayers(program::Program program, const voxel::Lattice& lattice, voxel::Evaluator evaluator,
-              std::vector<Channel> channels)
-      : fields_(std::move(program), lattice, evaluator), channels_(std::move(channels)) {
-    for (const Channel& channel : channels_) outputs_ += numbers_of(channel);
+              std::vector<Channel> channels, size_t checks)
+      : fields_(std::move(program), lattice, evaluator), channels_(std::move(channels)), checks_(checks) {
+    for (const Channel& channel : channels_) numbers_ += numbers_of(channel);
   }
 
   std::vector<LayerResult> region(const TileBox& region, const StopFlag* stop) const {
     std::vector<LayerResult> layers(static_cast<size_t>(region.size(2)));
-    for (LayerResult& layer : layers)
+    for (LayerResult& layer : layers) {
+      layer.checks.resize(checks_);
       for (const Channel& channel : channels_)
         layer.channels.push_back(voxel::blank_pixels(channel.type, static_cast<uint32_t>(region.size(0)), 0));
+    }
     for (int64_t j = region.lo[1]; j < region.hi[1]; j += strip_rows) {
       if (stop && stop->requested()) throw Cancelled();
       TileBox box = region;
@@ -145,11 +168,23 @@ class ValueLayers {
 
  private:
   void append_strip(const TileBox& box, std::vector<LayerResult>& layers, const StopFlag* stop) const {
-    Strip strip(box, outputs_);
+    Strip strip(box, numbers_ + checks_);
     for (const FieldTile& tile : fields_.tiles(box, stop)) strip.take(tile);
     for (int64_t k = box.lo[2]; k < box.hi[2]; ++k)
-      for (int64_t j = box.lo[1]; j < box.hi[1]; ++j)
-        append_row(strip, j, k, layers[static_cast<size_t>(k - box.lo[2])]);
+      for (int64_t j = box.lo[1]; j < box.hi[1]; ++j) {
+        LayerResult& layer = layers[static_cast<size_t>(k - box.lo[2])];
+        append_row(strip, j, k, layer);
+        for (size_t check = 0; check < checks_; ++check)
+          count(strip.row(numbers_ + check, j, k), {box.lo[0], j, k}, layer.checks[check]);
+      }
+  }
+
+  // Counts the voxels of a row, which begins at this voxel, whose check fails.
+  static void count(std::span<const uint16_t> fails, const std::array<int64_t, 3>& begin, voxel::CheckHits& hits) {
+    const auto first = std::ranges::find(fails, uint16_t{1});
+    if (first == fails.end()) return;
+    if (hits.count == 0) hits.first = {begin[0] + (first - fails.begin()), begin[1], begin[2]};
+    hits.count += static_cast<uint64_t>(std::count(first, fails.end(), uint16_t{1}));
   }
 
   void append_row(Strip& strip, int64_t j, int64_t k, LayerResult& layer) const {
@@ -162,7 +197,7 @@ class ValueLayers {
 
   voxel::FieldEvaluator fields_;
   std::vector<Channel> channels_;
-  size_t outputs_ = 0;
+  size_t numbers_ = 0, checks_ = 0;
 };
 
 std::optional<Channel> colour_channel(const design::Design& design, const ValueChoice& choice,
@@ -192,16 +227,28 @@ std::optional<Channel> value_channel(const design::Design& design, const Box& bo
 
 std::optional<RegionProducer> value_layers(const design::Design& design, const voxel::Lattice& lattice,
                                            const std::vector<Channel>& channels, voxel::Evaluator evaluator,
-                                           Diagnostics& diagnostics) {
+                                           Diagnostics& diagnostics, RangeChecks checks) {
   if (is_coverage(channels.front())) return coverage_layers(design, lattice, channels.front(), evaluator, diagnostics);
   Question question(design);
   program::Outputs outputs;
   for (const Channel& channel : channels)
     if (!add_outputs(channel, question, outputs, diagnostics)) return std::nullopt;
+  const size_t numbers = outputs.size();
+  for (const Channel& channel : channels)
+    if (checks == RangeChecks::both_ends && !add_beyond(channel, question, outputs, diagnostics)) return std::nullopt;
   auto program = question.program(outputs, diagnostics);
   if (!program) return std::nullopt;
-  const auto layers = std::make_shared<const ValueLayers>(std::move(*program), lattice, evaluator, channels);
+  const auto layers =
+      std::make_shared<const ValueLayers>(std::move(*program), lattice, evaluator, channels, outputs.size() - numbers);
   return [layers](const TileBox& region, const StopFlag* stop) { return layers->region(region, stop); };
+}
+
+std::vector<std::string> texts_of_range_checks(const Channel& channel) {
+  const auto text = [&](const char* side, const char* verb, double end) {
+    return channel.name + " is " + side + " the range of the images, which " + verb + " at " + format_rounded(end, 6) +
+           (channel.unit.empty() ? "" : " " + channel.unit);
+  };
+  return {text("below", "begins", channel.range.lo), text("above", "ends", channel.range.hi)};
 }
 
 size_t value_working_bytes(const std::vector<Channel>& channels, const voxel::Lattice& lattice, int64_t layers) {

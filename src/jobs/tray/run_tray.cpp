@@ -4,8 +4,8 @@
 #include <set>
 
 #include "base/text/error.h"
-#include "base/text/json.h"
 #include "base/text/text.h"
+#include "design/design_file.h"
 #include "export/output_file.h"
 #include "jobs/common/job_design.h"
 #include "jobs/common/job_kind.h"
@@ -15,6 +15,7 @@
 #include "jobs/tray/tray_choices.h"
 #include "load/find_printer.h"
 #include "load/load.h"
+#include "load/node_registry.h"
 
 namespace ombre::jobs {
 namespace {
@@ -88,8 +89,7 @@ std::optional<TrayPlan> plan(const TrayChoices& a, Session& session, Diagnostics
   }
   const auto design = compile::laid_out(items, *printer, a.gap_mm.value_or(printer->gap_mm), diagnostics);
   if (!design) return std::nullopt;
-  TrayPlan made{print_json(design->file), design->parts, printer->title};
-  // Files that designs read are looked for beside the tray.
+  TrayPlan made{design::design_text(design->file, compile::node_registry(), a.output), design->parts, printer->title};
   if (!compile::load_text(made.text, a.output, {}, diagnostics)) return std::nullopt;
   return made;
 }
@@ -104,7 +104,10 @@ int run(const TrayPlan& made, const TrayChoices& a, Session& session) {
 
 int tray(const TrayChoices& a, Session& session) {
   JobSteps<TrayPlan> steps;
-  steps.refuse = [&] { refuse_to_overwrite(a.output, a.force); };
+  steps.refuse = [&] {
+    check_design_file(a.output);
+    refuse_to_overwrite(a.output, a.force);
+  };
   steps.plan = [&](Diagnostics& diagnostics) { return plan(a, session, diagnostics); };
   steps.run = [&](const TrayPlan& made) { return run(made, a, session); };
   return take_steps(steps, session);
