@@ -174,7 +174,8 @@ def images_of_values_have_channels(job):
     by = ["--by", "dose", "--range", "0,125", "--voxel", "0.25", "--json"]
     for bits, shades in (("8", {0, 102, 255}), ("16", None), ("1", {0, 255})):  # png reads no images of 16 bits
         result = job.slice(f"dose{bits}", *by, "--bits", bits, design=design)
-        done = [json.loads(line) for line in result.stdout.splitlines()][-1]
+        events = {event["event"]: event for event in map(json.loads, result.stdout.splitlines())}
+        done, beyond = events["done"], events.get("check")
         about = json.loads((job.path / f"dose{bits}" / "job.json").read_text(encoding="utf-8"))
         expect("materials" not in done and "materials" not in about, f"materials of {bits} bits")
         kind = {"8": "dose8", "16": "dose16", "1": "mask"}[bits]
@@ -183,6 +184,7 @@ def images_of_values_have_channels(job):
         counted = done["channels"][0]
         expect(about["totals"]["channels"] == [counted], str(about["totals"]))
         expect(abs(counted["volume_mm3"] / (volume if bits != "1" else volume / 2) - 1) < 0.01, str(counted))
+        expect((beyond["voxels"] if beyond else 0) == (0 if bits == "1" else counted["voxels"] / 2), f"{beyond}")  # 150 > 125
         expect(counted.get("mean") == (None if bits == "1" else 87.5), str(counted))  # of 50 and 125, which is white
         job.slice(f"dose{bits}", *by, "--bits", bits, "--resume", design=design)
         if shades:
