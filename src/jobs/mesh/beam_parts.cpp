@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "base/text/text.h"
+#include "jobs/mesh/strut_frames.h"
 #include "nodes/all_nodes.h"
 #include "questions/build.h"
 #include "questions/sampler.h"
@@ -44,26 +45,8 @@ struct Split {
   NodePtr rest;  // null: nothing is left
 };
 
-Box reach(const StrutShape& strut) {
-  return hull(Box{strut.start, strut.start}.expanded(strut.start_radius),
-              Box{strut.end, strut.end}.expanded(strut.end_radius));
-}
-
-Box reach(const std::vector<StrutShape>& struts) {
-  Box box;
-  for (const StrutShape& strut : struts) box = hull(box, reach(strut));
-  return box;
-}
-
 StrutShape placed(const StrutShape& strut, const Affine& map, double scale) {
   return {map(strut.start), map(strut.end), scale * strut.start_radius, scale * strut.end_radius, strut.has_flat_ends};
-}
-
-// Returns the factor of a map that changes all lengths by one factor.
-std::optional<double> scale_of_similarity(const Affine& map) {
-  const auto [least, greatest] = stretch(map);
-  constexpr double rounding = 1e-9;
-  return greatest - least <= rounding * greatest ? std::optional(greatest) : std::nullopt;
 }
 
 bool is_a(const Node& node, std::string_view type) { return node.type().name == type; }
@@ -145,7 +128,7 @@ class Splitter {
                              " struts, too many to write as beams");
       return std::nullopt;
     }
-    for (BeamSet& set : parts.sets) leave_out_clipped(set);
+    for (BeamSet& set : parts.sets) leave_out_clipped(set, design_.materials, threads_);
     std::erase_if(parts.sets, [](const BeamSet& set) { return set.struts.empty(); });
     report_lost(*box);
     if (!parts.sets.empty()) return parts;
@@ -176,17 +159,19 @@ class Splitter {
   // Returns nothing if struts below this node are not beams.
   std::optional<Split> split_known(const NodePtr& node, const Affine& design_from_here) {
     if (nodes::makes_struts(*node)) return split_lattice(*node, design_from_here);
-    if (const auto copies = nodes::tile_copies_of(*node)) return split_tile(*node, *copies, design_from_here);
-    if (node->keeps_shape()) return split_input(node, design_from_here);
-    if (const auto map = here_from_input(*node)) {
-      if (!scale_of_similarity(*map)) return std::nullopt;
-      return split_input(node, design_from_here * *map);
-    }
+    const auto frame = input_frame(*node);
+    if (!frame) return std::nullopt;
+    if (frame->copies) return split_tile(*node, *frame->copies, design_from_here);
+    if (is_boolean(*node)) return split_boolean(node, design_from_here);
+    if (!scale_of_similarity(frame->here_from_input)) return std::nullopt;
+    return split_input(node, design_from_here * frame->here_from_input);
+  }
+
+  std::optional<Split> split_boolean(const NodePtr& node, const Affine& design_from_here) {
     if (!is_sharp(*node)) return std::nullopt;
     if (is_a(*node, "union")) return split_union(node, design_from_here);
     if (is_a(*node, "intersection")) return split_intersection(node, design_from_here);
-    if (is_a(*node, "difference")) return split_difference(node, design_from_here);
-    return std::nullopt;
+    return split_difference(node, design_from_here);
   }
 
   std::optional<Split> split_lattice(const Node& node, const Affine& design_from_here) {
@@ -211,7 +196,7 @@ class Splitter {
   // Returns a solid that a parameter of the node holds.
   NodePtr region_of(const Node& node, const design::SolidName& name) const {
     const Data given = design::write_solid({name.node, name.output});
-    return maker_.make("solid_of", {{"solid", design::with_held_nodes(given, node.values())}}, {});
+    return solid_of(design::with_held_nodes(given, node.values()), design_.materials, root_->where(), diagnostics_);
   }
 
   std::optional<Split> split_input(const NodePtr& node, const Affine& design_from_input) {
@@ -359,28 +344,6 @@ class Splitter {
     return true;
   }
 
-  // Removes struts of which the clip clearly leaves nothing.
-  void leave_out_clipped(BeamSet& set) {
-    if (!set.clip || set.clip->metric().is_implicit()) return;
-    const double lipschitz = set.clip->metric().lipschitz, sign = set.clipping == LatticeClipping::inside ? 1 : -1;
-    Diagnostics none;
-    const design::Design clip{design_.materials, {{"", set.clip}}, {}};
-    const auto sampler = Sampler::build(clip, {false, true, false, false, {}}, none);
-    if (!sampler) return;
-    std::vector<Vec3> middles;
-    for (const StrutShape& strut : set.struts) middles.push_back(0.5 * (strut.start + strut.end));
-    std::vector<double> distances(middles.size());
-    sampler->sample(middles, std::array{distances.data()}, threads_);
-    size_t kept = 0;
-    for (size_t n = 0; n < set.struts.size(); ++n) {
-      const StrutShape& strut = set.struts[n];
-      const double farthest = 0.5 * length(strut.end - strut.start) + std::max(strut.start_radius, strut.end_radius);
-      if (sign * distances[n] > 1.001 * lipschitz * farthest) continue;
-      set.struts[kept++] = strut;
-    }
-    set.struts.resize(kept);
-  }
-
   // Counts the struts below the node within a box of its frame. Nodes that are used more than once are counted at their
   // first use.
   double count_struts(const Node& node, const Box& where) {
@@ -389,12 +352,13 @@ class Splitter {
     if (const auto known = counts_.find(&node); known != counts_.end()) return known->second;
     double copies = 1;
     Box below = node.bounds(where);
-    if (const auto tile = nodes::tile_copies_of(node)) {
+    const auto frame = input_frame(node);
+    if (frame && frame->copies) {
       const Box original = node.inputs()[0]->bounds(design::design_space());
-      copies = count_of(copies_within(*tile, original, below));
+      copies = count_of(copies_within(*frame->copies, original, below));
       below = original;
-    } else if (const auto map = here_from_input(node)) {
-      below = image(inverse(*map), below);
+    } else if (frame) {
+      below = image(inverse(frame->here_from_input), below);
     } else if (node.inner(origin())) {
       below = design::design_space();
     }
@@ -448,6 +412,27 @@ class Splitter {
 bool is_sharp(const Node& node) {
   const int blend = node.type().parameter("blend");
   return blend < 0 || node.inputs().size() < 2 || node.type().get(node, static_cast<size_t>(blend), false) == Data(0.0);
+}
+
+void leave_out_clipped(BeamSet& set, const design::MaterialTable& materials, int threads) {
+  if (!set.clip || set.clip->metric().is_implicit()) return;
+  const double lipschitz = set.clip->metric().lipschitz, sign = set.clipping == LatticeClipping::inside ? 1 : -1;
+  Diagnostics none;
+  const design::Design clip{materials, {{"", set.clip}}, {}};
+  const auto sampler = Sampler::build(clip, {false, true, false, false, {}}, none);
+  if (!sampler) return;
+  std::vector<Vec3> middles;
+  for (const StrutShape& strut : set.struts) middles.push_back(0.5 * (strut.start + strut.end));
+  std::vector<double> distances(middles.size());
+  sampler->sample(middles, std::array{distances.data()}, threads);
+  size_t kept = 0;
+  for (size_t n = 0; n < set.struts.size(); ++n) {
+    const StrutShape& strut = set.struts[n];
+    const double farthest = 0.5 * length(strut.end - strut.start) + std::max(strut.start_radius, strut.end_radius);
+    if (sign * distances[n] > 1.001 * lipschitz * farthest) continue;
+    set.struts[kept++] = strut;
+  }
+  set.struts.resize(kept);
 }
 
 std::optional<BeamParts> split_beams(const design::Design& design, int threads, Diagnostics& diagnostics) {
