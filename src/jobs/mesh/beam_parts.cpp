@@ -130,10 +130,11 @@ class Splitter {
     }
     for (BeamSet& set : parts.sets) leave_out_clipped(set, design_.materials, threads_);
     std::erase_if(parts.sets, [](const BeamSet& set) { return set.struts.empty(); });
-    report_lost(*box);
+    report_lost(*box, parts.sets.empty() ? "no beams" : "written as triangles");
     if (!parts.sets.empty()) return parts;
     diagnostics_.error(Code::nothing_inside, root_->where(), "the design has no struts that can be written as beams",
-                       "leave " + spelled::option("--beams") + " out; struts are what lattice and strut make");
+                       "leave " + spelled::option("--beams") +
+                           " out; struts are what lattice, strut, voronoi_struts and delaunay_struts make");
     return std::nullopt;
   }
 
@@ -142,6 +143,10 @@ class Splitter {
     const Node* cause;
     NodePtr node;
     Affine design_from_here;
+  };
+  struct LostCount {
+    double known = 0;
+    bool has_more = false;  // lattices on maps, whose struts are not counted
   };
 
   Split split_node(const NodePtr& node, const Affine& design_from_here) {
@@ -346,9 +351,12 @@ class Splitter {
 
   // Counts the struts below the node within a box of its frame. Nodes that are used more than once are counted at their
   // first use.
-  double count_struts(const Node& node, const Box& where) {
-    if (!with_struts_.contains(&node)) return 0;
-    if (nodes::makes_struts(node)) return static_cast<double>(nodes::strut_count(node));
+  LostCount count_struts(const Node& node, const Box& where) {
+    if (!with_struts_.contains(&node)) return {};
+    if (nodes::makes_struts(node)) {
+      const size_t count = nodes::strut_count(node);
+      return {static_cast<double>(count), count == 0};
+    }
     if (const auto known = counts_.find(&node); known != counts_.end()) return known->second;
     double copies = 1;
     Box below = node.bounds(where);
@@ -362,25 +370,36 @@ class Splitter {
     } else if (node.inner(origin())) {
       below = design::design_space();
     }
-    double count = 0;
-    for (const NodePtr& input : node.inputs()) count += count_struts(*input, below);
-    counts_.emplace(&node, copies * count);
-    return copies * count;
+    LostCount count;
+    for (const NodePtr& input : node.inputs()) add(count_struts(*input, below), copies, count);
+    counts_.emplace(&node, count);
+    return count;
+  }
+
+  static void add(const LostCount& part, double copies, LostCount& sum) {
+    sum.known += copies * part.known;
+    sum.has_more = sum.has_more || part.has_more;
+  }
+
+  // Returns the subject and the verb of a sentence.
+  static std::string struts_are(const LostCount& lost) {
+    const auto count = static_cast<unsigned long long>(lost.known);
+    if (count == 0) return "struts are";
+    const std::string known = format_count(count) + (count == 1 ? " strut" : " struts");
+    if (lost.has_more) return known + " and those of maps of cells are";
+    return known + (count == 1 ? " is" : " are");
   }
 
   // Reports each reason once, at the first node that gives it.
-  void report_lost(const Box& box) {
-    std::map<std::string, double> counts;
+  void report_lost(const Box& box, const std::string& what_they_are) {
+    std::map<std::string, LostCount> counts;
     for (const Lost& lost : lost_)
-      counts[reason_of(*lost.cause)] += count_struts(*lost.node, image(inverse(lost.design_from_here), box));
+      add(count_struts(*lost.node, image(inverse(lost.design_from_here), box)), 1, counts[reason_of(*lost.cause)]);
     for (const Lost& lost : lost_) {
       const auto found = counts.find(reason_of(*lost.cause));
       if (found == counts.end()) continue;
-      const auto count = static_cast<unsigned long long>(found->second);
-      const std::string struts = count == 0   ? "struts are"
-                                 : count == 1 ? "1 strut is"
-                                              : format_count(count) + " struts are";
-      diagnostics_.warning(lost.cause->where(), struts + " written as triangles, because " + found->first);
+      diagnostics_.warning(lost.cause->where(),
+                           struts_are(found->second) + ' ' + what_they_are + ", because " + found->first);
       counts.erase(found);
     }
   }
@@ -400,7 +419,7 @@ class Splitter {
   program::Builder builder_;
   std::unordered_set<const Node*> with_struts_;
   std::vector<Lost> lost_;
-  std::unordered_map<const Node*, double> counts_;
+  std::unordered_map<const Node*, LostCount> counts_;
   std::map<Clips, size_t> sets_;
   std::vector<Box> boxes_;  // boxes around the clipped struts of each set
   std::map<std::pair<const Node*, std::array<double, 12>>, NodePtr> placed_;  // solids in the frame of the design
