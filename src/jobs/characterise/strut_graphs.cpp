@@ -1,112 +1,11 @@
 #include "jobs/characterise/strut_graphs.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/text/text.h"
 #include "design/registry.h"
 #include "nodes/common/struts.h"
 
 namespace ombre::compile {
 namespace {
-
-// Positions closer than this share of the greatest length are the same. Positions are rounded to multiples of it; the
-// odd offset keeps usual numbers away from the steps of rounding.
-constexpr double same_place = 1e-7, offset = 0.3819660112501051;
-
-using Key = std::array<int64_t, 3>;
-
-class GraphMaker {
- public:
-  GraphMaker(const std::vector<GraphStrut>& struts, Vec3 period) : period_(period) {
-    for (const GraphStrut& strut : struts) scale_ = std::max(scale_, length(strut.end - strut.start));
-    for (const GraphStrut& strut : struts) add(strut);
-  }
-
-  StrutGraph make() const {
-    StrutGraph graph;
-    std::vector<double> lengths, slenderness;  // each twice, from both ends
-    for (const std::vector<Way>& ways : ways_) {
-      if (go_straight_on(ways)) continue;
-      ++graph.joints;
-      ++graph.joints_of_degree[ways.size()];
-      for (const Way& way : ways) {
-        const Line line = followed(way);
-        lengths.push_back(line.length);
-        if (line.radius > 0) slenderness.push_back(2 * line.length / line.radius);
-      }
-    }
-    graph.struts = lengths.size() / 2;
-    graph.length = Spread::of(lengths);
-    graph.slenderness = Spread::of(slenderness);
-    return graph;
-  }
-
- private:
-  // Half of a strut, as it leaves a joint.
-  struct Way {
-    size_t strut = 0, to = 0;
-    Vec3 along;  // from joint to joint
-    double radius = 0;
-  };
-  struct Line {
-    double length = 0, radius = 0;  // the least radius
-  };
-
-  Key key_of(Vec3 p) const {
-    Key key{};
-    for (int axis = 0; axis < 3; ++axis)
-      key[static_cast<size_t>(axis)] = std::llround(p[axis] / (same_place * scale_) + offset);
-    return key;
-  }
-  Vec3 within_period(Vec3 p) const {
-    for (int axis = 0; axis < 3; ++axis)
-      if (period_[axis] > 0) p[axis] -= period_[axis] * std::floor(p[axis] / period_[axis] + same_place);
-    return p;
-  }
-
-  size_t joint_at(Vec3 p) {
-    const auto [found, is_new] = joints_.try_emplace(key_of(within_period(p)), ways_.size());
-    if (is_new) ways_.emplace_back();
-    return found->second;
-  }
-
-  void add(const GraphStrut& strut) {
-    const size_t from = joint_at(strut.start), to = joint_at(strut.end);
-    const Vec3 along = strut.end - strut.start;
-    if (key_of(along) == key_of({})) return;
-    const auto is_known = [&](const Way& way) { return way.to == to && key_of(way.along) == key_of(along); };
-    if (std::ranges::any_of(ways_[from], is_known)) return;
-    ways_[from].push_back({count_, to, along, strut.radius});
-    ways_[to].push_back({count_, from, -along, strut.radius});
-    ++count_;
-  }
-
-  // Returns true if two struts of one line meet here, and no others.
-  static bool go_straight_on(const std::vector<Way>& ways) {
-    if (ways.size() != 2) return false;
-    const Vec3 a = ways[0].along, b = ways[1].along;
-    return dot(a, b) < 0 && length(cross(a, b)) < 1e-6 * length(a) * length(b);
-  }
-
-  // Follows a way to the next joint at which it does not go straight on.
-  Line followed(Way way) const {
-    Line line{length(way.along), way.radius};
-    while (go_straight_on(ways_[way.to])) {
-      const std::vector<Way>& ways = ways_[way.to];
-      way = ways[0].strut == way.strut ? ways[1] : ways[0];
-      line.length += length(way.along);
-      line.radius = std::min(line.radius, way.radius);
-    }
-    return line;
-  }
-
-  Vec3 period_;
-  double scale_ = 0;
-  size_t count_ = 0;
-  std::map<Key, size_t> joints_;
-  std::vector<std::vector<Way>> ways_;
-};
 
 std::vector<GraphStrut> struts_in(const Data& data) {
   const auto point = [](const Data& one) {
@@ -151,8 +50,6 @@ std::string spread_text(const Spread& spread, const std::string& unit) {
 }
 
 }  // namespace
-
-StrutGraph graph_of(const std::vector<GraphStrut>& struts, Vec3 period) { return GraphMaker(struts, period).make(); }
 
 std::vector<LatticeGraph> lattice_graphs_of(const design::Design& design) {
   std::vector<LatticeGraph> all;
