@@ -86,7 +86,19 @@ std::optional<Struts> struts_of(const Node& node, const design::MaterialTable& m
   return found;
 }
 
-// Removes struts that clearly lie outside of the node's region, as beams are removed.
+// Returns the greatest radius that a node's struts may have in the box.
+double greatest_radius(const Node& node, const design::MaterialTable& materials, const Box& box) {
+  const int number = node.type().parameter("radius");
+  const design::ParameterInfo& parameter = node.type().parameters[static_cast<size_t>(number)];
+  Diagnostics none;
+  design::Number radius;
+  const design::Reader reader{materials, none, nullptr, node.where(), node.type().name, parameter.name};
+  if (!design::read(value_of(node, parameter.name), parameter.domain, radius, reader)) return Box::inf;
+  return radius.range(box).hi;
+}
+
+// Removes struts that clearly lie outside of the node's region, as beams are removed. Radii that are not known become
+// the greatest that is possible.
 void leave_out_outside(const Node& node, const design::MaterialTable& materials, Struts& struts) {
   const Data held = value_of(node, "region");
   Diagnostics none;
@@ -94,6 +106,10 @@ void leave_out_outside(const Node& node, const design::MaterialTable& materials,
   if (!region) return;
   BeamSet set{std::move(struts.shapes), formats::LatticeClipping::inside, region};
   const Box box = region->bounds(design::design_space());
+  if (!struts.knows_radii) {
+    const double greatest = greatest_radius(node, materials, box);
+    for (StrutShape& strut : set.struts) strut.start_radius = strut.end_radius = greatest;
+  }
   std::erase_if(set.struts, [&](const StrutShape& strut) { return intersect(reach(strut), box).is_empty(); });
   leave_out_clipped(set, materials, 1);
   struts.shapes = std::move(set.struts);

@@ -136,6 +136,12 @@ TEST(StrutGraphs, HaveNoStrutsOutsideOfARegion) {
   const auto parts = loaded ? split_beams(loaded->design, 1, diagnostics) : std::nullopt;
   ASSERT_TRUE(parts) << to_text(diagnostics);
   EXPECT_EQ(only_graph(foam).graph.struts, parts->sets.at(0).struts.size());
+  // The radius is a formula whose greatest value in the region is that of the others.
+  const std::string graded =
+      "voronoi_struts(scattered_points(sphere(8), distance=3).points, \"0.28 + 0.01*x\", region=sphere(2));";
+  const LatticeGraph of_formula = only_graph(graded);
+  EXPECT_EQ(of_formula.graph.struts, only_graph(foam).graph.struts);
+  EXPECT_EQ(of_formula.no_slenderness, "radii vary");
   // The region leaves out the struts of the far tetrahedron, but none between both.
   const std::string two =
       "delaunay_struts([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (50, 51, 52), (51, 51, 52.1), (50, 52, 52.2), "
