@@ -196,6 +196,7 @@ def graphs_of_cells_are_counted(folder):
     pipe = 'p = cylinder_cells(4, 8, 4, count=(8, 1, 1)); lattice("bcc", radius=0.6, map=p, material="red");'
     (bent,) = characteristics(folder, pipe, "--voxel", "0.8")["lattices"]
     expect((bent["joints"], bent["struts"], bent["maxwell"]) == (2, 8, -13) and "length_mm" not in bent, bent)
+    expect(bent["lengths_left_out"] == "cells are bent", bent)
 
 
 def graphs_of_edges_are_counted(folder):
@@ -211,7 +212,25 @@ translate(20, 0, 0) lattice(edges=[[(0, 0, 0), (3, 0, 0)], [(3, 0, 0), (8, 0, 0)
     expect("4 joints and 6 struts" in folder.run("characterise", "graph.vcad", "--voxel", "0.5").stderr, "no graph in the text")
 
 
-CHECKS = [graphs_of_cells_are_counted, graphs_of_edges_are_counted, random_cells_are_counted, balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
+def graphs_are_those_of_the_design(folder):
+    """A pyramid of the height 5 on a square of 6 has edges of sqrt(9 + 9 + 25). Twice as large, a strut is twice as long. Three
+    struts that cross are six, and one that closes in its cell has one joint there."""
+    use = "use <ombre/cellular.vcad>\nintersection() { cube(18); pyramidal_truss(6, 5, 0.5); }"
+    (pyramid,) = characteristics(folder, use, "--voxel", "0.5")["lattices"]
+    expect((pyramid["struts"], pyramid["joints_of_degree"]) == (4, {"4": 2}), pyramid)
+    near(pyramid["length_mm"]["mean"], 43 ** 0.5, 1e-9, "the edge of a pyramid")
+    (twice,) = characteristics(folder, 'scale(1, 1, 2) lattice("cubic", (6, 6, 6), 0.5);', "--voxel", "0.5")["lattices"]
+    expect((twice["length_mm"]["least"], twice["length_mm"]["greatest"]) == (6, 12) and "slenderness" not in twice, twice)
+    expect(twice["slenderness_left_out"] == "the scale is not the same along all axes", twice)
+    cross = "[[(-5, 0, 0), (5, 0, 0)], [(0, -5, 0), (0, 5, 0)], [(0, 0, -5), (0, 0, 5)]]"
+    (star,) = characteristics(folder, f"lattice(edges={cross}, radius=0.5);", "--voxel", "0.5")["lattices"]
+    expect((star["joints"], star["struts"], star["joints_of_degree"]) == (7, 6, {"1": 6, "6": 1}), star)
+    line = CELLS + "lattice(edges=[[(0, 0.5, 0.5), (1, 0.5, 0.5)]], radius=0.5, map=m);"
+    (closed,) = characteristics(folder, line, "--voxel", "0.5")["lattices"]
+    expect((closed["joints_of_degree"], closed["struts"], closed["length_mm"]["mean"]) == ({"2": 1}, 1, 6), closed)
+
+
+CHECKS = [graphs_of_cells_are_counted, graphs_of_edges_are_counted, graphs_are_those_of_the_design, random_cells_are_counted, balls_are_round, handles_pieces_and_hollows_are_counted, borders_of_materials_have_an_area, cells_repeat,
           walls_have_their_thickness, folded_sheets_have_their_slope, thin_struts_have_their_length, stiffness_is_that_of_homogenise, curves_are_tables,
           wrong_use_is_reported, wrong_use_is_reported_before_anything_is_measured]
 

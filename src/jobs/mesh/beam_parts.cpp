@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "base/text/text.h"
+#include "jobs/mesh/strut_frames.h"
 #include "nodes/all_nodes.h"
 #include "questions/build.h"
 #include "questions/sampler.h"
@@ -44,26 +45,8 @@ struct Split {
   NodePtr rest;  // null: nothing is left
 };
 
-Box reach(const StrutShape& strut) {
-  return hull(Box{strut.start, strut.start}.expanded(strut.start_radius),
-              Box{strut.end, strut.end}.expanded(strut.end_radius));
-}
-
-Box reach(const std::vector<StrutShape>& struts) {
-  Box box;
-  for (const StrutShape& strut : struts) box = hull(box, reach(strut));
-  return box;
-}
-
 StrutShape placed(const StrutShape& strut, const Affine& map, double scale) {
   return {map(strut.start), map(strut.end), scale * strut.start_radius, scale * strut.end_radius, strut.has_flat_ends};
-}
-
-// Returns the factor of a map that changes all lengths by one factor.
-std::optional<double> scale_of_similarity(const Affine& map) {
-  const auto [least, greatest] = stretch(map);
-  constexpr double rounding = 1e-9;
-  return greatest - least <= rounding * greatest ? std::optional(greatest) : std::nullopt;
 }
 
 bool is_a(const Node& node, std::string_view type) { return node.type().name == type; }
@@ -145,12 +128,13 @@ class Splitter {
                              " struts, too many to write as beams");
       return std::nullopt;
     }
-    for (BeamSet& set : parts.sets) leave_out_clipped(set);
+    for (BeamSet& set : parts.sets) leave_out_clipped(set, design_.materials, threads_);
     std::erase_if(parts.sets, [](const BeamSet& set) { return set.struts.empty(); });
-    report_lost(*box);
+    report_lost(*box, parts.sets.empty() ? "no beams" : "written as triangles");
     if (!parts.sets.empty()) return parts;
     diagnostics_.error(Code::nothing_inside, root_->where(), "the design has no struts that can be written as beams",
-                       "leave " + spelled::option("--beams") + " out; struts are what lattice and strut make");
+                       "leave " + spelled::option("--beams") +
+                           " out; struts are what lattice, strut, voronoi_struts and delaunay_struts make");
     return std::nullopt;
   }
 
@@ -159,6 +143,10 @@ class Splitter {
     const Node* cause;
     NodePtr node;
     Affine design_from_here;
+  };
+  struct LostCount {
+    double known = 0;
+    bool has_more = false;  // lattices on maps, whose struts are not counted
   };
 
   Split split_node(const NodePtr& node, const Affine& design_from_here) {
@@ -176,17 +164,19 @@ class Splitter {
   // Returns nothing if struts below this node are not beams.
   std::optional<Split> split_known(const NodePtr& node, const Affine& design_from_here) {
     if (nodes::makes_struts(*node)) return split_lattice(*node, design_from_here);
-    if (const auto copies = nodes::tile_copies_of(*node)) return split_tile(*node, *copies, design_from_here);
-    if (node->keeps_shape()) return split_input(node, design_from_here);
-    if (const auto map = here_from_input(*node)) {
-      if (!scale_of_similarity(*map)) return std::nullopt;
-      return split_input(node, design_from_here * *map);
-    }
+    const auto frame = input_frame(*node);
+    if (!frame) return std::nullopt;
+    if (frame->copies) return split_tile(*node, *frame->copies, design_from_here);
+    if (is_boolean(*node)) return split_boolean(node, design_from_here);
+    if (!scale_of_similarity(frame->here_from_input)) return std::nullopt;
+    return split_input(node, design_from_here * frame->here_from_input);
+  }
+
+  std::optional<Split> split_boolean(const NodePtr& node, const Affine& design_from_here) {
     if (!is_sharp(*node)) return std::nullopt;
     if (is_a(*node, "union")) return split_union(node, design_from_here);
     if (is_a(*node, "intersection")) return split_intersection(node, design_from_here);
-    if (is_a(*node, "difference")) return split_difference(node, design_from_here);
-    return std::nullopt;
+    return split_difference(node, design_from_here);
   }
 
   std::optional<Split> split_lattice(const Node& node, const Affine& design_from_here) {
@@ -211,7 +201,7 @@ class Splitter {
   // Returns a solid that a parameter of the node holds.
   NodePtr region_of(const Node& node, const design::SolidName& name) const {
     const Data given = design::write_solid({name.node, name.output});
-    return maker_.make("solid_of", {{"solid", design::with_held_nodes(given, node.values())}}, {});
+    return solid_of(design::with_held_nodes(given, node.values()), design_.materials, root_->where(), diagnostics_);
   }
 
   std::optional<Split> split_input(const NodePtr& node, const Affine& design_from_input) {
@@ -359,64 +349,57 @@ class Splitter {
     return true;
   }
 
-  // Removes struts of which the clip clearly leaves nothing.
-  void leave_out_clipped(BeamSet& set) {
-    if (!set.clip || set.clip->metric().is_implicit()) return;
-    const double lipschitz = set.clip->metric().lipschitz, sign = set.clipping == LatticeClipping::inside ? 1 : -1;
-    Diagnostics none;
-    const design::Design clip{design_.materials, {{"", set.clip}}, {}};
-    const auto sampler = Sampler::build(clip, {false, true, false, false, {}}, none);
-    if (!sampler) return;
-    std::vector<Vec3> middles;
-    for (const StrutShape& strut : set.struts) middles.push_back(0.5 * (strut.start + strut.end));
-    std::vector<double> distances(middles.size());
-    sampler->sample(middles, std::array{distances.data()}, threads_);
-    size_t kept = 0;
-    for (size_t n = 0; n < set.struts.size(); ++n) {
-      const StrutShape& strut = set.struts[n];
-      const double farthest = 0.5 * length(strut.end - strut.start) + std::max(strut.start_radius, strut.end_radius);
-      if (sign * distances[n] > 1.001 * lipschitz * farthest) continue;
-      set.struts[kept++] = strut;
-    }
-    set.struts.resize(kept);
-  }
-
   // Counts the struts below the node within a box of its frame. Nodes that are used more than once are counted at their
   // first use.
-  double count_struts(const Node& node, const Box& where) {
-    if (!with_struts_.contains(&node)) return 0;
-    if (nodes::makes_struts(node)) return static_cast<double>(nodes::strut_count(node));
+  LostCount count_struts(const Node& node, const Box& where) {
+    if (!with_struts_.contains(&node)) return {};
+    if (nodes::makes_struts(node)) {
+      const size_t count = nodes::strut_count(node);
+      return {static_cast<double>(count), count == 0};
+    }
     if (const auto known = counts_.find(&node); known != counts_.end()) return known->second;
     double copies = 1;
     Box below = node.bounds(where);
-    if (const auto tile = nodes::tile_copies_of(node)) {
+    const auto frame = input_frame(node);
+    if (frame && frame->copies) {
       const Box original = node.inputs()[0]->bounds(design::design_space());
-      copies = count_of(copies_within(*tile, original, below));
+      copies = count_of(copies_within(*frame->copies, original, below));
       below = original;
-    } else if (const auto map = here_from_input(node)) {
-      below = image(inverse(*map), below);
+    } else if (frame) {
+      below = image(inverse(frame->here_from_input), below);
     } else if (node.inner(origin())) {
       below = design::design_space();
     }
-    double count = 0;
-    for (const NodePtr& input : node.inputs()) count += count_struts(*input, below);
-    counts_.emplace(&node, copies * count);
-    return copies * count;
+    LostCount count;
+    for (const NodePtr& input : node.inputs()) add(count_struts(*input, below), copies, count);
+    counts_.emplace(&node, count);
+    return count;
+  }
+
+  static void add(const LostCount& part, double copies, LostCount& sum) {
+    sum.known += copies * part.known;
+    sum.has_more = sum.has_more || part.has_more;
+  }
+
+  // Returns the subject and the verb of a sentence.
+  static std::string struts_are(const LostCount& lost) {
+    const auto count = static_cast<unsigned long long>(lost.known);
+    if (count == 0) return "struts are";
+    const std::string known = format_count(count) + (count == 1 ? " strut" : " struts");
+    if (lost.has_more) return known + " and those of maps of cells are";
+    return known + (count == 1 ? " is" : " are");
   }
 
   // Reports each reason once, at the first node that gives it.
-  void report_lost(const Box& box) {
-    std::map<std::string, double> counts;
+  void report_lost(const Box& box, const std::string& what_they_are) {
+    std::map<std::string, LostCount> counts;
     for (const Lost& lost : lost_)
-      counts[reason_of(*lost.cause)] += count_struts(*lost.node, image(inverse(lost.design_from_here), box));
+      add(count_struts(*lost.node, image(inverse(lost.design_from_here), box)), 1, counts[reason_of(*lost.cause)]);
     for (const Lost& lost : lost_) {
       const auto found = counts.find(reason_of(*lost.cause));
       if (found == counts.end()) continue;
-      const auto count = static_cast<unsigned long long>(found->second);
-      const std::string struts = count == 0   ? "struts are"
-                                 : count == 1 ? "1 strut is"
-                                              : format_count(count) + " struts are";
-      diagnostics_.warning(lost.cause->where(), struts + " written as triangles, because " + found->first);
+      diagnostics_.warning(lost.cause->where(),
+                           struts_are(found->second) + ' ' + what_they_are + ", because " + found->first);
       counts.erase(found);
     }
   }
@@ -436,7 +419,7 @@ class Splitter {
   program::Builder builder_;
   std::unordered_set<const Node*> with_struts_;
   std::vector<Lost> lost_;
-  std::unordered_map<const Node*, double> counts_;
+  std::unordered_map<const Node*, LostCount> counts_;
   std::map<Clips, size_t> sets_;
   std::vector<Box> boxes_;  // boxes around the clipped struts of each set
   std::map<std::pair<const Node*, std::array<double, 12>>, NodePtr> placed_;  // solids in the frame of the design
@@ -448,6 +431,27 @@ class Splitter {
 bool is_sharp(const Node& node) {
   const int blend = node.type().parameter("blend");
   return blend < 0 || node.inputs().size() < 2 || node.type().get(node, static_cast<size_t>(blend), false) == Data(0.0);
+}
+
+void leave_out_clipped(BeamSet& set, const design::MaterialTable& materials, int threads) {
+  if (!set.clip || set.clip->metric().is_implicit()) return;
+  const double lipschitz = set.clip->metric().lipschitz, sign = set.clipping == LatticeClipping::inside ? 1 : -1;
+  Diagnostics none;
+  const design::Design clip{materials, {{"", set.clip}}, {}};
+  const auto sampler = Sampler::build(clip, {false, true, false, false, {}}, none);
+  if (!sampler) return;
+  std::vector<Vec3> middles;
+  for (const StrutShape& strut : set.struts) middles.push_back(0.5 * (strut.start + strut.end));
+  std::vector<double> distances(middles.size());
+  sampler->sample(middles, std::array{distances.data()}, threads);
+  size_t kept = 0;
+  for (size_t n = 0; n < set.struts.size(); ++n) {
+    const StrutShape& strut = set.struts[n];
+    const double farthest = 0.5 * length(strut.end - strut.start) + std::max(strut.start_radius, strut.end_radius);
+    if (sign * distances[n] > 1.001 * lipschitz * farthest) continue;
+    set.struts[kept++] = strut;
+  }
+  set.struts.resize(kept);
 }
 
 std::optional<BeamParts> split_beams(const design::Design& design, int threads, Diagnostics& diagnostics) {

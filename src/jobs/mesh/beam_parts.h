@@ -28,6 +28,10 @@ struct BeamParts {
 // struts, or too many.
 std::optional<BeamParts> split_beams(const design::Design& design, int threads, Diagnostics& diagnostics);
 
+// Removes struts of which the clip clearly leaves nothing, by the distance of their middles. Runs on up to `threads`
+// threads; 0: all cores.
+void leave_out_clipped(BeamSet& set, const design::MaterialTable& materials, int threads);
+
 // Returns true if the node does not blend its inputs where they meet.
 bool is_sharp(const design::Node& node);
 

@@ -270,13 +270,41 @@ TEST(BeamParts, WhatIsNoBeamIsCountedWithItsReason) {
   expect_lost("difference() { cube(3); " + bcc + " }", "8 struts are");
   expect_lost("tile((9, 9, 9), (0, 0, 0), (1, 1, 1)) { sphere(1); " + bcc + " }", "64 struts are");
   expect_lost("lattice(edges=[[(0, 0, 0), (4, 0, 0)]], radius=\"1 + 0.1*x\");",
+              "1 strut is written as triangles, because the radius of the struts varies by place");
+  expect_lost("lattice(edges=[[(0, 0, 0), (4, 0, 0)]], radius=\"1 + t*t\");",
               "1 strut is written as triangles, because the radius is not linear along the struts");
-  expect_lost("lattice(edges=[[(0, 0, 0), (4, 0, 0)]], radius=\"1 + t*t\");", "1 strut is");
-  expect_lost("lattice(edges=[[(0, 0, 0), (4, 0, 0)]], radius=\"0.5*t\");", "1 strut is");
+  for (const char* made :
+       {"lattice(edges=[[(0, 0, 0), (4, 0, 0)]], radius=\"0.5*t\");", "strut((0, 0, 0), (4, 0, 0), \"1 - t\");"})
+    expect_lost(made, "1 strut is written as triangles, because the radius is not above 0 at both ends of the struts");
   expect_lost(
       "tile((9, 9, 9), (0, 0, 0), (1, 1, 1)) lattice(edges=[[(0, 0, 0), (4, 0, 0)]], radius=\"1 + 0.1*clamp(0, ci, "
       "1)\");",
-      "8 struts are written as triangles, because the radius is not linear along the struts");
+      "8 struts are written as triangles, because the radius of the struts varies by place");
+}
+
+// A strut, and eight copies of a lattice whose struts are not counted.
+TEST(BeamParts, LatticesOnMapsAreNamedBesideTheCount) {
+  const std::string strut = "strut((30, 0, 0), (40, 0, 0), \"1 + 0.1*sin(t)\");";
+  const std::string lattice =
+      "lattice(\"bcc\", radius=\"0.3 + 0.1*sin(t)\", map=box_cells((4, 4, 4), min=(0, 0, 0), max=(8, 8, 8)));";
+  const std::string why = " written as triangles, because the radius is not linear along the struts";
+  expect_lost(strut, "1 strut is" + why);
+  expect_lost(lattice, "warning: struts are" + why);
+  expect_lost(strut + lattice, "1 strut and those of maps of cells are" + why);
+  expect_lost(lattice + strut + strut, "2 struts and those of maps of cells are" + why);
+}
+
+// Nothing is written then.
+TEST(BeamParts, NothingBecomesTrianglesWhereThereAreNoBeams) {
+  const Found found = split_text("offset(0.1) lattice(\"bcc\", (4, 4, 4), 0.5);");
+  EXPECT_FALSE(found.parts);
+  EXPECT_NE(found.messages.find("8 struts are no beams, because beams cannot have the shape that \"offset\" makes"),
+            std::string::npos)
+      << found.messages;
+  EXPECT_EQ(found.messages.find("triangles"), std::string::npos) << found.messages;
+  EXPECT_NE(found.messages.find("struts are what lattice, strut, voronoi_struts and delaunay_struts make"),
+            std::string::npos)
+      << found.messages;
 }
 
 TEST(BeamParts, DesignsWithoutStrutsAreAnError) {

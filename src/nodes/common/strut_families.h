@@ -8,12 +8,16 @@
 
 namespace ombre::nodes {
 
-// Returns the radii at the start and the end of a strut. Returns nothing if the radius is not a linear function of t,
-// or not above 0 at both ends.
-std::optional<std::array<double, 2>> end_radii(const design::Number& radius);
+// Why struts are no beams whose radius depends on more than the position along them.
+inline constexpr const char* radius_varies_by_place = "the radius of the struts varies by place";
 
-// Why struts are no beams if end_radii returns nothing.
-inline constexpr const char* radius_is_not_linear = "the radius is not linear along the struts";
+// The radii at the start and the end of a strut, or why there are none: the radius is not a linear function of t, or
+// not above 0 at both ends.
+struct EndRadii {
+  std::optional<std::array<double, 2>> radii;
+  std::string reason = {};  // follows "because"
+};
+EndRadii end_radii(const design::Number& radius);
 
 // StrutMaker makes the struts of one node of a family.
 struct StrutMaker {

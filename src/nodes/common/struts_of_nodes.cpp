@@ -12,15 +12,24 @@ std::optional<StrutMaker> maker_of(const design::Node& node) {
   return std::nullopt;
 }
 
+bool uses_only_t(const expr::Expression& formula) {
+  const auto start = [](const expr::Node& variable) -> std::optional<expr::Expression> {
+    return variable.name == "t" ? std::optional(expr::Expression::constant(0)) : std::nullopt;
+  };
+  return formula.with_substitutes(start).constant_value().has_value();
+}
+
 }  // namespace
 
-std::optional<std::array<double, 2>> end_radii(const design::Number& radius) {
-  std::array<double, 2> radii{};
-  if (const double* constant = radius.constant())
-    radii.fill(*constant);
-  else if (const auto linear = radius.expression()->linear_in("t"))
-    radii = {linear->constant, linear->constant + linear->slope};
-  return radii[0] > 0 && radii[1] > 0 ? std::optional(radii) : std::nullopt;
+EndRadii end_radii(const design::Number& radius) {
+  if (const double* constant = radius.constant()) return {std::array{*constant, *constant}};
+  const expr::Expression& formula = *radius.expression();
+  if (const auto linear = formula.linear_in("t")) {
+    const std::array radii{linear->constant, linear->constant + linear->slope};
+    if (radii[0] > 0 && radii[1] > 0) return {radii};
+    return {{}, "the radius is not above 0 at both ends of the struts"};
+  }
+  return {{}, uses_only_t(formula) ? "the radius is not linear along the struts" : radius_varies_by_place};
 }
 
 bool makes_struts(const design::Node& node) { return maker_of(node).has_value(); }

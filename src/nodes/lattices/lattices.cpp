@@ -115,11 +115,11 @@ struct Lattice {
   StrutsOrReason beams() const {
     if (joint || blend) return {{}, "struts have balls at their ends, or fillets"};
     const auto common = end_radii(radius);
-    if (!common && !all_have_own_radii()) return {{}, radius_is_not_linear};
+    if (!common.radii && !all_have_own_radii()) return {{}, common.reason};
     const auto shapes = [&](const std::vector<Strut>& struts, const auto& placed) {
       std::vector<StrutShape> all;
       for (const Strut& strut : struts) {
-        const auto radii = strut.own_radius > 0 ? std::array{strut.own_radius, strut.own_radius} : *common;
+        const auto radii = strut.own_radius > 0 ? std::array{strut.own_radius, strut.own_radius} : *common.radii;
         all.push_back({placed(strut.start), placed(strut.end), radii[0], radii[1]});
       }
       return all;

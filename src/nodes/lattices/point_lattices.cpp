@@ -125,7 +125,7 @@ struct PointStruts : PointLattice {
   StrutsOrReason beams() const {
     if (closed) return {{}, "struts along the surface of a region are not straight"};
     if (blend) return {{}, "struts have fillets"};
-    if (!radius.constant()) return {{}, radius_is_not_linear};
+    if (!radius.constant()) return {{}, radius_varies_by_place};
     NodeStruts made{.struts = {}, .region = region};
     for (const auto& [start, end] : edges_here().list)
       made.struts.push_back({start, end, *radius.constant(), *radius.constant()});

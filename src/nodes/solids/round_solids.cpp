@@ -194,10 +194,11 @@ struct Strut {
 
   Field along(const Ask& ask) const { return share(ask.p); }
 
-  // Returns the strut, or nothing if it is not a conical frustum.
-  std::optional<StrutShape> shape() const {
-    const auto radii = end_radii(radius);
-    return radii ? std::optional(StrutShape{start, end, (*radii)[0], (*radii)[1], caps == "flat"}) : std::nullopt;
+  // Returns the strut, or why it is not a conical frustum.
+  StrutsOrReason beam() const {
+    const auto [radii, reason] = end_radii(radius);
+    if (!radii) return {{}, reason};
+    return {NodeStruts{{{start, end, (*radii)[0], (*radii)[1], caps == "flat"}}}};
   }
 
  private:
@@ -237,11 +238,7 @@ struct Strut {
 std::optional<StrutMaker> single_strut(const design::Node& node) {
   const auto* strut = dynamic_cast<const NodeOf<Strut>*>(&node);
   if (!strut) return std::nullopt;
-  return StrutMaker{1, [strut]() -> StrutsOrReason {
-                      const auto shape = strut->data.shape();
-                      if (!shape) return {{}, radius_is_not_linear};
-                      return {NodeStruts{{*shape}}};
-                    }};
+  return StrutMaker{1, [strut] { return strut->data.beam(); }};
 }
 
 void add_round_solids(Registry& registry) {
