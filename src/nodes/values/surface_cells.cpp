@@ -125,13 +125,16 @@ struct SurfaceCells : CellOutputs<SurfaceCells>, OnSurfacePart {
                         (counts.x * counts.y * counts.z);
     return format_rounded(lengths.x) + " x " + format_rounded(lengths.y) + " x " + format_rounded(space->thickness_mm) +
            " mm, " + format_rounded(counts.x) + " x " + format_rounded(counts.y) + " x " + format_rounded(counts.z) +
-           " cells; lengths along the surface are stretched by " + range_text(space->stretches, 1) +
-           ", in one place by up to " + format_rounded(space->aspect) +
-           " times as much in one direction as in the other; volumes of cells are " + range_text(space->volumes, cell) +
-           " mm^3";
+           " cells; lengths along the surface are stretched by " + range_text(space->stretches, 1) + unevenness() +
+           "; volumes of cells are " + range_text(space->volumes, cell) + " mm^3";
   }
 
  private:
+  // Returns nothing where lengths are stretched alike in all directions.
+  std::string unevenness() const {
+    const std::string times = format_rounded(space->aspect);
+    return times == "1" ? "" : ", in one place by up to " + times + " times as much in one direction as in the other";
+  }
   Field is_kept(const Point& p) const {
     const Slope place = cells_at(p);
     return p.builder().source(whole, 0, place[0], place[1], p.constant(0));
