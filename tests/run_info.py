@@ -189,7 +189,7 @@ def maps_on_surfaces_are_reported(folder):
     expect(report["node"] == "surface_cells" and report["line"] == 1, report)
     expect(report["report"].startswith("2 x 4 x 3 mm, 2 x 4 x 1 cells"), report)
     expect("volumes of cells are 3 to 3 mm^3" in report["report"], report)
-    expect("stretched by 1 to 1," in folder.run("info", "cells.vcad").stdout, "no report in the text")
+    expect("stretched by 1 to 1;" in folder.run("info", "cells.vcad").stdout, "no report in the text")
 
 
 def maps_are_reported(folder):

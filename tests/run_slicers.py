@@ -345,6 +345,13 @@ def slips_get_remedies(designs):
         designs.write("dense.vcad", f'attribute("infill_density", "{low}") cube(10);')  # 0.2 to 0.3, and 20 to 30
         reported = designs.mesh("dense.vcad", "--by", "infill_density", "--bands", "2", "--flavour", "prusa")
         expect(words in reported and reported.count("become the same setting") == bool(words), reported)
+    # No slicer takes what these values become.
+    for attribute, values, options, words in (
+            ("infill_density", "250 + x", [], "fill_density=246%, and this setting is a share from 0% to 100%"),
+            ("layer_height", "-0.1 + z/100", ["--height-ranges"], "and this setting is a number above 0")):
+        designs.write("wrong.vcad", f'attribute("{attribute}", "{values}") translate(0, 0, 5) cube(10);')
+        reported = designs.mesh("wrong.vcad", "--by", attribute, "--flavour", "prusa", *options, status=1)
+        expect(words in reported and f"a band of the attribute {attribute}" in reported, reported)
     designs.mesh("halves.vcad", "--flavour", "orca", "--setting", "brim_width=3", "--setting", "sparse_infill_pattern=gyroid")
     config = designs.entry("Metadata/model_settings.config")
     expect(config.index('key="brim_width"') < config.index("<part") < config.index('key="sparse_infill_pattern"'), config)

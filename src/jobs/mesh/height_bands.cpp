@@ -5,6 +5,7 @@
 
 #include "base/text/text.h"
 #include "formats/slicers/slicer_settings.h"
+#include "jobs/mesh/slicer_bodies.h"
 #include "questions/build.h"
 #include "questions/region_request.h"
 #include "questions/sampler.h"
@@ -158,10 +159,8 @@ class HeightSurvey {
       const std::vector<double>& borders = borders_[n];
       const double lo = bands[n] == 0 ? ends_[n].lo : borders[bands[n] - 1];
       const double hi = bands[n] == borders.size() ? ends_[n].hi : borders[bands[n]];
-      const formats::SlicerKey& row = *formats::slicer_key_of(names_[n]);
-      const double middle = (lo + hi) / 2;
-      settings.emplace_back(key_of(row),
-                            format_rounded(row.is_whole ? std::round(middle) : middle, 4) + std::string(row.unit));
+      const std::string key = key_of(*formats::slicer_key_of(names_[n]));
+      settings.emplace_back(key, setting_of_band(names_[n], key, choices_.flavour, (lo + hi) / 2));
     }
     return settings;
   }

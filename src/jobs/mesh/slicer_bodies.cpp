@@ -29,18 +29,13 @@ std::string body_key_of(const std::string& attribute, SlicerFlavour flavour) {
   return is_of_body ? key : "";
 }
 
-// Returns what slicers take for the middle of a band.
-std::string setting_text(const formats::SlicerKey& row, double middle) {
-  return format_rounded(row.is_whole ? std::round(middle) : middle, 4) + std::string(row.unit);
-}
-
 // Adds the settings of the middles of a body's bands, unless others were given.
 void add_attributes(const compile::Region& region, SlicerFlavour flavour, Settings& values) {
   for (const auto& [attribute, middle] : region.attributes) {
     const std::string key = body_key_of(attribute, flavour);
     const auto is_given = [&](const auto& value) { return value.first == key; };
     if (key.empty() || std::ranges::any_of(values, is_given)) continue;
-    values.emplace_back(key, setting_text(*formats::slicer_key_of(attribute), middle));
+    values.emplace_back(key, setting_of_band(attribute, key, flavour, middle));
   }
 }
 
@@ -65,11 +60,13 @@ Settings settings_of(const std::vector<SlicerSetting>& settings, size_t body, co
 using Middles = std::set<double>;
 
 // Returns the middles of an attribute's bands, by the settings that slicers take for them.
-std::map<std::string, Middles> middles_by_setting(const compile::MeshedDesign& made, const std::string& attribute) {
+std::map<std::string, Middles> middles_by_setting(const compile::MeshedDesign& made, const std::string& attribute,
+                                                  SlicerFlavour flavour) {
+  const std::string key = body_key_of(attribute, flavour);
   std::map<std::string, Middles> middles;
   for (const compile::RegionBody& body : made.bodies)
     for (const auto& [own, middle] : body.region.attributes)
-      if (own == attribute) middles[setting_text(*formats::slicer_key_of(attribute), middle)].insert(middle);
+      if (own == attribute) middles[setting_of_band(attribute, key, flavour, middle)].insert(middle);
   return middles;
 }
 
@@ -78,7 +75,7 @@ void tell_rounded_bands(const Events& events, const compile::MeshedDesign& made,
                         const std::string& attribute) {
   const std::string key = formats::key_in(choices.flavour, body_key_of(attribute, choices.flavour));
   std::vector<std::string> equal;
-  for (const auto& [setting, middles] : middles_by_setting(made, attribute)) {
+  for (const auto& [setting, middles] : middles_by_setting(made, attribute, choices.flavour)) {
     if (middles.size() < 2) continue;
     std::vector<std::string> texts;
     for (const double middle : middles) texts.push_back(format_rounded(middle));
@@ -101,6 +98,19 @@ std::set<std::string> attributes_of(const compile::MeshedDesign& made, const Mes
 }
 
 }  // namespace
+
+std::string setting_of_band(const std::string& attribute, const std::string& key, SlicerFlavour flavour,
+                            double middle) {
+  const formats::SlicerKey& row = *formats::slicer_key_of(attribute);
+  const double number = row.is_whole ? std::round(middle) : middle;
+  const std::string text = format_rounded(number, 4) + std::string(row.unit), name = formats::key_in(flavour, key);
+  const formats::ValueKind* const kind = formats::kind_of(flavour, name);
+  if (kind && !kind->takes(number, row.unit == "%" ? "%" : ""))
+    throw WrongArgument("a band of the attribute " + attribute + " would have " + name + "=" + text +
+                        ", and this setting is " + std::string(kind->name) +
+                        "; change the attribute's values, or give it a name of your own");
+  return text;
+}
 
 formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title, const MeshChoices& choices,
                                   const std::vector<SlicerSetting>& settings) {

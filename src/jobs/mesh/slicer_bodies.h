@@ -17,6 +17,11 @@ namespace ombre::jobs {
 formats::MeshDocument document_of(compile::MeshedDesign& made, const std::string& title,
                                   const compile::MeshChoices& choices, const std::vector<SlicerSetting>& settings);
 
+// Returns the setting `key` that slicers take for the middle of a band of an attribute that is one. Throws
+// WrongArgument if the program takes no such number for it.
+std::string setting_of_band(const std::string& attribute, const std::string& key, formats::SlicerFlavour flavour,
+                            double middle);
+
 // Warns of attributes of bands that are no settings of bodies in the slicer, or that are the same one for several
 // bands.
 void tell_lost_attributes(const Events& events, const compile::MeshedDesign& made, const compile::MeshChoices& choices);

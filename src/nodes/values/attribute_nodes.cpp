@@ -64,7 +64,7 @@ struct Attribute {
     const StandardAttribute* standard = standard_attribute(name);
     if (!check_name(reader) || !check_child_variables(reader, *inputs[0], value.used())) return false;
     if (!become_wanted(standard, reader)) return false;
-    take_standard(standard, reader);
+    take_standard(standard, inputs[0]->bounds(design_space()), reader);
     find_materials(reader);
     return true;
   }
@@ -129,7 +129,7 @@ struct Attribute {
 
   // Takes the unit, range and default of a standard attribute. A different unit is kept with a warning, since older
   // designs have some; then the range is unknown.
-  void take_standard(const StandardAttribute* standard, const Reader& reader) {
+  void take_standard(const StandardAttribute* standard, const Box& where, const Reader& reader) {
     if (!default_value) default_value = standard ? standard->default_value : 0;
     if (!standard) return;
     if (unit_text.empty()) unit_text = standard->unit;
@@ -140,10 +140,11 @@ struct Attribute {
                                  "convert its value and leave out the unit, or give it a name of your own");
       return;
     }
-    const Box where = reader.inputs && !reader.inputs->empty() ? reader.inputs->front()->bounds(design_space()) : Box();
     for (const Number& number : value.used()) {
       const double* constant = number.constant();
-      const Interval found = constant ? Interval(*constant) : number.range(where.is_empty() ? design_space() : where);
+      const Interval found = constant           ? Interval(*constant)
+                             : where.is_empty() ? Interval::everything()
+                                                : number.range(where);
       if (found.hi >= standard->range.lo && found.lo <= standard->range.hi) continue;
       const std::string text =
           constant ? format_number(*constant) : format_rounded(found.lo, 4) + " to " + format_rounded(found.hi, 4);
