@@ -59,7 +59,7 @@ class PlaceKey {
     }
     texts_ = {place.lengths_may_change, place.thickness_may_change};
   }
-  auto operator<=>(const PlaceKey&) const = default;
+  auto operator<=>(const PlaceKey&) const = default;  // NOLINT(modernize-use-nullptr): clang 14 finds one in it
 
  private:
   static Vec3 image_of_axis(const Affine& map, int axis) {

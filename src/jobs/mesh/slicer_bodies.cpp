@@ -79,7 +79,8 @@ void tell_rounded_bands(const Events& events, const compile::MeshedDesign& made,
     if (middles.size() < 2) continue;
     std::vector<std::string> texts;
     for (const double middle : middles) texts.push_back(format_rounded(middle));
-    equal.push_back("those around " + join(texts, ", ") + " have " + key + "=" + setting);
+    std::string text = "those around " + join(texts, ", ");
+    equal.push_back(std::move(text.append(" have ").append(key).append("=").append(setting)));
   }
   if (equal.empty()) return;
   events.warn("bands of " + attribute + " become the same setting: " + join(equal, ", ") +

@@ -10,7 +10,7 @@ bool is_boolean(const design::Node& node) {
 }
 
 std::optional<InputFrame> input_frame(const design::Node& node) {
-  if (auto copies = nodes::tile_copies_of(node)) return InputFrame{{}, std::move(copies)};
+  if (const auto copies = nodes::tile_copies_of(node)) return InputFrame{{}, copies};
   if (node.keeps_shape() || is_boolean(node)) return InputFrame{};
   const auto map = here_from_input(node);
   return map ? std::optional(InputFrame{*map}) : std::nullopt;
