@@ -14,7 +14,7 @@ MAPS = {
     "formula": (lambda: ombre.formula_cells(v="v + 0.03*v^2", of=ombre.cylinder_cells(16, 22, 24, count=(20, 4, 1))), 0.155),
     "between": (lambda: ombre.between_cells(ombre.sphere(16), ombre.sphere(22), ombre.ball_cells(15, 23, -50, 50, count=(20, 5, 1))), 0.1),
 }
-# These are the numbers of docs/user/cells.md.
+# Greatest shares by which walls may differ from their thickness, as docs/user/cells.md states them.
 WITHIN = {"lidinoid": 0.04}
 
 

@@ -468,6 +468,9 @@ def test_converters_read_what_the_child_has():
     assert values_at(pv.AttributeModifier(table, box_with(q=number("x"))), ["q", "p"], 1, 0, 0) == [10, 100]
     parts = pv.AttributeModifier(pv.Vec3ToScalarsConverter("v", "z", "y", "x"), box_with(v=pv.Vec3Attribute("x", 2, 3)))
     assert values_at(parts, ["z", "y", "x"], 1, 0, 0) == [1, 2, 3]
+    mixed = pv.AttributeModifier(both, box_with(density=number(1), v=pv.Vec3Attribute("x", 2, 3)))
+    mixed = pv.AttributeModifier(pv.Vec3ToScalarsConverter("v", "z", "y", "x"), mixed)
+    assert values_at(mixed, ["density", "z", "y"], 1, 0, 0) == [2, 1, 2]
     twice = pv.AttributeModifier(both, pv.AttributeModifier(both, box_with(density=number(1))))
     assert values_at(twice, ["density", "temperature"], 0, 0, 0) == [4, 200]
 

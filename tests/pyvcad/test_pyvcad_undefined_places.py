@@ -166,7 +166,7 @@ def bits_of(path):
     return sum(not data[start + row * stride + n // 8] & 128 >> n % 8 for row in range(height) for n in range(width))
 
 
-# Where children overlap.
+# The following tests are of places where children overlap.
 
 def averaged(children, rule=pv.resolvers.AverageConflictResolver, kind=pv.Union):
     whole = kind(children)

@@ -65,20 +65,15 @@ class AttributeConverterBase:
         return None
 
 
-def _alias(n: int) -> str:
-    """A name of an input that means nothing else in formulas and no output has."""
-    return f"input_{n}_of_converter"
-
-
-def _aliases(inputs: list[str]) -> dict[str, str]:
-    return {name: _alias(n) for n, name in enumerate(inputs)}
-
-
-def _with_aliases(solid: ombre.Solid, inputs: list[str]) -> ombre.Solid:
-    whole = solid
-    for name, alias in _aliases(inputs).items():
-        whole = with_numbers(whole, alias, numbers_of(solid, name))
-    return whole
+def _with_aliases(solid: ombre.Solid, inputs: list[str]) -> tuple[ombre.Solid, dict[str, str]]:
+    """The solid, whose inputs have names that mean nothing else in formulas and no output has; and these names."""
+    whole, aliases = solid, {}
+    for n, name in enumerate(inputs):
+        parts = numbers_of(solid, name)
+        # The names of numbers, vectors and colours differ, since a name has one type in a whole design.
+        aliases[name] = f"input_{n}_of_{len(parts)}"
+        whole = with_numbers(whole, aliases[name], parts)
+    return whole, aliases
 
 
 def _names(what: str, names: Any) -> list[str]:
@@ -108,9 +103,9 @@ class ExpressionConverter(AttributeConverterBase):
         return ExpressionConverter(self._inputs, self._outputs, self._expressions)
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        solid = _with_aliases(solid, self._inputs)
+        solid, aliases = _with_aliases(solid, self._inputs)
         for name, formula in zip(self._outputs, self._expressions):
-            solid = ombre.attribute(solid, name, with_names(formula, _aliases(self._inputs)))
+            solid = ombre.attribute(solid, name, with_names(formula, aliases))
         return solid
 
 
@@ -130,8 +125,8 @@ class VolumeFractionsExpressionConverter(AttributeConverterBase):
         return ["volume_fractions"]
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        formulas = [with_names(formula, _aliases(self._inputs)) for formula in self._expressions]
-        return ombre.fgrade(_with_aliases(solid, self._inputs), formulas, self._ids)
+        solid, aliases = _with_aliases(solid, self._inputs)
+        return ombre.fgrade(solid, [with_names(formula, aliases) for formula in self._expressions], self._ids)
 
     def _materials(self) -> set[int] | None:
         return set(self._ids)
@@ -155,8 +150,8 @@ class _Joined(AttributeConverterBase):
         return [self._output]
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        parts = list(_aliases(self._inputs).values())
-        return ombre.attribute(_with_aliases(solid, self._inputs), self._output, parts, type=self._type)
+        solid, aliases = _with_aliases(solid, self._inputs)
+        return ombre.attribute(solid, self._output, list(aliases.values()), type=self._type)
 
 
 class ScalarsToVec3Converter(_Joined):
@@ -288,44 +283,46 @@ class LookupTableConverter(AttributeConverterBase):
             raise ValueError(f"LookupTableConverter: expected {count} values in an entry, found {len(entry.output_values)}")
 
     def _apply(self, solid: ombre.Solid) -> ombre.Solid:
-        solid = _with_aliases(solid, self._inputs)
+        solid, aliases = _with_aliases(solid, self._inputs)
+        keys = list(aliases.values())
         if len(self._inputs) > 1 and self._mode is InterpolationMode.STEP:
-            return self._apply_steps(solid)
+            return self._apply_steps(solid, keys)
         for n, name in enumerate(self._outputs):
             values = [entry.output_values[n] for entry in self._entries]
             if isinstance(values[0], dict):
                 ids = sorted({material(id) for value in values for id in value})
-                solid = ombre.fgrade(solid, [self._formula([value.get(id, 0.0) for value in values]) for id in ids], ids)
+                solid = ombre.fgrade(solid, [self._formula(keys, [value.get(id, 0.0) for value in values]) for id in ids], ids)
             elif isinstance(values[0], numbers.Real):
-                solid = ombre.attribute(solid, name, self._formula(values))
+                solid = ombre.attribute(solid, name, self._formula(keys, values))
             else:
-                parts = [self._formula([value[i] for value in values]) for i in range(len(values[0]))]
+                parts = [self._formula(keys, [value[i] for value in values]) for i in range(len(values[0]))]
                 solid = ombre.attribute(solid, name, parts, type="colour" if len(parts) == 4 else "vector")
         return solid
 
-    def _apply_steps(self, solid: ombre.Solid) -> ombre.Solid:
+    def _apply_steps(self, solid: ombre.Solid, keys: list[str]) -> ombre.Solid:
         formulas = []
-        for n in range(len(self._inputs)):
+        for n, key in enumerate(keys):
             texts = [repr(float(entry.output_values[n])) if entry.is_valid else _unknown for entry in self._entries]
-            formulas.append(_steps(_alias(n), [entry.input_ranges[n] for entry in self._entries], texts))
+            formulas.append(_steps(key, [entry.input_ranges[n] for entry in self._entries], texts))
         if len(self._outputs) > 1:
             for name, formula in zip(self._outputs, formulas):
                 solid = ombre.attribute(solid, name, formula)
             return solid
         return ombre.attribute(solid, self._outputs[0], formulas, type="colour" if len(formulas) == 4 else "vector")
 
-    def _formula(self, values: list[Any]) -> str:
+    def _formula(self, keys: list[str], values: list[Any]) -> str:
         texts = [repr(float(value)) if entry.is_valid else _unknown for value, entry in zip(values, self._entries)]
         if self._mode is InterpolationMode.STEP:
-            return _steps(_alias(0), [entry.input_ranges[0] for entry in self._entries], texts)
-        return self._in_lines(0, texts)
+            return _steps(keys[0], [entry.input_ranges[0] for entry in self._entries], texts)
+        return self._in_lines(keys, texts)
 
-    def _in_lines(self, axis: int, texts: list[str]) -> str:
-        """The formula between the keys of this input and the next ones, from the texts of the entries in order."""
-        keys = self._keys[axis]
-        size = len(texts) // len(keys)
-        rows = texts if size == 1 else [self._in_lines(axis + 1, texts[n:n + size]) for n in range(0, len(texts), size)]
-        return _lines(_alias(axis), keys, rows)
+    def _in_lines(self, keys: list[str], texts: list[str]) -> str:
+        """The formula between the values of the first of the last keys and those of the next ones, from the texts of the
+        entries in order."""
+        values = self._keys[len(self._inputs) - len(keys)]
+        size = len(texts) // len(values)
+        rows = texts if size == 1 else [self._in_lines(keys[1:], texts[n:n + size]) for n in range(0, len(texts), size)]
+        return _lines(keys[0], values, rows)
 
     def _materials(self) -> set[int] | None:
         found = {id for entry in self._entries for value in entry.output_values if isinstance(value, dict)

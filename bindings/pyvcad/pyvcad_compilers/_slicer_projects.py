@@ -185,7 +185,7 @@ _beyond, _least_width = 1.001, 1e-4  # of the band of places without an attribut
 _bodies = ("3D/3dmodel.model", "Metadata/Slic3r_PE_model.config")
 _tools = ("temperature", "flow_rate")
 _config = "Metadata/Slic3r_PE.config"
-# What a project assumes unless a profile says it, and what stands between the values of its extruders.
+# Settings that a project assumes unless a profile has them, each with the separator between the values of extruders.
 _assumed = {"nozzle_diameter": ",", "filament_type": ";"}
 
 

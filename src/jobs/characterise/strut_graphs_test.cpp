@@ -88,7 +88,7 @@ TEST(StrutGraphs, OfTrussesOfTheLibrary) {
   const LatticeGraph pyramids = only_graph(use + "pyramidal_truss(6, 5, 0.5); }");
   expect_graph(pyramids, 2, 4, {{4, 2}});
   expect_lengths(pyramids, std::sqrt(9 + 9 + 25), std::sqrt(9 + 9 + 25));
-  // In each period two places where three struts cross, and two corners of triangles above and below, with three each.
+  // Three struts cross at two places of each period, and three end at each of two corners of triangles above and below.
   const LatticeGraph kagome = only_graph(use + "kagome_truss(6, 5, 0.5); }");
   expect_graph(kagome, 6, 12, {{3, 4}, {6, 2}});
   expect_lengths(kagome, std::sqrt(12 + 6.25), std::sqrt(12 + 6.25));
