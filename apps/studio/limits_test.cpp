@@ -1,5 +1,4 @@
 // Tests of endless scripts, too deep designs, and cancelled requests.
-#include "base/system/stopwatch.h"
 #include "base/text/json.h"
 #include "studio/test_studio.h"
 
@@ -11,7 +10,6 @@ namespace {
 TEST_F(StudioTest, NewerRequestsOfALaneCancelOlder) {
   const std::string script = "function f(n) = n < 2 ? 1 : f(n - 1) + f(n - 2);\nsphere(f(60));";
   const std::string request = R"(, "do": "load", "lane": "load", "file": "a.vcad", "text": )";
-  const Stopwatch watch;
   studio.take(client, R"({"id": 101)" + request + print_json_line(script) + "}");
   studio.take(client, R"({"id": 102)" + request + R"("sphere(1);"})");
   EXPECT_EQ(text(answer(101).first, "error"), "cancelled");
@@ -19,7 +17,6 @@ TEST_F(StudioTest, NewerRequestsOfALaneCancelOlder) {
   studio.take(client, R"({"id": 103)" + request + print_json_line(script) + "}");
   studio.take(client, R"({"id": 103, "do": "cancel"})");
   EXPECT_EQ(text(answer(103).first, "error"), "cancelled");
-  EXPECT_LT(watch.seconds(), 20);
 }
 
 TEST_F(StudioTest, StopsScriptsWithoutEnd) {
@@ -31,11 +28,9 @@ TEST_F(StudioTest, StopsScriptsWithoutEnd) {
                                print_json_line(script) + "}");
     return answer(id).first;
   };
-  const Stopwatch watch;
   const Data endless = ask_impatient("function f(n) = n < 2 ? 1 : f(n - 1) + f(n - 2);\nsphere(f(90));");
   EXPECT_EQ(text(endless, "error"), "time") << print_json(endless);
   EXPECT_NE(text(endless, "message").find("0.3 s"), std::string::npos);
-  EXPECT_LT(watch.seconds(), 10);
   EXPECT_EQ(*ask_impatient("sphere(1);").find("ok"), Data(true));  // the next request is answered
   impatient.remove(client);
 }

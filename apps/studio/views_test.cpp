@@ -253,6 +253,17 @@ class ThumbnailTest : public StudioTest {
   std::pair<Data, std::string> thumbnail(const std::string& design, const std::string& of) {
     return ask("thumbnail", R"("width": 24, "height": 18, "design": ")" + design + R"(", )" + of);
   }
+
+  // Returns the numbers of the values of expressions, by the texts of these in the script.
+  static std::map<std::string, std::string> values_in(const Data& loaded, const std::string& script) {
+    std::map<std::string, std::string> values;
+    for (const Data& one : *loaded.find("made")->list()) {
+      if (!one.find("value")) continue;
+      const auto from = static_cast<size_t>(number_in(one, "from")), to = static_cast<size_t>(number_in(one, "to"));
+      values.emplace(script.substr(from, to - from), print_json_line(*one.find("value")));
+    }
+    return values;
+  }
 };
 
 TEST_F(ThumbnailTest, AreMadeOnce) {
@@ -315,12 +326,7 @@ TEST_F(ThumbnailTest, ExpressionsShowTheirValues) {
       "attribute(\"heat\", wave(60)) rectprism((8, 8, 8), c.second);";
   const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
   ASSERT_TRUE(loaded.find("made")) << print_json(loaded);
-  std::map<std::string, std::string> values;  // numbers of values, by the texts of expressions
-  for (const Data& one : *loaded.find("made")->list()) {
-    if (!one.find("value")) continue;
-    const auto from = static_cast<size_t>(number_in(one, "from")), to = static_cast<size_t>(number_in(one, "to"));
-    values.emplace(script.substr(from, to - from), print_json_line(*one.find("value")));
-  }
+  std::map<std::string, std::string> values = values_in(loaded, script);
   for (const char* known : {"wave(30)", "wave(30) * 2 + 1", "both(30)", "wave(60)", "wave(k)"})
     EXPECT_EQ(values.count(known), 1) << known;
   EXPECT_EQ(values.count("1 + 2"), 0);
@@ -354,13 +360,10 @@ TEST_F(ThumbnailTest, ExpressionsShowTheirSolids) {
   const Data loaded = ask("load", R"("file": "a.vcad", "text": )" + print_json_line(script)).first;
   ASSERT_TRUE(loaded.find("made")) << print_json(loaded);
   std::map<std::string, std::string> pictures, errors;  // by the texts of expressions
-  for (const Data& one : *loaded.find("made")->list()) {
-    if (!one.find("value")) continue;
-    const auto from = static_cast<size_t>(number_in(one, "from")), to = static_cast<size_t>(number_in(one, "to"));
-    const auto [header, bytes] =
-        thumbnail(text(loaded, "design"), R"("value": )" + print_json_line(*one.find("value")));
-    pictures[script.substr(from, to - from)] = bytes;
-    errors[script.substr(from, to - from)] = bytes.empty() ? text(header, "error") : "";
+  for (const auto& [expression, number] : values_in(loaded, script)) {
+    const auto [header, bytes] = thumbnail(text(loaded, "design"), R"("value": )" + number);
+    pictures[expression] = bytes;
+    errors[expression] = bytes.empty() ? text(header, "error") : "";
   }
   for (const char* known : {"sphere(3, red)", "ball(3)", "m.region"}) {
     EXPECT_FALSE(pictures[known].empty()) << known << ' ' << errors[known];

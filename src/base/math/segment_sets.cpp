@@ -6,6 +6,7 @@
 
 #include "base/math/box_tree.h"
 #include "base/math/disjoint_sets.h"
+#include "base/math/periodic_copies.h"
 
 namespace ombre {
 namespace {
@@ -17,20 +18,6 @@ std::vector<Box> boxes_of(std::span<const Edge3> segments) {
   boxes.reserve(segments.size());
   for (const Edge3& segment : segments) boxes.push_back(box_of(segment));
   return boxes;
-}
-
-// Returns a number for each end, 2 n and 2 n + 1 for segment n, which ends at the same place share.
-std::vector<uint32_t> places_of_ends(std::span<const Edge3> segments, double tolerance) {
-  std::vector<Box> points;
-  for (const Edge3& segment : segments)
-    for (const Vec3 end : segment) points.push_back({end, end});
-  const BoxTree tree(points);
-  DisjointSets sets(points.size());
-  for (uint32_t n = 0; n < points.size(); ++n)
-    tree.each_that_meets(points[n].expanded(tolerance), [&](size_t m) { sets.join(n, static_cast<uint32_t>(m)); });
-  std::vector<uint32_t> places(points.size());
-  for (uint32_t n = 0; n < points.size(); ++n) places[n] = sets.root(n);
-  return places;
 }
 
 // Returns the segments that have a length and come first of those between the same places.
@@ -63,6 +50,28 @@ Edge3 covering(std::span<const Edge3> segments, const std::vector<uint32_t>& of)
 }
 
 }  // namespace
+
+std::vector<uint32_t> places_of_ends(std::span<const Edge3> segments, double tolerance, Vec3 period) {
+  std::vector<Box> points;
+  for (const Edge3& segment : segments)
+    for (const Vec3 end : segment) {
+      const Vec3 p = within_period(end, period);
+      points.push_back({p, p});
+    }
+  const BoxTree tree(points);
+  const Box first = Box{{0, 0, 0}, period}.expanded(tolerance);
+  DisjointSets sets(points.size());
+  for (uint32_t n = 0; n < points.size(); ++n) {
+    const auto join = [&](size_t m) { sets.join(n, static_cast<uint32_t>(m)); };
+    each_copy_that_meets(points[n], first, period, [&](Vec3 by) {
+      const Vec3 p = points[n].lo + by;
+      tree.each_that_meets(Box{p, p}.expanded(tolerance), join);
+    });
+  }
+  std::vector<uint32_t> places(points.size());
+  for (uint32_t n = 0; n < points.size(); ++n) places[n] = sets.root(n);
+  return places;
+}
 
 std::vector<Edge3> joined_in_line(std::span<const Edge3> segments, double tolerance) {
   constexpr double straight = 1e-7;  // greatest difference of two unit vectors in line

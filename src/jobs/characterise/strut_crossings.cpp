@@ -1,36 +1,15 @@
 #include "jobs/characterise/strut_crossings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/math/box_tree.h"
-#include "base/math/disjoint_sets.h"
+#include "base/math/periodic_copies.h"
 
 namespace ombre::compile {
 namespace {
 
 Box box_of(const GraphStrut& strut) { return hull(Box{strut.start, strut.start}, Box{strut.end, strut.end}); }
-
-Vec3 within_period(Vec3 p, Vec3 period) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (period[axis] > 0) p[axis] -= period[axis] * std::floor(p[axis] / period[axis]);
-  return p;
-}
-
-// Calls visit(by) for each multiple of the period by which a box may be moved so that it meets another.
-template <class Visit>
-void each_copy_that_meets(const Box& box, const Box& other, Vec3 period, const Visit& visit) {
-  std::array<Interval, 3> steps;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (period[axis] <= 0) continue;
-    steps[static_cast<size_t>(axis)] = {std::ceil((other.lo[axis] - box.hi[axis]) / period[axis]),
-                                        std::floor((other.hi[axis] - box.lo[axis]) / period[axis])};
-  }
-  for (double k = steps[2].lo; k <= steps[2].hi; ++k)
-    for (double j = steps[1].lo; j <= steps[1].hi; ++j)
-      for (double i = steps[0].lo; i <= steps[0].hi; ++i) visit(Vec3{i * period.x, j * period.y, k * period.z});
-}
 
 // Finds the places along a strut, from 0 at its start to 1 at its end, where others meet it between its ends.
 class MeetingPlaces {
@@ -116,28 +95,6 @@ std::vector<GraphStrut> split_at_joints(const std::vector<GraphStrut>& struts, V
     std::ranges::copy(places.parts(), std::back_inserter(parts));
   }
   return parts;
-}
-
-std::vector<uint32_t> places_of_ends(const std::vector<GraphStrut>& struts, Vec3 period, double tolerance) {
-  std::vector<Box> points;
-  for (const GraphStrut& strut : struts)
-    for (const Vec3 end : {strut.start, strut.end}) {
-      const Vec3 p = within_period(end, period);
-      points.push_back({p, p});
-    }
-  const BoxTree tree(points);
-  const Box first = Box{{0, 0, 0}, period}.expanded(tolerance);
-  DisjointSets sets(points.size());
-  for (uint32_t n = 0; n < points.size(); ++n) {
-    const auto join = [&](size_t m) { sets.join(n, static_cast<uint32_t>(m)); };
-    each_copy_that_meets(points[n], first, period, [&](Vec3 by) {
-      const Vec3 p = points[n].lo + by;
-      tree.each_that_meets(Box{p, p}.expanded(tolerance), join);
-    });
-  }
-  std::vector<uint32_t> places(points.size());
-  for (uint32_t n = 0; n < points.size(); ++n) places[n] = sets.root(n);
-  return places;
 }
 
 }  // namespace ombre::compile

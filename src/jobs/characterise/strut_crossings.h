@@ -1,7 +1,6 @@
-// Splits struts where they meet others, and numbers the places of their ends.
+// Splits struts where they meet others.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "base/math/vec.h"
@@ -20,8 +19,5 @@ inline constexpr double same_joint = 1e-6;
 // Returns the struts, split where an end of another lies on them and where they cross another. Where `period` is above
 // 0, struts repeat along that axis, and copies split them, too. What is at most `tolerance` apart counts as one place.
 std::vector<GraphStrut> split_at_joints(const std::vector<GraphStrut>& struts, Vec3 period, double tolerance);
-
-// Returns a number for each end, 2 n and 2 n + 1 for strut n, which ends at the same place share; in each period, too.
-std::vector<uint32_t> places_of_ends(const std::vector<GraphStrut>& struts, Vec3 period, double tolerance);
 
 }  // namespace ombre::compile

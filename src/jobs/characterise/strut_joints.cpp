@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/math/segment_sets.h"
+
 namespace ombre::compile {
 namespace {
 
@@ -13,6 +15,12 @@ double greatest_length(const std::vector<GraphStrut>& struts) {
   return greatest;
 }
 
+std::vector<Edge3> edges_of(const std::vector<GraphStrut>& struts) {
+  std::vector<Edge3> edges;
+  for (const GraphStrut& strut : struts) edges.push_back({strut.start, strut.end});
+  return edges;
+}
+
 class GraphMaker {
  public:
   GraphMaker(const std::vector<GraphStrut>& struts, Vec3 period, const Affine& mm_from_here)
@@ -20,7 +28,7 @@ class GraphMaker {
     // Each of two ends may be away from the place that both stand for, and places of three struts from each other.
     const double of_ends = 3 * tolerance_;
     const std::vector<GraphStrut> parts = split_at_joints(struts, period, tolerance_);
-    const std::vector<uint32_t> places = places_of_ends(parts, period, of_ends);
+    const std::vector<uint32_t> places = places_of_ends(edges_of(parts), of_ends, period);
     ways_.resize(places.size());
     for (size_t n = 0; n < parts.size(); ++n) add(parts[n], places[2 * n], places[2 * n + 1], 2 * of_ends);
   }
