@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { appendFileSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { alphaInMiddle, ball, design, isReady, open, opened, page, pathOf, picture, small, test, untilOtherDesign } from "./studio_page.mjs";
+import { alphaInMiddle, ball, design, holdRequests, isReady, open, opened, page, pathOf, picture, small, test, untilOtherDesign } from "./studio_page.mjs";
 import { source } from "./studio_server.mjs";
 
 const models = join(source, "examples/models");
@@ -59,18 +59,20 @@ await test({ viewport: small, files }, {
   },
 
   async "of two files that are asked for, the last one is shown"() {
-    await page.evaluate(() => {
-      const send = WebSocket.prototype.send, late = [];
-      WebSocket.prototype.send = function (text) {
-        if (text.includes('"do":"open"') && text.includes("box.scad")) late.push(() => send.call(this, text));
-        else send.call(this, text);
-      };
-      window.sendLate = () => late.forEach((go) => go());
-    });
+    await page.evaluate(holdRequests, ['"do":"open"', "box.scad"]);
     await page.selectOption("select.file", "box.scad");
     await open("history.csv");
-    await page.evaluate(() => window.sendLate());
+    await page.evaluate(() => window.sendHeld());
     await page.waitForTimeout(500); // the answer comes, and counts no longer
     assert.equal(await opened(), "history.csv");
+  },
+
+  async "a file that is chosen while the page begins stays open"() {
+    await page.addInitScript(holdRequests, ['"do":"jobs"']);
+    await page.reload();
+    await open("box.scad");
+    await page.evaluate(() => window.sendHeld());
+    await page.waitForTimeout(500); // the page would now open the file that was open last
+    assert.equal(await opened(), "box.scad");
   },
 });

@@ -12,7 +12,7 @@ import { editor } from "./script";
 let link: Link | undefined = takeLink();
 
 // Returns the file that the page opens first: that of a link, of the command line, or the one that was open last.
-export function firstFile(hello: Hello): string | undefined {
+function firstFile(hello: Hello): string | undefined {
   const isThere = (file: string) => hello.files.includes(file) || hello.data.some((d: DataFile) => d.name === file) || hello.drafts.includes(file);
   const last = lastFile();
   if (link) return link.file;
@@ -66,6 +66,12 @@ export async function openFile(file: string) {
   } catch (error) {
     if (number === opens) set({ problem: String((error as Error).message) });
   }
+}
+
+// Opens the page's first file, unless a person has chosen another one while the page began.
+export async function openFirst(hello: Hello) {
+  const first = firstFile(hello);
+  if (first && opens === 0) await openFile(first);
 }
 
 const newest = (a: Draft | null, b: Draft | undefined) => (a && b ? (a.time >= b.time ? a : b) : (a ?? b));

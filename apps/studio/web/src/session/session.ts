@@ -3,7 +3,7 @@ import { keptDrafts } from "../kept";
 import { hearPresets, listPresets } from "../presets";
 import { Hello, set, state } from "../store";
 import { Listener, Reply, connection } from "./connection";
-import { firstFile, openFile } from "./documents";
+import { openFirst } from "./documents";
 import { evaluate, hearScript, showData } from "./evaluation";
 import { listJobs, takeJob } from "./exports";
 import { adoptEarlyText, hearChange, isDirty, save, takeFromDisk, version } from "./saving";
@@ -31,8 +31,7 @@ async function greet() {
   await listJobs();
   if (!isFirst) return comeBack();
   if (await adoptEarlyText()) return;
-  const first = firstFile(hello);
-  if (first) await openFile(first);
+  await openFirst(hello);
 }
 
 // Continues after the server was away. Text typed meanwhile is kept, unless the disk has something new.
