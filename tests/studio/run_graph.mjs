@@ -18,7 +18,47 @@ translate(25, 0, 0) cylinder(10, 4, stripes(4));
 
 const loop = "// Three cubes.\nfor (i = [0 : 2]) cube(3 + i);\n";
 
+// Lets the answer to the first request of a kind arrive after that to the second one, though the server sent it before.
+async function swapAnswers(kind) {
+  const membersOf = (message) => JSON.parse(typeof message === "string" ? message : message.subarray(4, 4 + message.readUInt32LE(0)));
+  await page.routeWebSocket(/api/, (socket) => {
+    const server = socket.connectToServer(), ids = [];
+    let first, second;
+    socket.onMessage((message) => {
+      const { do: what, id } = membersOf(message);
+      if (what === kind) ids.push(id);
+      if (id === ids[1] && !first) second = message;
+      else server.send(message);
+    });
+    server.onMessage((message) => {
+      const { id } = membersOf(message);
+      if (id !== undefined && id === ids[0]) {
+        first = message;
+        if (second) server.send(second);
+        return;
+      }
+      socket.send(message);
+      if (id !== undefined && id === ids[1]) socket.send(first);
+    });
+  });
+}
+
 await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": warm, "loop.vcad": loop, "ball.scad": "sphere(5);\n", "discs.vcad": discs, "walls.vcad": walls } }, {
+  async "what is chosen last is shown, whichever answer comes first"() {
+    await swapAnswers("volume");
+    await page.reload();
+    await open("warm.vcad");
+    await isReady(); // so the first volume is that of this design
+    await page.click("#tab-volume");
+    await page.waitForSelector(".volume select option[value=heat]", { state: "attached" });
+    await page.selectOption(".volume select:has(option[value=heat])", "heat");
+    await isReady("volume", "[data-by=heat]");
+    await page.waitForTimeout(300); // the first answer comes, and counts no longer
+    await isReady("volume", "[data-by=heat]");
+    assert.equal(await page.locator(".transfer [role=slider]").count(), 2);
+    await page.selectOption(".volume select:has(option[value=heat])", "");
+  },
+
   async "opacity by an attribute shows what has a value"() {
     await open("warm.vcad");
     await page.click("#tab-volume");

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { context, folder, isReady, isSaved, isThere, job, open, openWindow, otherBrowser, page, pathOf, read, startServer, status, stopServer, test, text, type, until, url, write } from "./studio_page.mjs";
+import { context, folder, holdRequests, isReady, isSaved, isThere, job, open, openWindow, otherBrowser, page, pathOf, read, startServer, status, stopServer, test, text, type, until, url, write } from "./studio_page.mjs";
 import { stateFolder } from "./studio_server.mjs";
 
 const script = "radius = 8;  // [2:20]\nsphere(radius, red);\n";
@@ -62,6 +62,19 @@ await test({ files: {}, place: folder, key: keyOf(day), viewport: { width: 1280,
     await before.waitForSelector(".status[data-status=open]");
     await before.close();
     await isSaved();
+  },
+
+  async "a page that lost the server while it began opens its file when the server is back"() {
+    const before = await context.newPage();
+    await before.addInitScript(holdRequests, ['"do":"jobs"']);
+    await before.goto(url);
+    await before.waitForSelector(".status[data-status=open]", { state: "attached" });
+    await stopServer("SIGKILL");
+    await before.waitForSelector(".status[data-status=lost]");
+    await before.evaluate(() => window.sendHeld());
+    await startServer(keyOf(day));
+    await before.waitForSelector("select.file[title='untitled.vcad']");
+    await before.close();
   },
 
   async "text that cannot be saved is kept by the server"() {

@@ -110,14 +110,17 @@ export const isReady = (view = "surface", more = "") => page.waitForSelector(`.$
 export const design = () => page.getAttribute(".surface canvas", "data-design");
 export const untilOtherDesign = (before) => untilOnPage((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
 
-// In the page, holds requests whose text has all of the parts back until `sendHeld()`.
+// In the page, holds requests whose text has all of the parts back until `sendHeld()`, after which none are held.
 export function holdRequests(parts) {
   const send = WebSocket.prototype.send, held = [];
   WebSocket.prototype.send = function (text) {
     if (parts.every((part) => text.includes(part))) held.push(() => send.call(this, text));
     else send.call(this, text);
   };
-  window.sendHeld = () => held.forEach((go) => go());
+  window.sendHeld = () => {
+    WebSocket.prototype.send = send;
+    held.forEach((go) => go());
+  };
 }
 
 // Puts the caret behind the first place of a text.

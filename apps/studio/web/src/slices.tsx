@@ -1,5 +1,5 @@
 // Shows layers at the printer's resolution: pixels are those of the job's files.
-import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { length } from "./camera";
 import { CutControls, removedAt } from "./cuts";
 import { followFingers } from "./fingers";
@@ -233,14 +233,14 @@ export function SliceView() {
   const [, redraw] = useState({});
   const zoomNow = useRef<(by: number, at?: { x: number; y: number }) => void>(() => undefined);
   const pointer = useMemo(() => pointerMoves(() => painter.current!, (by, at) => zoomNow.current(by, at)), []);
-  useEffect(() => {
+  useLayoutEffect(() => {
     painter.current = new Painter(canvas.current!);
     const size = new ResizeObserver(() => painter.current!.paint());
     size.observe(canvas.current!);
     return () => size.disconnect();
   }, []);
   useLayoutEffect(() => painter.current?.clear(), [file, design === undefined]);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const p = painter.current!;
     if (plan && !p.look && canvas.current!.clientWidth > 0) {
       p.look = fit(plan, canvas.current!);

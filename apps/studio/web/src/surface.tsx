@@ -1,6 +1,6 @@
 // Shows the design from outside, drawn by the server: small first, then as fine as the screen.
 import { ComponentChildren } from "preact";
-import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { barLength, fieldOfView, fitted, length, views } from "./camera";
 import { CutControls, cutMembers } from "./cuts";
 import { Handles } from "./handles/handles";
@@ -255,7 +255,7 @@ export function SurfaceView() {
   const drawer = useRef<Drawer>();
   const [height, setHeight] = useState(1);
   const pointer = useMemo(() => moveByPointer(canvas), []);
-  useEffect(() => {
+  useLayoutEffect(() => {
     drawer.current = new Drawer(canvas.current!);
     const size = new ResizeObserver(() => {
       setHeight(canvas.current!.clientHeight);
@@ -265,9 +265,9 @@ export function SurfaceView() {
     return () => size.disconnect();
   }, []);
   useLayoutEffect(() => drawer.current?.clear(), [file, design === undefined]);
-  useEffect(() => placeCamera(canvas.current!), [design]);
+  useLayoutEffect(() => placeCamera(canvas.current!), [design]);
   const key = pictureKey();
-  useEffect(() => void drawer.current?.go(), [key]);
+  useLayoutEffect(() => void drawer.current?.go(), [key]); // before anything else sees the state of an older picture
   return (
     <section class="view surface" aria-label="Surface">
       <ViewBar others={[...(design?.materials ?? []).map((m) => <option value={m.name}>fraction of {m.name}</option>), ...attributeOptions(design?.attributes)]}>

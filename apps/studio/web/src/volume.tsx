@@ -1,5 +1,5 @@
 // Shows the inside, by rays through a texture of the materials' fractions, or of an attribute's values.
-import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { axes, eyeDistance } from "./camera";
 import { Handles } from "./handles/handles";
 import { moveByKeys, moveByPointer, placeCamera } from "./navigation";
@@ -125,6 +125,7 @@ class VolumePainter {
   private program: WebGLProgram;
   private textures: WebGLTexture[];
   grid?: Grid;
+  isOld = true; // another grid is on its way
 
   // Throws if the browser has no WebGL 2.
   constructor(private canvas: HTMLCanvasElement) {
@@ -165,6 +166,12 @@ class VolumePainter {
     return this.gl.getUniformLocation(this.program, name);
   }
 
+  // Tells that the grid is no longer the one that is wanted. It is shown until the next one arrives.
+  wait() {
+    this.isOld = true;
+    this.canvas.dataset.state = "drawing";
+  }
+
   take(grid: Grid, bytes: Uint8Array) {
     const { gl } = this;
     const [nx, ny, nz] = grid.count,
@@ -177,6 +184,7 @@ class VolumePainter {
       else gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, 1, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     });
     this.grid = grid;
+    this.isOld = false;
   }
 
   // Removes the grid of another file.
@@ -215,7 +223,7 @@ class VolumePainter {
     grid.materials?.forEach((m, n) => values.set([...m.colour.slice(0, 3).map((c) => c / 255), state.opacity[m.name] ?? (m.colour[3] ?? 255) / 255], 4 * n));
     gl.uniform4fv(this.at("materials"), values);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    canvas.dataset.state = "ready";
+    canvas.dataset.state = this.isOld ? "drawing" : "ready";
     canvas.dataset.design = grid.design;
     canvas.dataset.by = grid.by;
   }
@@ -231,7 +239,7 @@ export function VolumeView() {
   const [problem, setProblem] = useState("");
   const [, setSize] = useState("");
   const pointer = useMemo(() => moveByPointer(canvas), []);
-  useEffect(() => {
+  useLayoutEffect(() => {
     try {
       painter.current = new VolumePainter(canvas.current!);
     } catch (error) {
@@ -246,10 +254,10 @@ export function VolumeView() {
     return () => size.disconnect();
   }, []);
   useLayoutEffect(() => painter.current?.clear(), [file, design === undefined]);
-  useEffect(() => placeCamera(canvas.current!), [design]);
-  useEffect(() => {
+  useLayoutEffect(() => placeCamera(canvas.current!), [design]);
+  useLayoutEffect(() => {
     if (!design || !painter.current) return;
-    canvas.current!.dataset.state = "drawing";
+    painter.current.wait();
     about("volume", { side, ...(by ? { by } : {}) }, "volume")
       .then((reply) => {
         if (state.file !== file) return; // another file was opened meanwhile
@@ -260,7 +268,7 @@ export function VolumeView() {
       })
       .catch((error: Refused) => error.isCancelled || setProblem(error.message));
   }, [design, side, by]);
-  useEffect(() => painter.current?.paint(), [camera, cut, perspective, opacity, palette, curves]);
+  useLayoutEffect(() => painter.current?.paint(), [camera, cut, perspective, opacity, palette, curves]);
   return (
     <section class="view volume" aria-label="Volume">
       <ViewBar others={attributeOptions(design?.attributes.filter((a) => isNumber(design, a.name)))}>

@@ -25,6 +25,7 @@ window.addEventListener("unhandledrejection", (event) => {
 });
 
 interface Waiting {
+  lane: string;
   resolve: (reply: Reply) => void;
   reject: (error: Refused) => void;
 }
@@ -54,6 +55,7 @@ export interface Listener {
 export class Connection {
   private socket?: WebSocket;
   private waiting = new Map<number, Waiting>();
+  private newest = new Map<string, number>(); // the last request of each lane
   private last = 0;
   private listener?: Listener;
 
@@ -77,12 +79,14 @@ export class Connection {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  // Asks a question. Returns the promise of an answer, and a function that says that it is no longer needed.
+  // Asks a question. Returns the promise of an answer, and a function that says that it is no longer needed. A request
+  // takes the place of the one before in its lane, whose answer no longer counts though it may have been sent already.
   ask(what: string, members: Record<string, unknown> = {}, lane = ""): { answer: Promise<Reply>; cancel: () => void } {
     const id = ++this.last;
     const answer = new Promise<Reply>((resolve, reject) => {
       if (!this.isOpen) return reject(new Refused("lost", "the studio's server is not there"));
-      this.waiting.set(id, { resolve, reject });
+      this.waiting.set(id, { lane, resolve, reject });
+      this.newest.set(lane, id);
       this.socket!.send(JSON.stringify({ id, do: what, ...(lane ? { lane } : {}), ...members }));
     });
     return { answer, cancel: () => this.waiting.has(id) && this.isOpen && this.socket!.send(JSON.stringify({ id, do: "cancel" })) };
@@ -104,9 +108,11 @@ export class Connection {
     }
     if (reply.event) return this.listener?.event(reply.event, reply);
     const waiting = this.waiting.get(reply.id);
+    if (!waiting) return;
     this.waiting.delete(reply.id);
-    if (reply.error) waiting?.reject(new Refused(reply.error, reply.message));
-    else waiting?.resolve(reply);
+    if (waiting.lane && this.newest.get(waiting.lane) !== reply.id) waiting.reject(new Refused("cancelled", "a newer request took its place"));
+    else if (reply.error) waiting.reject(new Refused(reply.error, reply.message));
+    else waiting.resolve(reply);
   }
 
   private closed() {

@@ -32,13 +32,14 @@ async function readFile(file: string): Promise<Reply> {
   }
 }
 
-let opens = 0;
+let opens = 0, opening = 0; // calls of openFile(), and those that have not ended
 
 // Opens a file. Of several that are asked for one after another the last one counts, whichever is read first.
 export async function openFile(file: string) {
   const number = ++opens;
-  if (isDirty()) await save();
+  ++opening;
   try {
+    if (isDirty()) await save();
     const disk = await readFile(file);
     if (number !== opens) return;
     const kind = disk.kind as State["kind"];
@@ -65,13 +66,15 @@ export async function openFile(file: string) {
     if ((text !== savedText || (isNew && draft)) && !state.conflict) save();
   } catch (error) {
     if (number === opens) set({ problem: String((error as Error).message) });
+  } finally {
+    --opening;
   }
 }
 
-// Opens the page's first file, unless a person has chosen another one while the page began.
+// Opens the page's first file, unless a person has chosen one already.
 export async function openFirst(hello: Hello) {
   const first = firstFile(hello);
-  if (first && opens === 0) await openFile(first);
+  if (first && !state.file && opening === 0) await openFile(first);
 }
 
 const newest = (a: Draft | null, b: Draft | undefined) => (a && b ? (a.time >= b.time ? a : b) : (a ?? b));

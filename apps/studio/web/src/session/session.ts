@@ -24,19 +24,18 @@ const knownOptions = (hello: Hello) =>
   );
 
 async function greet() {
+  const wasAway = state.hello !== undefined;
   const hello = (await connection.ask("hello").answer) as any;
-  const isFirst = !state.hello;
   set({ status: "open", hello, files: hello.files, data: hello.data, options: knownOptions(hello) });
   hello.drafts = [...new Set([...hello.drafts, ...keptDrafts()])];
   await listJobs();
-  if (!isFirst) return comeBack();
+  if (wasAway && state.file) return comeBack();
   if (await adoptEarlyText()) return;
   await openFirst(hello);
 }
 
 // Continues after the server was away. Text typed meanwhile is kept, unless the disk has something new.
 async function comeBack() {
-  if (!state.file) return;
   const disk = await connection.ask("open", { file: state.file }).answer.catch(() => undefined);
   listPresets();
   if (disk && state.kind !== "") return showData(disk);
