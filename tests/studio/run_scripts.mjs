@@ -67,6 +67,19 @@ await test({ viewport: small, files }, {
     assert.equal(await opened(), "history.csv");
   },
 
+  async "what is at a point of another file is not shown"() {
+    await open("ball.vcad");
+    await page.click("#tab-slices");
+    await isReady("slices");
+    await page.evaluate(holdRequests, ['"do":"probe"']);
+    await page.click(".slices canvas");
+    await open("box.scad");
+    await isReady("slices");
+    await page.evaluate(() => window.sendHeld());
+    await page.waitForTimeout(500); // the answer comes, and counts no longer
+    assert.equal(await page.locator(".probe").count(), 0);
+  },
+
   async "a file that is chosen while the page begins stays open"() {
     await page.addInitScript(holdRequests, ['"do":"jobs"']);
     await page.reload();

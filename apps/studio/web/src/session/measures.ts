@@ -14,8 +14,10 @@ export async function measure() {
 }
 
 export async function probe(at: number[]) {
+  const design = state.design?.design;
   try {
     const probe = (await about("probe", { at, ...state.options }, "probe")) as any;
+    if (design !== state.design?.design) return; // another design is shown now
     set({ probe, probeBefore: state.probe?.at });
   } catch {
     // The next probe reports more.
