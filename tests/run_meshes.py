@@ -161,6 +161,9 @@ def materials_are_not_joined_in_silence(meshes):
         expect("ends in .3mf, .amf, .glb, .obj, or --by" in result.stderr, result.stderr)
         result = meshes.mesh("-o", "two." + ending, "--by", "whole", "--force", design="two.vcad")
         expect("warning" not in result.stderr and "2000 mm3" in result.stderr, result.stderr)
+    for ending in ("stl", "ply", "off"):
+        result = meshes.mesh("-o", "two." + ending, "--by", "materials", "--force", design="two.vcad")
+        expect("2 bodies are joined: two." + ending + " cannot say which triangles are whose" in result.stderr, result.stderr)
     whole = meshes.bodies("-o", "whole.3mf", "--by", "whole", design="two.vcad")
     expect([round(b["volume_mm3"], 3) for b in whole["bodies"]] == [2000], str(whole))
     result = meshes.mesh("-o", "bar.3mf")

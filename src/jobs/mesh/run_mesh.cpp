@@ -95,6 +95,8 @@ std::string short_list(const std::vector<std::string>& names) {
   return join({names.begin(), names.begin() + most}, ", ") + " and " + std::to_string(names.size() - most) + " more";
 }
 
+std::string endings_with_bodies() { return join(formats::mesh_endings_with(&formats::MeshFormat::holds_bodies), ", "); }
+
 // Tells how several materials were treated if nobody chose regions.
 void tell_materials(const Events& events, const compile::MeshedDesign& made, const MeshOutput& output) {
   const std::vector<std::string>& names = made.materials.names;
@@ -104,9 +106,16 @@ void tell_materials(const Events& events, const compile::MeshedDesign& made, con
     return events.say("mixtures of " + short_list(names) + " go to the body of the material that they have most of");
   if (output.format->holds_bodies) return;
   events.warn(short_list(names) + " are joined: " + output.path +
-              " cannot say which is where; write a file that ends in " +
-              join(formats::mesh_endings_with(&formats::MeshFormat::holds_bodies), ", ") + ", or " +
+              " cannot say which is where; write a file that ends in " + endings_with_bodies() + ", or " +
               spelled::option("--by", "whole") + " if they are to be one");
+}
+
+// Colours of vertices show what the bodies are of.
+void warn_of_joined_bodies(const Events& events, const compile::MeshedDesign& made, const MeshChoices& a,
+                           const MeshOutput& output) {
+  if (output.format->holds_bodies || made.bodies.size() < 2 || !a.colour_by.empty()) return;
+  events.warn(format_count(made.bodies.size()) + " bodies are joined: " + output.path +
+              " cannot say which triangles are whose; write a file that ends in " + endings_with_bodies());
 }
 
 void warn_of_folds(const Events& events, const compile::MeshedDesign& made) {
@@ -347,6 +356,7 @@ int make_and_write(const MeshChoices& a, const compile::Loaded& loaded, const Me
   auto made = make_mesh(make, printed, session);
   if (!made) return wrong_input;
   tell_materials(session.events, *made, output);
+  warn_of_joined_bodies(session.events, *made, a, output);
   tell_bodies(session.events, *made);
   warn_of_folds(session.events, *made);
   tell_distance(session.events, *made);
