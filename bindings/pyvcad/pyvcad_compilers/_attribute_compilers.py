@@ -16,7 +16,7 @@ from pyvcad._sampling import OCCUPANCY, with_occupancy
 from pyvcad._materials import expect_table
 from pyvcad._tree import as_node
 
-from ._compilers import Path, _Compiler, _voxel
+from ._compilers import Path, _Compiler, _place, _voxel
 
 
 class _AttributeCompiler(_Compiler):
@@ -99,7 +99,7 @@ class VatCompiler(_AttributeCompiler):
             raise TypeError("VatCompiler: expected (root, voxel_size, [printer_volume,] output_directory, file_prefix)")
         self._root, self._voxel = as_node(root), _voxel("VatCompiler", voxel_size)
         self._volume = size(given["printer_volume"]) if "printer_volume" in given else None
-        self._folder, self._prefix = os.fspath(given["output_directory"]), given["file_prefix"]
+        self._folder, self._prefix = _place(given["output_directory"], given["file_prefix"])
         self._fallback = 1.0
         self._resolution = (0, 0, 0)
 
@@ -110,7 +110,6 @@ class VatCompiler(_AttributeCompiler):
         self._fallback = min(1.0, max(0.0, number(value)))
 
     def compile(self) -> None:
-        self._is_stopped = False
         self._check_strictly(["intensity"])
         design = self._root._design()
         low, high = (list(map(float, corner)) for corner in design.bounds)
@@ -130,9 +129,9 @@ class VatCompiler(_AttributeCompiler):
             layers.pop(0)
         while layers and not layers[-1].any():
             layers.pop()
-        os.makedirs(self._folder, exist_ok=True)
-        for n, layer in enumerate(layers):
-            _write_bmp(os.path.join(self._folder, f"{self._prefix}{n}.bmp"), layer)
+        with self._new_files(self._folder) as made:
+            for n, layer in enumerate(layers):
+                _write_bmp(os.path.join(made, f"{self._prefix}{n}.bmp"), layer)
         self._resolution = (len(axes[0]), len(axes[1]), len(layers))
         self._report(1.0)
 
@@ -151,13 +150,13 @@ class VdbCompiler(_AttributeCompiler):
         self._has_occupancy = bool(include_occupancy)
 
     def compile(self) -> None:
-        self._is_stopped = False
         design = (with_occupancy(self._root) if self._has_occupancy else self._root)._design()
         names = self._names or [name for name in self._root.attribute_list() if name != "volume_fractions"]
         absent = [name for name in names if name not in design.attributes]
         if absent:
             raise RuntimeError(f"VdbCompiler: no node of the tree has the attribute {', '.join(absent)}")
         self._check_strictly(names)
-        design.write_voxels(self._path, voxel=",".join(map(repr, self._voxel)), what=",".join(["distance", *names, *([OCCUPANCY] if self._has_occupancy else [])]),
-                            force=True, progress=self._share)
+        what = ["distance", *names, *([OCCUPANCY] if self._has_occupancy else [])]
+        with self._new_file(self._path) as path:
+            design.write_voxels(path, voxel=",".join(map(repr, self._voxel)), what=",".join(what), progress=self._share)
         self._report(1.0)

@@ -1,11 +1,12 @@
 """The compilers, over Ombre's jobs."""
 from __future__ import annotations
 
+import contextlib
 import functools
 import os
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy
@@ -25,10 +26,11 @@ from ._png import write_gray
 Path = str | os.PathLike[str]
 
 
-def _timed(compile: Callable[[Any], None]) -> Callable[[Any], None]:
-    """The method, which keeps how long it took."""
+def _begun(compile: Callable[[Any], None]) -> Callable[[Any], None]:
+    """The method, which forgets an earlier cancel() and keeps how long it took."""
     @functools.wraps(compile)
     def run(self: Any) -> None:
+        self._is_stopped = False
         begin = time.perf_counter()
         compile(self)
         self._seconds = time.perf_counter() - begin
@@ -43,7 +45,7 @@ class _Compiler:
     def __init_subclass__(cls, **named: Any) -> None:
         super().__init_subclass__(**named)
         if "compile" in vars(cls):
-            setattr(cls, "compile", _timed(vars(cls)["compile"]))
+            setattr(cls, "compile", _begun(vars(cls)["compile"]))
 
     def setProgressCallback(self, callback: Callable[[float], Any] | None) -> None:
         """A function of the share that is done, 0 to 1."""
@@ -87,6 +89,23 @@ class _Compiler:
         if self._is_stopped:
             raise RuntimeError(f"{type(self).__name__}: cancelled")
 
+    @contextlib.contextmanager
+    def _new_files(self, folder: str) -> Iterator[str]:
+        """Makes a folder for new files, which are moved into `folder` in the end: all, or after an error or cancel() none."""
+        os.makedirs(folder, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix="ombre_", dir=folder) as made:
+            yield made
+            self._stop_if_cancelled()
+            for name in sorted(os.listdir(made)):
+                os.replace(os.path.join(made, name), os.path.join(folder, name))
+
+    @contextlib.contextmanager
+    def _new_file(self, path: str) -> Iterator[str]:
+        """A path for a new file, which is moved to `path` in the end as those of _new_files() are."""
+        folder, name = os.path.split(os.path.abspath(path))
+        with self._new_files(folder) as made:
+            yield os.path.join(made, name)
+
 
 class DirectMaterialCompiler(_Compiler):
     """Writes an image for each layer, in the colours of the materials: PREFIX_00000.png, ... from below.
@@ -106,18 +125,16 @@ class DirectMaterialCompiler(_Compiler):
         self._materials = expect_table("DirectMaterialCompiler", material_defs)
         if liquid_keep_out:
             self._root = KeepOut(self._root, liquid_keep_out_distance, self._materials)
-        self._folder, self._prefix = os.fspath(output_directory), file_prefix
+        self._folder, self._prefix = _place(output_directory, file_prefix)
 
     def compile(self) -> None:
-        self._is_stopped = False
         design = self._root._ombre_design_(self._materials)
-        os.makedirs(self._folder, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as folder:
-            job = os.path.join(folder, "job")
+        with self._new_files(self._folder) as made, tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as work:
+            job = os.path.join(work, "job")
             design.slice(job, voxel=self._voxel, progress=self._share)
             images = sorted(name for name in os.listdir(job) if name.endswith(".png"))
             for number, image in enumerate(images):
-                os.replace(os.path.join(job, image), _image_path(self._folder, self._prefix, number))
+                os.replace(os.path.join(job, image), _image_path(made, self._prefix, number))
         self._report(1.0)
 
 
@@ -139,10 +156,9 @@ class GrayscaleCompiler(_Compiler):
         self._root, self._voxel = as_node(root), _voxel("GrayscaleCompiler", voxel_size)
         self._volume = size(printer_volume)
         self._low, self._high = int(low_material), int(high_material)
-        self._folder, self._prefix = os.fspath(output_directory), file_prefix
+        self._folder, self._prefix = _place(output_directory, file_prefix)
 
     def compile(self) -> None:
-        self._is_stopped = False
         others = set(self._root.material_list()) - {0, self._low, self._high}
         if others:
             raise ombre.DesignError(f"GrayscaleCompiler: the design has the material {min(others)} beside the low one "
@@ -150,12 +166,12 @@ class GrayscaleCompiler(_Compiler):
         design = self._root._design()
         axes = self._axes(design.bounds)
         high = design.materials.names[self._high] if self._high < len(design.materials) else ""
-        os.makedirs(self._folder, exist_ok=True)
-        for layers, points in slabs(axes, self._share):
-            shares = design.material(points).get(high, numpy.zeros(points.shape[:3]))
-            for layer, number in enumerate(range(layers.start, layers.stop)):
-                pixels = numpy.rint(255 * shares[layer, ::-1]).astype(numpy.uint8)
-                write_gray(_image_path(self._folder, self._prefix, number), pixels)
+        with self._new_files(self._folder) as made:
+            for layers, points in slabs(axes, self._share):
+                shares = design.material(points).get(high, numpy.zeros(points.shape[:3]))
+                for layer, number in enumerate(range(layers.start, layers.stop)):
+                    pixels = numpy.rint(255 * shares[layer, ::-1]).astype(numpy.uint8)
+                    write_gray(_image_path(made, self._prefix, number), pixels)
         self._report(1.0)
 
     def _axes(self, bounds: tuple[Point, Point]) -> list[numpy.ndarray]:
@@ -188,15 +204,13 @@ class MeshCompiler(_Compiler):
             raise ValueError(f"MeshCompiler, num_iso_slices: expected 1 or more, found {num_iso_slices!r}")
         self._root, self._voxel, self._bands = as_node(root), _voxel("MeshCompiler", voxel_size), num_iso_slices
         self._materials = expect_table("MeshCompiler", material_defs)
-        self._folder, self._prefix = os.fspath(output_directory), file_prefix
+        self._folder, self._prefix = _place(output_directory, file_prefix)
 
     def compile(self) -> None:
-        self._is_stopped = False
         design = self._root._ombre_design_(self._materials)
-        os.makedirs(self._folder, exist_ok=True)
         bands: dict[str, Any] = {"bands": self._bands} if self._bands > 1 and len(self._root.material_list()) > 1 else {"by": "whole"}
-        design.mesh(os.path.join(self._folder, self._prefix + ".3mf"), tolerance=min(self._voxel) / 8, force=True,
-                    progress=self._share, **bands)
+        with self._new_files(self._folder) as made:
+            design.mesh(os.path.join(made, self._prefix + ".3mf"), tolerance=min(self._voxel) / 8, progress=self._share, **bands)
         self._report(1.0)
 
 
@@ -237,6 +251,11 @@ def _outline(line: str) -> list[Vec2]:
 
 def _image_path(folder: str, prefix: str, number: int) -> str:
     return os.path.join(folder, f"{prefix}_{number:05}.png")
+
+
+def _place(folder: Path, prefix: str) -> tuple[str, str]:
+    """Splits what paths of files begin with into their folder and what their names begin with."""
+    return os.path.split(os.path.join(folder, prefix))
 
 
 def _voxel(what: str, value: Any) -> Point:

@@ -58,8 +58,8 @@ class FullSpectrumSlicerProjectCompiler(_AttributeCompiler):
         return [BY_COLOUR, BY_FRACTIONS]
 
     def compile(self) -> None:
-        self._is_stopped = False
-        self._mixed.write(self._root, self._voxel, self._path, "snapmaker")
+        with self._new_file(self._path) as path:
+            self._mixed.write(self._root, self._voxel, path, "snapmaker")
         self._report(1.0)
 
     def recipes(self) -> list[dict[str, Any]]:

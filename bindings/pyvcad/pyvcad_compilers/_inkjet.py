@@ -19,7 +19,7 @@ from pyvcad._solids import with_unset
 from pyvcad._tree import Node, Unary, as_node
 
 from ._attribute_compilers import _AttributeCompiler
-from ._compilers import Path, _voxel
+from ._compilers import Path, _place, _voxel
 
 
 class MaterialInkjetExportMode(enum.Enum):
@@ -43,7 +43,7 @@ class _InkjetCompiler(_AttributeCompiler):
 
     def __init__(self, root: Any, voxel_size: Any, output_directory: Path, file_prefix: str, mode: enum.Enum) -> None:
         self._root, self._voxel = as_node(root), _voxel(type(self).__name__, voxel_size)
-        self._folder, self._prefix, self._mode = os.fspath(output_directory), file_prefix, mode
+        (self._folder, self._prefix), self._mode = _place(output_directory, file_prefix), mode
         self._counts: dict[int, int] = {}
         self._resolution = (0, 0, 0)
         self._stats: list[tuple[str, Any]] = []
@@ -54,19 +54,16 @@ class _InkjetCompiler(_AttributeCompiler):
 
     def compile(self) -> None:
         self._check_attributes()
-        self._is_stopped = False
         begin = time.monotonic()
         self._check_strictly(self._required)
         design = self._tree()._ombre_design_(self._materials)
         prepared = time.monotonic()
-        os.makedirs(self._folder, exist_ok=True)
         dither: Literal["stochastic", "diffusion"] = "stochastic" if self._mode.name == "STOCHASTIC" else "diffusion"
-        with tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as folder:
-            job = os.path.join(folder, "job")
+        with self._new_files(self._folder) as made, tempfile.TemporaryDirectory(prefix="ombre_", dir=self._folder) as work:
+            job = os.path.join(work, "job")
             self._share(0.0)
             design.slice(job, voxel=self._voxel, dither=dither, progress=self._share)
-            self._stop_if_cancelled()
-            self._take(job)
+            self._take(job, made)
         self._stats = [("box", design.bounds), ("voxel size, mm", self._voxel), ("pixels and layers", self._resolution),
                        ("voxels", sum(self._counts.values())), ("preparing, s", round(prepared - begin, 3)),
                        ("slicing and writing, s", round(time.monotonic() - prepared, 3))]
@@ -83,8 +80,8 @@ class _InkjetCompiler(_AttributeCompiler):
         for name, value in self._stats:
             print(f"{name}: {value}")
 
-    def _take(self, job: str) -> None:
-        """Moves the images out of the job, and counts."""
+    def _take(self, job: str, made: str) -> None:
+        """Moves the images out of the job into the folder, and counts."""
         with open(os.path.join(job, "job.json"), encoding="utf-8") as file:
             ids = [material["id"] for material in json.load(file)["materials"]][1:]
         with open(os.path.join(job, "journal.jsonl"), encoding="utf-8") as file:
@@ -94,7 +91,7 @@ class _InkjetCompiler(_AttributeCompiler):
         kept = layers[filled[0]:filled[-1] + 1] if filled else []
         width = height = 0
         for n, entry in enumerate(kept):
-            path = os.path.join(self._folder, f"{self._prefix}{n}.png")
+            path = os.path.join(made, f"{self._prefix}{n}.png")
             os.replace(os.path.join(job, entry["files"][0]["file"]), path)
             if n == 0:
                 with open(path, "rb") as image:

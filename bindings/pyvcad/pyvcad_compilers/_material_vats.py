@@ -85,7 +85,6 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
         return "" if self._mode is MultiMaterialVatOutputMode.DIRECTORY else f"{self._path}.zip"
 
     def compile(self) -> None:
-        self._is_stopped = False
         what = type(self).__name__
         self._check_attributes()
         others = set(self._root.material_list()) - {0, *self._ids}
@@ -133,15 +132,17 @@ class MultiMaterialVatCompiler(_AttributeCompiler):
 
     def _hand_over(self, folder: str) -> None:
         """Moves the images to where they are wanted."""
+        self._stop_if_cancelled()
+        vats = sorted(os.listdir(folder))
         if self._mode is not MultiMaterialVatOutputMode.DIRECTORY:
-            with zipfile.ZipFile(f"{self._path}.zip", "w", zipfile.ZIP_STORED) as archive:
-                for vat in sorted(os.listdir(folder)):
+            with self._new_file(f"{self._path}.zip") as path, zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
+                for vat in vats:
                     for image in sorted(os.listdir(os.path.join(folder, vat))):
                         entry = zipfile.ZipInfo(f"{vat}/{image}")  # without the time, so that equal images are equal bytes
                         with open(os.path.join(folder, vat, image), "rb") as file:
                             archive.writestr(entry, file.read())
         if self._mode is not MultiMaterialVatOutputMode.ZIP:
-            for vat in os.listdir(folder):
+            for vat in vats:
                 target = os.path.join(self._path, vat)
                 shutil.rmtree(target, ignore_errors=True)
                 os.makedirs(self._path, exist_ok=True)

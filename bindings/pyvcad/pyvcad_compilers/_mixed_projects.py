@@ -133,8 +133,7 @@ class MixedProject:
         table, names = self._materials(chosen)
         reach = 2 * max(float(numpy.ptp(numpy.vstack([values, points]), axis=0).max()), 1e-6) * points.shape[1] ** 0.5
         mixed = _Mixed(scored, names, points[palette.chosen], reach)
-        os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
-        mixed._ombre_design_(table).mesh(path, by="materials", flavour=flavour, force=True, tolerance=min(voxel) / 8,
+        mixed._ombre_design_(table).mesh(path, by="materials", flavour=flavour, tolerance=min(voxel) / 8,
                                          progress=lambda done: share(0.5 + done / 2))
         measure = "mean_delta_e" if kind == BY_COLOUR else "mean_difference_of_shares"
         self.recipes = [{"name": name, "slots": [self.filaments[place].slot for place, _ in recipe],

@@ -49,18 +49,17 @@ class MyersonCompiler(_AttributeCompiler):
         self._materials = expect_table(what, material_defs) or default_materials
 
     def compile(self) -> None:
-        self._is_stopped = False
         self._check_attributes()
         names = [self._materials.name(id) for id in sorted(set(self._root.material_list()) - {0})]
         design = self._root._ombre_design_(self._materials)
         self._check_strictly(self._required)
-        os.makedirs(self._folder, exist_ok=True)
-        for layers, points in slabs(centers(design.bounds, self._voxel), self._share):
-            for n, layer in enumerate(range(layers.start, layers.stop)):
-                chosen = drawn_materials(type(self).__name__, design, points[n], names, numpy.random.default_rng(layer))
-                is_said = given(self._root, FRACTIONS, points[n])
-                for material, name in enumerate(names):
-                    _write_bits(os.path.join(self._folder, f"{name}_{layer:05}.bmp"), is_said & (chosen == material))
+        with self._new_files(self._folder) as made:
+            for layers, points in slabs(centers(design.bounds, self._voxel), self._share):
+                for n, layer in enumerate(range(layers.start, layers.stop)):
+                    chosen = drawn_materials(type(self).__name__, design, points[n], names, numpy.random.default_rng(layer))
+                    is_said = given(self._root, FRACTIONS, points[n])
+                    for material, name in enumerate(names):
+                        _write_bits(os.path.join(made, f"{name}_{layer:05}.bmp"), is_said & (chosen == material))
         self._report(1.0)
 
 

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import enum
 import os
-import tempfile
 import xml.sax.saxutils
 from dataclasses import dataclass, field, fields
 from typing import Any
@@ -21,7 +20,7 @@ from pyvcad._simulation.simulation_model import SimulationCellType, SimulationMo
 from pyvcad._tree import as_node
 
 from ._attribute_compilers import _AttributeCompiler
-from ._compilers import Path, _voxel
+from ._compilers import Path, _place, _voxel
 
 
 class SimulationBackend(enum.Enum):
@@ -170,16 +169,16 @@ class SimulationCompiler(_AttributeCompiler):
                                {name: _scalar(name, elements.attributes) for name in names})
 
     def _write(self, elements: Elements) -> None:
-        settings = self._settings
-        os.makedirs(settings.output_directory, exist_ok=True)
-        path = os.path.join(os.fspath(settings.output_directory), settings.file_prefix)
-        if settings.backend is SimulationBackend.ABAQUS_INP:
-            write_inp(path + ".inp", elements.nodes, elements.cells, elements.material_ids, described(self._table))
-            self._files = [path + ".inp"]
-            return
-        assert self._model is not None
-        _write_xdmf(path, self._model)
-        self._files = [path + ".xdmf", path + ".h5"]
+        folder, prefix = _place(self._settings.output_directory, self._settings.file_prefix)
+        is_deck = self._settings.backend is SimulationBackend.ABAQUS_INP
+        with self._new_files(folder) as made:
+            path = os.path.join(made, prefix)
+            if is_deck:
+                write_inp(path + ".inp", elements.nodes, elements.cells, elements.material_ids, described(self._table))
+            else:
+                assert self._model is not None
+                _write_xdmf(path, self._model)
+        self._files = [os.path.join(folder, prefix + ending) for ending in ([".inp"] if is_deck else [".xdmf", ".h5"])]
 
 
 class InpWriter:
@@ -238,12 +237,8 @@ def _write_xdmf(path: str, model: SimulationModel) -> None:
         text += (f"<Attribute Name={xml.sax.saxutils.quoteattr(name)} AttributeType=\"Scalar\" Center=\"Cell\">"
                  f'{item(f"/CellData/{name}")}</Attribute>\n')
     text += "</Grid>\n</Domain>\n</Xdmf>\n"
-    with tempfile.TemporaryDirectory(prefix="ombre_", dir=os.path.dirname(path) or ".") as folder:
-        beside = os.path.join(folder, "part")
-        with h5py("SimulationCompiler with FENICSX_XDMF").File(beside + ".h5", "w") as file:
-            for place, array in arrays.items():
-                file.create_dataset(place, data=array, track_times=False)
-        with open(beside + ".xdmf", "w", encoding="utf-8") as text_file:
-            text_file.write(text)
-        os.replace(beside + ".h5", path + ".h5")
-        os.replace(beside + ".xdmf", path + ".xdmf")
+    with h5py("SimulationCompiler with FENICSX_XDMF").File(path + ".h5", "w") as file:
+        for place, array in arrays.items():
+            file.create_dataset(place, data=array, track_times=False)
+    with open(path + ".xdmf", "w", encoding="utf-8") as text_file:
+        text_file.write(text)

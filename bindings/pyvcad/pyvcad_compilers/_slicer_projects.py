@@ -71,7 +71,6 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         return [*(getattr(DefaultAttributes, name) for name in _settings), *_tools]
 
     def compile(self) -> None:
-        self._is_stopped = False
         has = self._root.attribute_list()
         chosen = [name for name in self._banded() if name in has]
         if self._is_mixing or not chosen and (BY_COLOUR in has or BY_FRACTIONS in has):
@@ -90,13 +89,14 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         for name in tools:
             self._check_given(name)
         gaps = self._gaps(chosen)
-        os.makedirs(os.path.dirname(os.path.abspath(self._path)), exist_ok=True)
         root: Node = _Filled(self._root, gaps) if gaps else self._root
-        root._design().mesh(self._path, by=",".join(chosen), bands=self._bands + bool(gaps), flavour="prusa", force=True,
-                            tolerance=min(self._voxel) / 8, virtual_tools=bool(tools), progress=self._share)
-        if gaps:
-            rewrite(self._path, lambda name, content: _without_settings(content, list(gaps)) if name in _bodies else content)
-        self._finish()
+        with self._new_file(self._path) as path:
+            root._design().mesh(path, by=",".join(chosen), bands=self._bands + bool(gaps), flavour="prusa",
+                                tolerance=min(self._voxel) / 8, virtual_tools=bool(tools), progress=self._share)
+            if gaps:
+                rewrite(path, lambda name, content: _without_settings(content, list(gaps)) if name in _bodies else content)
+            self._add_profiles(path)
+        self._report(1.0)
 
     def _gaps(self, names: list[str]) -> dict[str, _Range]:
         """The ranges of the attributes that nothing gives in some places of the part, with a band for these places."""
@@ -125,14 +125,15 @@ class PrusaSlicerProjectCompiler(_AttributeCompiler):
         if banded:
             raise RuntimeError(f"PrusaSlicerProjectCompiler: filaments are mixed by colours or fractions, and the tree has "
                                f"{', '.join(banded)} as well; write two projects")
-        self._mixed.write(self._root, self._voxel, self._path, "prusa")
-        self._finish()
+        with self._new_file(self._path) as path:
+            self._mixed.write(self._root, self._voxel, path, "prusa")
+            self._add_profiles(path)
+        self._report(1.0)
 
-    def _finish(self) -> None:
+    def _add_profiles(self, path: str) -> None:
         if self._profiles:
             settings = {key: value for profile in self._profiles for key, value in profile.items()}
-            rewrite(self._path, lambda name, content: _extended(content, settings) if name == _config else content)
-        self._report(1.0)
+            rewrite(path, lambda name, content: _extended(content, settings) if name == _config else content)
 
     def recipes(self) -> list[dict[str, Any]]:
         """The mixtures and filaments of bodies after compile(), each with its part of the whole and how far it is off."""
