@@ -12,6 +12,7 @@
 #include <IGESData_IGESModel.hxx>
 #include <Quantity_ColorRGBA.hxx>
 #include <STEPCAFControl_Reader.hxx>
+#include <Standard_Failure.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
@@ -29,7 +30,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <iostream>
+#include <sstream>
+#include <string_view>
 
 #include "base/system/not_copied.h"
 #include "base/text/error.h"
@@ -219,14 +223,38 @@ class QuietOutput : NotCopied {
   std::streambuf* printed_;
 };
 
+// Returns false if the file lacks its last line, which says what shape it holds by an orientation, a number and a
+// place, for example "+1 0". Of such a file the library goes on reading for minutes.
+bool has_last_line(const std::string& path) {
+  constexpr std::streamoff longest = 64;
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  file.seekg(-std::min<std::streamoff>(longest, file.tellg()), std::ios::end);
+  std::string line, word;
+  while (std::getline(file, word))
+    if (word.find_first_not_of(" \r") != std::string::npos) line = word;
+  std::istringstream in(line);
+  char orientation = 0;
+  int number = 0, place = 0;
+  return in >> orientation >> number >> place && std::string_view("+-ie").find(orientation) != std::string_view::npos;
+}
+
+bool read_shape(const std::string& path, TopoDS_Shape& shape) {
+  const QuietOutput quiet;
+  try {
+    return has_last_line(path) && BRepTools::Read(shape, path.c_str(), BRep_Builder()) && !shape.IsNull();
+  } catch (const Standard_Failure&) {
+    return false;
+  }
+}
+
 // Reads a file of Open CASCADE, which has neither names nor colours, and lengths in mm.
 Found read_brep(const std::string& path) {
   TopoDS_Shape whole;
-  const QuietOutput quiet;
-  if (!BRepTools::Read(whole, path.c_str(), BRep_Builder()) || whole.IsNull())
-    throw Error(Code::cannot_read,
-                "cannot read " + path + ": it is no valid file of its kind; write it again by Open CASCADE, or as STEP",
-                {{"file", path}});
+  if (!read_shape(path, whole))
+    throw Error(
+        Code::cannot_read,
+        "cannot read " + path + ": it is cut off, or no file of its kind; write it again by Open CASCADE, or as STEP",
+        {{"file", path}});
   Found found;
   for (TopExp_Explorer e(whole, TopAbs_SOLID); e.More(); e.Next()) found.solids.push_back({"", {}, e.Current(), "mm"});
   for (TopExp_Explorer e(whole, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next())

@@ -186,6 +186,17 @@ TEST_F(Cad, WhatIsNoSolidIsReported) {
   EXPECT_EQ(read("cylinder.step").size(), 1u);
 }
 
+// The library itself goes on reading a file that is cut off in the middle.
+TEST(CadFiles, ShapesThatAreCutOffAreErrors) {
+  const std::string whole = bytes_of("../cases/other_programs/fixtures/cadquery.brep");
+  EXPECT_EQ(message_for(whole, ".brep"), "no error");
+  EXPECT_EQ(message_for(whole + "\r\n\n", ".brep"), "no error");
+  for (const size_t share : {0u, 1u, 3u, 5u, 7u, 9u}) {
+    const std::string message = message_for(whole.substr(0, share * whole.size() / 10), ".brep");
+    EXPECT_NE(message.find("it is cut off, or no file of its kind; write it again"), std::string::npos) << message;
+  }
+}
+
 // The library searches a line without end for a point because a direction has infinite length.
 TEST(CadFiles, AreStoppedWhileTheyAreRead) {
   std::string bytes = bytes_of("cylinder.step");

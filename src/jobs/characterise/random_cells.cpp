@@ -52,7 +52,7 @@ DataMembers RandomCells::data() const {
 std::string RandomCells::text() const {
   const auto number = [](double value) { return format_rounded(value, 4); };
   std::string text = node + (line > 0 ? ", line " + std::to_string(line) : "") + ": " + format_count(points) +
-                     " points, " + format_count(cells) + " cells away from their rim";
+                     " points, " + format_count(cells) + (cells == 1 ? " cell" : " cells") + " away from the rim";
   if (cells == 0) return text;
   return text + "; " + number(volume_mm3.least) + " to " + number(volume_mm3.greatest) + " mm3, " +
          number(volume_mm3.mean) + " mm3 in the mean with a variation of " + number(volume_mm3.variation) + "; " +
