@@ -229,10 +229,10 @@ bool has_last_line(const std::string& path) {
   constexpr std::streamoff longest = 64;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   file.seekg(-std::min<std::streamoff>(longest, file.tellg()), std::ios::end);
-  std::string line, word;
-  while (std::getline(file, word))
-    if (word.find_first_not_of(" \r") != std::string::npos) line = word;
-  std::istringstream in(line);
+  std::string last, line;
+  while (std::getline(file, line))
+    if (line.find_first_not_of(" \r") != std::string::npos) last = line;
+  std::istringstream in(last);
   char orientation = 0;
   int number = 0, place = 0;
   return in >> orientation >> number >> place && std::string_view("+-ie").find(orientation) != std::string_view::npos;

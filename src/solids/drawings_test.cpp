@@ -1,6 +1,4 @@
 // Areas of drawings that are imported, from mathematics and from the specifications SVG 1.1, CSS 2.1 and DXF.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -10,7 +8,7 @@
 #include "base/system/temporary_folder.h"
 #include "formats/drawings/plane_writers.h"
 #include "solids/files.h"
-#include "solids/kernel.h"
+#include "solids/test_kernel.h"
 
 namespace ombre::solids::drawings {
 namespace {
@@ -44,12 +42,7 @@ bool mentions(const Drawn& drawing, const std::string& words) {
 
 #define EXPECT_MENTIONS(drawing, words) EXPECT_TRUE(mentions(drawing, words)) << to_text((drawing).messages)
 
-class Drawings : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_kernel()) GTEST_SKIP();
-  }
-};
+class Drawings : public KernelTest {};
 
 const std::string page = R"(width="100mm" height="100mm" viewBox="0 0 100 100")";
 

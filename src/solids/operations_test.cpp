@@ -4,27 +4,14 @@
 #include <numbers>
 #include <random>
 
-#include "draw/font_search.h"
-#include "draw/text_outlines.h"
-#include "solids/kernel.h"
 #include "solids/test_trees.h"
-#include "solids/texts.h"
 
 namespace ombre::solids {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-class Operations : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_kernel()) GTEST_SKIP();
-  }
-};
-
-// Relative tolerance, because OpenSCAD writes six digits.
-constexpr double six_digits = 1e-5;
-#define EXPECT_SIZE(size, expected) EXPECT_NEAR(size, expected, six_digits*(expected))
+class Operations : public KernelTest {};
 
 // Returns the area of a regular polygon inscribed in a circle.
 double polygon_area(double radius, int edges) { return 0.5 * edges * radius * radius * std::sin(2 * pi / edges); }
@@ -379,116 +366,6 @@ TEST_F(Operations, OffsetsAsOpenScadCutsCorners) {
   EXPECT_NEAR(size_of(node(Fill{}, {frame})), 400, 1e-6);
 }
 
-// The expected volumes are from Debian's openscad 2021.01.
-TEST_F(Operations, LinearExtrusions) {
-  const auto by = [](LinearExtrude extrusion, const TreePtr& of) { return size_of(node(extrusion, {of})); };
-  LinearExtrude plain;
-  plain.height = 10;
-  EXPECT_NEAR(by(plain, square(5, 5)), 250, 1e-7);
-  LinearExtrude twisted = plain;
-  twisted.twist = 90;
-  EXPECT_SIZE(by(twisted, square(5, 5)), 264.6563371);
-  twisted.fragments.count = 20;
-  EXPECT_SIZE(by(twisted, square(5, 5)), 271.6727007);
-  twisted.slices = 3;
-  EXPECT_SIZE(by(twisted, square(5, 5)), 280.5023101);
-  LinearExtrude both = plain;
-  both.twist = 30;
-  both.scale = {2, 2};
-  EXPECT_SIZE(by(both, square(5, 5)), 597.0404312);
-  LinearExtrude scaled = plain;
-  scaled.scale = {2, 2};
-  EXPECT_NEAR(by(scaled, square(5, 5)), 583.3333333, 1e-6);
-  scaled.scale = {2, 1};
-  EXPECT_NEAR(by(scaled, square(5, 5)), 375, 1e-6);
-  scaled.scale = {0, 0};
-  EXPECT_NEAR(by(scaled, square(5, 5)), 250.0 / 3, 1e-6);
-  scaled.scale = {0, 1};
-  EXPECT_NEAR(by(scaled, square(5, 5)), 125, 1e-6);
-  LinearExtrude leaning = plain;
-  leaning.direction = {1, 0, 1};
-  EXPECT_NEAR(by(leaning, square(5, 5)), 250 / std::sqrt(2.0), 1e-6);
-  LinearExtrude flat;
-  flat.height = 0;
-  EXPECT_EQ(by(flat, square(5, 5)), 0);
-  EXPECT_NEAR(by(plain, difference({square(5, 5), moved(1, 1, 0, {square(1, 1)}), moved(3, 3, 0, {square(1, 1)})})),
-              230, 1e-6);
-}
-
-// The expected volumes are from Debian's openscad 2021.01.
-TEST_F(Operations, SlicesOfScaledExtrusions) {
-  const TreePtr triangle = node(Polygon{{{1, 1}, {5, 1}, {3, 5}}, {}});
-  const auto by = [&](double twist, Vec2 scale, double edges = 0) {
-    LinearExtrude extrusion;
-    extrusion.height = 10;
-    extrusion.twist = twist;
-    extrusion.scale = scale;
-    extrusion.fragments.count = edges;
-    return size_of(node(extrusion, {triangle}));
-  };
-  EXPECT_SIZE(by(0, {1, 2}, 8), 118.333333);
-  EXPECT_SIZE(by(0, {1, 2}, 20), 119.333333);
-  EXPECT_SIZE(by(-60, {1, 1}, 20), 75.640471);
-  EXPECT_SIZE(by(60, {1, 3}), 154.926005);
-  EXPECT_SIZE(by(60, {0, 0}), 27.3672769);
-  EXPECT_SIZE(by(60, {3, 3}), 361.969694);
-  EXPECT_SIZE(by(400, {3, 3}), 337.619056);
-}
-
-// Walls of holes and of outlines are cut along different diagonals if both are equally long. The longer ones count if
-// the last slice is a line. The expected volumes are from Debian's openscad 2021.01.
-TEST_F(Operations, DiagonalsOfExtrusions) {
-  LinearExtrude twisted;
-  twisted.height = 10;
-  twisted.twist = 30;
-  twisted.slices = 1;
-  const auto frame = [](double x, double y) {
-    return difference({moved(-5, -5, 0, {square(10, 10)}), moved(x, y, 0, {square(3, 3)})});
-  };
-  EXPECT_SIZE(size_of(node(twisted, {frame(0, 0)})), 1021.02815);
-  EXPECT_SIZE(size_of(node(twisted, {frame(0, 1)})), 1028.52821);
-  EXPECT_SIZE(size_of(node(twisted, {difference({moved(-1, -1, 0, {square(10, 10)}), square(8, 8)})})), 403.92261);
-  LinearExtrude wedge;
-  wedge.height = 10;
-  wedge.scale = {1, 0};
-  const TreePtr triangle = node(Polygon{{{20, 0}, {0, 10}, {0, -10}}, {}});
-  for (const auto& [slices, volume] : {std::pair(1, 4000.0 / 3), std::pair(2, 1000.0)}) {
-    wedge.slices = slices;
-    EXPECT_NEAR(size_of(node(wedge, {triangle})), volume, 1e-6);
-  }
-  wedge.slices = 1;
-  EXPECT_SIZE(size_of(node(wedge, {node(Polygon{{{20, 3}, {20, -2}, {1, -10}, {0, 10}}, {}})})), 1446.66667);
-}
-
-// A corner that goes straight on would give the sides of a twisted extrusion other slices. The volume is that of
-// OpenSCAD 2021.01.
-TEST_F(Operations, UnitedDrawingsHaveNoStraightCorners) {
-  const TreePtr wide = unite({moved(-0.5, 0, 0, {square(1, 1)}), moved(0.5, 0, 0, {square(1, 1)})});
-  Diagnostics messages;
-  const Pieces pieces = evaluate(wide, {}, messages);
-  ASSERT_EQ(pieces.size(), 1U);
-  ASSERT_EQ(pieces[0].region()->rings.size(), 1U);
-  EXPECT_EQ(pieces[0].region()->rings[0].size(), 4U);
-  LinearExtrude twisted;
-  twisted.height = 3;
-  twisted.twist = 180;
-  twisted.slices = 4;
-  twisted.scale = {0.5, 1};
-  EXPECT_NEAR(size_of(node(twisted, {wide})), 5.07713, 1e-4);
-}
-
-// The walls inside and outside meet in one point: a pyramid of 4 less one of 1.
-TEST_F(Operations, FramesThatNarrowToAPointAreCombined) {
-  LinearExtrude narrowing;
-  narrowing.height = 3;
-  narrowing.scale = {0, 0};
-  const TreePtr frame =
-      node(narrowing, {difference({moved(-1, -1, 0, {square(2, 2)}), moved(-0.5, -0.5, 0, {square(1, 1)})})});
-  EXPECT_NEAR(size_of(frame), 3, 1e-9);
-  EXPECT_NEAR(size_of(unite({frame, moved(-0.25, -0.25, -1, {cube(0.5, 0.5, 1.5)})})), 3.375, 1e-9);
-  EXPECT_NEAR(size_of(difference({frame, moved(0, -2, -1, {cube(4, 4, 5)})})), 1.5, 1e-9);
-}
-
 // An index out of bounds is left out of a path.
 TEST_F(Operations, WrongPaths) {
   Diagnostics messages;
@@ -497,20 +374,6 @@ TEST_F(Operations, WrongPaths) {
   EXPECT_NEAR(area_of(*pieces[0].region()), 50, 1e-9);
   ASSERT_EQ(messages.list().size(), 1U);
   EXPECT_EQ(messages.list()[0].message, "Point index 7 is out of bounds (from paths[0][3])");
-}
-
-// The expected volumes are from Debian's openscad 2021.01.
-TEST_F(Operations, RotateExtrusions) {
-  const auto by = [](RotateExtrude extrusion, const TreePtr& of) { return size_of(node(extrusion, {of})); };
-  const TreePtr ring = moved(2, 0, 0, {square(1, 1)});
-  EXPECT_SIZE(by({360, 180, 2, {}}, ring), 14.6946765);
-  EXPECT_SIZE(by({90, 0, 2, {}}, ring), 3.53554);
-  EXPECT_SIZE(by({360, 180, 2, {}}, moved(2, 0, 0, {circle(1, 0)})), 27.9509086);
-  EXPECT_SIZE(by({100, 0, 2, {7}}, moved(2, 0, 0, {circle(1, 5)})), 4.6830415);
-  EXPECT_SIZE(by({-100, 0, 2, {7}}, moved(2, 0, 0, {circle(1, 5)})), 4.6830415);
-  EXPECT_SIZE(by({360, 180, 2, {7}}, moved(-2, 0, 0, {circle(1, 5)})), 26.0248563);
-  EXPECT_SIZE(by({360, 180, 2, {7}}, square(3, 3)), 73.8830164);
-  EXPECT_SIZE(by({360, 180, 2, {2}}, square(3, 3)), 35.07408);
 }
 
 TEST_F(Operations, Projections) {
@@ -530,71 +393,6 @@ TEST_F(Operations, Resizing) {
   EXPECT_NEAR(to({0, 0, 5}, {true, true, true}, cube(1, 2, 3)), 27.7777778, 1e-6);
   EXPECT_NEAR(to({10, 0, 0}, {}, circle(1, 8)), 14.1421356, 1e-6);
   EXPECT_NEAR(to({10, 0, 0}, {true, true, true}, circle(1, 8)), 70.7106781, 1e-6);
-}
-
-// The expected boxes and areas are from Debian's openscad 2021.01, whose letters differ from the font's outlines by up
-// to 0.003 mm here.
-TEST_F(Operations, Texts) {
-  const auto found = draw::search_font("DejaVu Sans", false, false);
-  if (!draw::can_outline_text() || !found || !found->has_name) GTEST_SKIP();
-  const auto written = [](const std::string& words, const std::string& across, const std::string& up, double edges) {
-    Text text;
-    text.text = words;
-    text.font = "DejaVu Sans";
-    text.horizontal = across;
-    text.vertical = up;
-    text.fragments.count = edges;
-    return *evaluated(node(text)).at(0).region();
-  };
-  const auto expect_box = [&](const Box& box, double x0, double x1, double y0, double y1) {
-    constexpr double grid = 4e-3;
-    EXPECT_NEAR(box.lo.x, x0, grid);
-    EXPECT_NEAR(box.hi.x, x1, grid);
-    EXPECT_NEAR(box.lo.y, y0, grid);
-    EXPECT_NEAR(box.hi.y, y1, grid);
-  };
-  expect_box(bounds_of(written("Hg", "left", "baseline", 0)), 1.36299, 17.7533, -2.8864, 10.1248);
-  expect_box(bounds_of(written("Hg", "right", "top", 0)), -17.4456, -1.05527, -12.7739, 0.237289);
-  expect_box(bounds_of(written("Hg", "center", "center", 0)), -8.04129, 8.34901, -6.42076, 6.59042);
-  EXPECT_NEAR(area_of(written("O", "left", "bottom", 0)), 35.926843, 0.02);
-  EXPECT_NEAR(area_of(written("O", "left", "bottom", 100)), 36.136056, 0.02);
-  EXPECT_NEAR(area_of(written("O", "left", "bottom", 4)), 35.234009, 0.02);
-}
-
-// The box of a text's area is that which measures_of() gives.
-// A column of letters is aligned by the widest letter and by the sum of the advances.
-TEST_F(Operations, VerticalTexts) {
-  if (!draw::can_outline_text() || !draw::search_font("DejaVu Sans", false, false)) GTEST_SKIP();
-  const auto box = [](const std::string& across, const std::string& up) {
-    Text text{"HI", 10, "DejaVu Sans", across, up};
-    text.direction = "ttb";
-    text.spacing = 2;
-    return bounds_of(*evaluated(node(text)).at(0).region());
-  };
-  const Box plain = box("left", "bottom"), middle = box("center", "center"), moved = box("right", "top");
-  const double width = 1000.0 / 1024 * (plain.hi.x - plain.lo.x);
-  EXPECT_NEAR(moved.lo.x - plain.lo.x, -width, 1e-2);
-  EXPECT_NEAR(middle.lo.x - plain.lo.x, -width / 2, 1e-2);
-  EXPECT_GT(moved.lo.y, plain.lo.y);
-  EXPECT_NEAR(moved.lo.y - plain.lo.y, 2 * (middle.lo.y - plain.lo.y), 1e-6);
-}
-
-TEST_F(Operations, MeasuresOfTexts) {
-  if (!draw::can_outline_text() || !draw::search_font("DejaVu Sans", false, false)) GTEST_SKIP();
-  Diagnostics messages;
-  for (const char* side : {"left", "center", "right"})
-    for (const char* level : {"baseline", "top", "center", "bottom"}) {
-      Text text{"Hg", 10, "DejaVu Sans", side, level};
-      text.spacing = 1.2;
-      const auto measures = measures_of(text, {}, messages);
-      ASSERT_TRUE(measures);
-      const Box box = bounds_of(region_of_text(text, {}, messages));
-      EXPECT_NEAR(measures->low.x, box.lo.x, 0.01);
-      EXPECT_NEAR(measures->low.y, box.lo.y, 0.01);
-      EXPECT_NEAR(measures->high.x, box.hi.x, 0.01);
-      EXPECT_NEAR(measures->high.y, box.hi.y, 0.01);
-    }
-  EXPECT_TRUE(messages.list().empty());
 }
 
 TEST_F(Operations, DimensionsAreNotMixed) {

@@ -1,7 +1,6 @@
 // Tests of roofs. The area of a region shrunk by t, integrated over t, is the volume of its roof.
 #include <numbers>
 
-#include "solids/kernel.h"
 #include "solids/test_trees.h"
 
 namespace ombre::solids {
@@ -9,12 +8,7 @@ namespace {
 
 constexpr RoofMethod distance_roof = RoofMethod::distance, straight_roof = RoofMethod::straight;
 
-class Roofs : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_kernel()) GTEST_SKIP();
-  }
-};
+class Roofs : public KernelTest {};
 
 TreePtr roof(RoofMethod method, Children children, Fragments fragments = {}) {
   return node(Roof{method, 1, fragments}, std::move(children));

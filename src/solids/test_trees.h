@@ -10,8 +10,13 @@
 
 #include "base/text/error.h"
 #include "solids/evaluate_tree.h"
+#include "solids/test_kernel.h"
 
 namespace ombre::solids {
+
+// Relative tolerance, because OpenSCAD writes six digits.
+inline constexpr double six_digits = 1e-5;
+#define EXPECT_SIZE(size, expected) EXPECT_NEAR(size, expected, six_digits*(expected))
 
 using Children = std::vector<TreePtr>;
 

@@ -1,16 +1,10 @@
 // Listings of the thesis on multi-material OpenSCAD (2023), with volumes calculated by hand.
-#include "solids/kernel.h"
 #include "solids/test_trees.h"
 
 namespace ombre::solids {
 namespace {
 
-class Thesis : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_kernel()) GTEST_SKIP();
-  }
-};
+class Thesis : public KernelTest {};
 
 TEST_F(Thesis, Listing3_2ModulesUniteWhatTheyHold) {
   EXPECT_EQ(described(intersection({group({cube(1, 1, 2), cube(2, 1, 1)}), cube(1, 1, 1.5)})), "1.5");

@@ -82,7 +82,13 @@ await test({ viewport: small }, {
       });
     const share = (await pure()).reduce((a, b) => a + b);
     assert.ok(share < 0.1, `mixtures are mixed: ${share}`);
-    await page.check("text=Voxels");
+    // Nobody sees that the picture before is ready.
+    const stateAfterClick = await page.evaluate(async () => {
+      [...document.querySelectorAll(".surface label")].find((label) => label.textContent.includes("Voxels")).click();
+      for (let n = 0; n < 5; ++n) await undefined; // the page is drawn anew after the event, before any other one
+      return document.querySelector(".surface canvas").dataset.state;
+    });
+    assert.equal(stateAfterClick, "drawing");
     await isReady();
     const [red, blue] = await pure();
     assert.ok(red > 0.25 && blue > 0.25, `as much red as blue: ${red}, ${blue}`);
