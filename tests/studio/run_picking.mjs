@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { copyFileSync } from "node:fs";
-import { editor, folder, isReady, open, page, pathOf, picture, putCaret, status, test, text, textIs, until, violations } from "./studio_page.mjs";
+import { editor, folder, isReady, open, page, pathOf, picture, put, putCaret, status, test, text, textIs, until, violations } from "./studio_page.mjs";
 
 // A cube from -5 to 5 as a mesh: each side is two triangles.
 const corners = [[-5, -5, -5], [5, -5, -5], [5, 5, -5], [-5, 5, -5], [-5, -5, 5], [5, -5, 5], [5, 5, 5], [-5, 5, 5]];
@@ -66,6 +66,36 @@ await test({ files: { "cube.off": cube, "cube.vcad": script, "pipe.vcad": cad },
   },
 
   async "it is one step for undo, to the byte"() {
+    await undo(script);
+  },
+
+  async "a click in the moment in which the page says where to click picks"() {
+    await putCaret("surface_cells(");
+    await page.waitForSelector("text=Pick at");
+    await page.evaluate(async () => {
+      const said = () => document.querySelector(".pickbar [role=status]").textContent;
+      document.querySelector(".pickbar button").click();
+      while (!said().startsWith("Click")) await Promise.resolve(); // no frame is drawn meanwhile
+      const canvas = document.querySelector(".surface canvas"), box = canvas.getBoundingClientRect();
+      const at = { bubbles: true, button: 0, pointerId: 1, clientX: box.left + box.width / 2 + 30, clientY: box.top + box.height / 2 + 40 };
+      for (const type of ["pointerdown", "pointerup"]) canvas.dispatchEvent(new PointerEvent(type, at));
+    });
+    await until(async () => /at = /.test(await text()), "a place");
+    await until(async () => !/normal/.test(await text()), "the other condition");
+    await undo(script);
+  },
+
+  async "a click counts if the page is drawn again while the button is down"() {
+    await putCaret("surface_cells(");
+    await page.click("text=Pick at");
+    const box = await page.locator(".surface canvas").boundingBox();
+    await page.mouse.move(box.x + box.width / 2 + 30, box.y + box.height / 2 + 40);
+    await page.mouse.down();
+    await put("Greatest bend, degrees", "35");
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 100)))); // effects have run
+    await page.mouse.up();
+    await until(async () => /angle = 35/.test(await text()), "the bend");
+    await until(async () => !/normal/.test(await text()), "the other condition");
     await undo(script);
   },
 

@@ -1,5 +1,5 @@
 // Questions to the person, in a dialog.
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { Asking, set, useStore } from "./store";
 
 // Shows a dialog. Returns the chosen button and the name; nothing if the dialog was closed in another way.
@@ -20,7 +20,7 @@ export function ask(question: Omit<Asking, "answer">): Promise<{ button: string;
 export function AskingDialog() {
   const { asking } = useStore();
   const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (asking) dialog.current!.showModal();
     else dialog.current!.close();
     const field = dialog.current!.querySelector("input");

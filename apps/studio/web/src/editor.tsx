@@ -8,7 +8,7 @@ import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Annotation, EditorState } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { formatted } from "./format";
 import { complete, hover, vcad } from "./language";
 import { keepAsDesign, newFile } from "./session/documents";
@@ -199,7 +199,7 @@ function Welcome() {
 
 export function EditorPane() {
   const host = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const view = makeEditor(host.current!);
     return () => view.destroy();
   }, []);

@@ -1,5 +1,5 @@
 // Keys of the page as a whole, and the list of all keys.
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { downloadBundle } from "./files";
 import { makeTurntable, takePicture } from "./pictures";
 import { State, set, useStore } from "./store";
@@ -56,7 +56,7 @@ const list: [string, string][] = [
 export function KeysDialog() {
   const { showsKeys } = useStore();
   const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (showsKeys) dialog.current!.showModal();
   }, [showsKeys]);
   return (

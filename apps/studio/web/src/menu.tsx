@@ -1,10 +1,10 @@
 // A button that opens a list of actions.
 import { ComponentChildren } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 
 export function Menu({ title, children }: { title: string; children: ComponentChildren }) {
   const menu = useRef<HTMLDetailsElement>(null);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const close = (event: Event) => {
       const isInside = menu.current!.contains(event.target as Node);
       if (!isInside) menu.current!.open = false;

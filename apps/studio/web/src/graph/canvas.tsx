@@ -1,5 +1,5 @@
 // The graph of a script on a canvas: cards and wires, which are edited by pointer and keys.
-import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { ask } from "../asking";
 import { editGraph, isDesignFile } from "../session/graph";
 import { editor, reveal } from "../session/script";
@@ -204,7 +204,7 @@ export function CanvasView() {
     if (graph) fit();
   }, [file, graph === undefined]);
   // What was added is chosen.
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (graphMade === undefined) return;
     const made = laid.cards.find((card) => card.of.from === graphMade);
     set({ graphMade: undefined });
@@ -214,7 +214,7 @@ export function CanvasView() {
     editor!.putCaret(made.of.from);
     setWhere("inside");
   }, [graphMade, graph]);
-  useEffect(() => {
+  useLayoutEffect(() => {
     const roll = (event: WheelEvent) => {
       event.preventDefault();
       const box = stage.current!.getBoundingClientRect();

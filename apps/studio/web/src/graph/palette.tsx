@@ -1,5 +1,5 @@
 // The palette of the graph: nodes and operators with pictures, to be put into the script.
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { NodePicture } from "../nodepicture";
 import { useSearch } from "../search";
 import { isDesignFile } from "../session/graph";
@@ -26,7 +26,7 @@ export function Palette({ chosen, where, setWhere, add, pull, close }: Props) {
   const { hello } = useStore();
   const panel = useRef<HTMLElement>(null);
   const { found, field } = useSearch(nodesFor(hello?.nodes ?? []), (n) => `${n.name} ${n.category} ${n.sentence}`, "nodes");
-  useEffect(() => panel.current!.querySelector("input")!.focus(), []);
+  useLayoutEffect(() => panel.current!.querySelector("input")!.focus(), []);
   return (
     <section class="palette" aria-label="Palette" ref={panel} onKeyDown={(e) => e.key === "Escape" && close()}>
       {field}

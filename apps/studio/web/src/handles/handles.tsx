@@ -1,6 +1,6 @@
 // Handles in the views that share the camera, by which the numbers of a call are moved where they are places.
 import { RefObject } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { axes, barLength, projected, sightThrough } from "../camera";
 import { Card, cardsOf } from "../graph/model";
 import { Edit, Stroke, hasGraph, moveValues, readGraph } from "../session/graph";
@@ -93,9 +93,9 @@ export function Handles({ canvas, members }: { canvas: RefObject<HTMLCanvasEleme
   const [drag, setDrag] = useState<Drag>();
   const [said, setSaid] = useState({ key: "", text: "" }); // what moved last, of a call
   const frames = useRef(new Map<string, Rows | null>());
-  useEffect(() => followCaret(() => redraw({})), []);
+  useLayoutEffect(() => followCaret(() => redraw({})), []);
   useEffect(() => void readGraph(), [file, isBusy]);
-  useEffect(() => frames.current.clear(), [file]);
+  useLayoutEffect(() => frames.current.clear(), [file]);
   const chosen = isShown && design && camera && canvas.current ? chosenCall() : undefined;
   if (!chosen || !camera) return <p class="handlestatus" role="status" />;
   const { card, handles } = chosen;

@@ -1,6 +1,6 @@
 // Places on surfaces that a click in the view chooses, and writes into the call that takes them.
 import { RefObject } from "preact";
-import { useEffect, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Card, Input } from "../graph/model";
 import { LateField } from "../latefield";
 import { Edit, isDesignFile, moveValues } from "../session/graph";
@@ -60,7 +60,8 @@ export function Picking({ canvas, card, inverse, finest, members }: Props) {
   const [said, setSaid] = useState("");
   const inputs = pickedInputs(card), input = inputs.find((one) => one.name === wanted);
   const degrees = bend || bendOf(card)?.text || String(usualBend);
-  useEffect(() => setSaid(""), [card.key]);
+  const from = useRef<PointerEvent>(); // the press whose release may be a click
+  useLayoutEffect(() => setSaid(""), [card.key]);
 
   const pick = async (x: number, y: number) => {
     const { clientWidth: width, clientHeight: height } = canvas.current!;
@@ -79,13 +80,15 @@ export function Picking({ canvas, card, inverse, finest, members }: Props) {
     }
   };
 
-  useEffect(() => {
+  // Runs at once, so that a click counts as soon as the page says where to click.
+  useLayoutEffect(() => {
     const view = canvas.current;
     if (!view || !input) return;
-    let from: PointerEvent | undefined;
-    const press = (event: PointerEvent) => void (from = event.button === 0 ? event : undefined);
+    const press = (event: PointerEvent) => void (from.current = event.button === 0 ? event : undefined);
     const release = (event: PointerEvent) => {
-      if (!from || Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > mostPixelsOfClick) return;
+      const begun = from.current;
+      from.current = undefined;
+      if (!begun || Math.hypot(event.clientX - begun.clientX, event.clientY - begun.clientY) > mostPixelsOfClick) return;
       const box = view.getBoundingClientRect();
       void pick(event.clientX - box.left, event.clientY - box.top);
     };
