@@ -1,7 +1,7 @@
 // Bundles, pictures and films.
 import assert from "node:assert/strict";
 import { rmSync } from "node:fs";
-import { downloaded, drop, fromMenu, isReady, isThere, onDisk, open, page, pathOf, read, small, status, test, write } from "./studio_page.mjs";
+import { downloaded, drop, fromMenu, isReady, isThere, onDisk, open, opened, page, pathOf, read, small, test, until, write } from "./studio_page.mjs";
 
 await test({ viewport: small }, {
   async "a bundle goes out and comes in again"() {
@@ -11,15 +11,11 @@ await test({ viewport: small }, {
     const bundle = pathOf("ball.ombre");
     write("ball.ombre", made.bytes);
     await page.setInputFiles("[aria-label='Files to open']", bundle);
-    await status("[data-old=false][data-busy=false]");
-    await page.waitForSelector("option[value='ball/ball.vcad']", { state: "attached" });
-    assert.equal(await page.inputValue("select.file"), "ball/ball.vcad");
+    await until(async () => (await opened()) === "ball/ball.vcad", "the bundle's design is open");
     assert.equal(read("ball/ball.vcad"), onDisk());
     // The same dropped on the page.
     await drop([["dropped.ombre", made.bytes]]);
-    await page.waitForSelector("option[value='dropped/ball.vcad']", { state: "attached" });
-    await status("[data-old=false][data-busy=false]");
-    assert.equal(await page.inputValue("select.file"), "dropped/ball.vcad");
+    await until(async () => (await opened()) === "dropped/ball.vcad", "the dropped one is open");
     assert.equal(read("dropped/ball.vcad"), onDisk());
     await drop([["notes.txt", "hello"]]);
     await page.waitForSelector(".problems:has-text('notes.txt is no file that designs read')");

@@ -60,9 +60,6 @@ await test({ viewport: small, files: { "ball.vcad": ball(12.5), "warm.vcad": war
   },
 
   async "opacity by an attribute shows what has a value"() {
-    await open("warm.vcad");
-    await page.click("#tab-volume");
-    await page.waitForSelector(".volume select option[value=heat]", { state: "attached" });
     await page.selectOption(".volume select:has(option[value='32'])", "32");
     await page.selectOption(".volume select:has(option[value=heat])", "heat");
     await isReady("volume", "[data-by=heat]");

@@ -84,7 +84,7 @@ await test({ files: {}, place: folder, key: keyOf(day), viewport: { width: 1280,
     await page.evaluate(() => {
       const send = WebSocket.prototype.send;
       WebSocket.prototype.send = function (message) {
-        if (!message.includes('"do":"save"')) send.call(this, message);
+        send.call(this, message.replace('"do":"save"', '"do":"no_save"')); // which fails
       };
     });
     await type("// mine\n");
@@ -98,6 +98,7 @@ await test({ files: {}, place: folder, key: keyOf(day), viewport: { width: 1280,
     assert.match(await text(), /mine/);
     await page.click("text=Take what is on the disk");
     await until(async () => /theirs/.test(await text()));
+    await until(() => !hasDraft("// mine"), "the draft is gone");
     await page.reload();
     await isReady();
     assert.match(await text(), /theirs/);

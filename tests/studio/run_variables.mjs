@@ -1,7 +1,7 @@
 // Sliders, presets and files for variables.
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, rmSync } from "node:fs";
-import { ball, design, isReady, page, pathOf, picture, small, status, test, untilOnDisk, untilOnPage, untilOtherDesign, write } from "./studio_page.mjs";
+import { ball, design, editor, holdRequests, isReady, isSaved, page, pathOf, picture, small, status, test, text, textIs, typeAll, untilOnDisk, untilOnDiskIs, untilOnPage, untilOtherDesign, write } from "./studio_page.mjs";
 
 const solid = (side) => `OFF\n4 4 0\n0 0 0\n${side} 0 0\n0 ${side} 0\n0 0 ${side}\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n`;
 const files = {
@@ -30,6 +30,24 @@ await test({ viewport: small, files }, {
     await page.fill("[aria-label='radius, exactly']", "12.5");
     await page.click("text=Write into the script");
     await untilOnDisk("radius = 12.5;");
+  },
+
+  async "values are written where their variables are in the text as it is now"() {
+    await isSaved();
+    await status("[data-old=false][data-busy=false]");
+    const before = await text();
+    await page.fill("[aria-label='radius, exactly']", "7.25");
+    await page.evaluate(holdRequests, ['"do":"load"']);
+    await editor().click();
+    await page.keyboard.press("Control+Home");
+    await page.keyboard.insertText("// longer\n");
+    await page.click("text=Write into the script");
+    await page.evaluate(() => window.sendHeld());
+    const after = `// longer\n${before.replace("12.5;", "7.25;")}`;
+    await textIs(after);
+    await untilOnDiskIs(after);
+    await typeAll(before);
+    await untilOnDiskIs(before);
   },
 
   async "keeps presets beside the script"() {

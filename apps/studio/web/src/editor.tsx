@@ -121,7 +121,8 @@ function makeEditor(parent: HTMLElement): EditorView {
     undo: () => undo(view),
     redo: () => redo(view),
     reveal(from, to) {
-      view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+      const [anchor, head] = [from, to].map((at) => Math.min(at, view.state.doc.length)); // the text may be shorter by now
+      view.dispatch({ selection: { anchor, head }, effects: EditorView.scrollIntoView(anchor, { y: "center" }) });
       view.focus();
     },
     caret: () => view.state.selection.main.head,

@@ -29,7 +29,15 @@ export function resetVariables() {
   evaluate();
 }
 
-export function writeVariables() {
+let textOfVariables = ""; // the text in which they have their places
+
+// Writes the values that sliders set into the script, once the places of its variables are known in the text as it is.
+export async function writeVariables() {
+  if (editor!.text() !== textOfVariables) {
+    clearTimeout(evaluateTimer);
+    await load();
+  }
+  if (editor!.text() !== textOfVariables) return set({ notice: "The text was changed meanwhile; write the values into it again." });
   for (const variable of [...state.variables].reverse())
     if (variable.name in state.values) editor!.write(variable.from, variable.to, literal(state.values[variable.name]));
   set({ values: {} });
@@ -104,6 +112,7 @@ async function load(isRun = false) {
     const change: any = { isBusy: false, isRunning: false, problem: "", diagnostics: inOrder(reply.diagnostics), echo: reply.echo, variables: reply.variables ?? [], isOld: !reply.ok };
     if (reply.ok) change.design = reply;
     if (reply.ok && state.kind === "results") change.by = fieldToShow(reply.attributes);
+    textOfVariables = sent.text;
     if (reply.ok) shown = sent;
     if (reply.ok && isNaN(state.z)) change.z = (reply.bounds_mm[0][2] + reply.bounds_mm[1][2]) / 2;
     set(change);
