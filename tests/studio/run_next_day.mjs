@@ -77,6 +77,17 @@ await test({ files: {}, place: folder, key: keyOf(day), viewport: { width: 1280,
     await before.close();
   },
 
+  async "a page that is about to open its file offers no other start"() {
+    const other = await context.newPage();
+    await other.addInitScript(holdRequests, ['"do":"open"']);
+    await other.goto(url);
+    await other.waitForSelector(".status[data-status=open]", { state: "attached" });
+    assert.equal(await other.locator("text=Begin with a ball").count(), 0);
+    await other.evaluate(() => window.sendHeld());
+    await other.waitForSelector("select.file[title='untitled.vcad']");
+    await other.close();
+  },
+
   async "text that cannot be saved is kept by the server"() {
     write("shared.vcad", script);
     await open("shared.vcad");

@@ -102,7 +102,7 @@ await test({}, {
     await slow("paused");
     await resetLayerHeight();
     await page.fill(".panel label:has-text('Folder') input", "ball_slices");
-    await page.click("button.main");
+    await page.click(".panel button.main");
     await page.waitForSelector("[data-folder=ball_slices][data-state=done]");
     const written = JSON.parse(read("ball_slices/job.json"));
     assert.ok(written.totals);

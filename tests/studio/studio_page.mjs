@@ -209,7 +209,7 @@ export async function slice(name, height) {
   await input.fill(height);
   await page.keyboard.press("Enter");
   await page.fill(".panel label:has-text('Folder') input", name);
-  await page.click("button.main");
+  await page.click(".panel button.main");
 }
 export async function resetLayerHeight() {
   await page.fill(".option-layer-height input", "");

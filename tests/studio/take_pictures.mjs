@@ -43,7 +43,7 @@ try {
   await page.click("#tab-export");
   await page.selectOption(".slices .printer", "j750");
   await page.waitForSelector(".panel:has-text('926 layers')");
-  await page.click("button.main");
+  await page.click(".panel button.main");
   await page.waitForSelector(".job[data-state=done]");
   await isReady("slices");
   await page.click(".slices button:has-text('fit')");

@@ -187,8 +187,8 @@ function Problems() {
 
 // Offers a start in a folder without designs.
 function Welcome() {
-  const { status, files, file } = useStore();
-  if (status !== "open" || file) return null;
+  const { status, hasBegun, files, file } = useStore();
+  if (status !== "open" || !hasBegun || file) return null;
   return (
     <div class="bar">
       <span>{files.length > 0 ? "Choose a design above, or make a new one." : "There is no design in this folder yet."}</span>

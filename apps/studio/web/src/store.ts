@@ -251,6 +251,7 @@ export type ViewName = "surface" | "slices" | "volume" | "graph" | "planes" | "c
 
 export interface State {
   status: "connecting" | "open" | "lost" | "refused";
+  hasBegun: boolean; // the page's first file is open, or there is none
   hello?: Hello;
   files: string[];
   data: DataFile[];
@@ -326,6 +327,7 @@ const known: Partial<State> = JSON.parse(localStorage.getItem("ombre:choices") ?
 const listeners = new Set<() => void>();
 export let state: State = {
   status: "connecting",
+  hasBegun: false,
   files: [],
   data: [],
   file: "",

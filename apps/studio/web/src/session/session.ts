@@ -29,9 +29,9 @@ async function greet() {
   set({ status: "open", hello, files: hello.files, data: hello.data, options: knownOptions(hello) });
   hello.drafts = [...new Set([...hello.drafts, ...keptDrafts()])];
   await listJobs();
-  if (wasAway && state.file) return comeBack();
-  if (await adoptEarlyText()) return;
-  await openFirst(hello);
+  if (wasAway && state.file) await comeBack();
+  else if (!(await adoptEarlyText())) await openFirst(hello);
+  set({ hasBegun: true });
 }
 
 // Continues after the server was away. Text typed meanwhile is kept, unless the disk has something new.
