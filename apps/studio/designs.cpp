@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "studio/workspace/guard.h"
+
 namespace ombre::studio {
 
 namespace {
@@ -82,9 +84,11 @@ void ScriptResults::add(const SourceRange& expression, Data value) {
   if (values_.size() < most_results) values_.push_back({expression, std::move(value)});
 }
 
+Designs::Designs(design::SubDesignMemory& memory) : memory_(memory), start_(random_token().substr(0, 8)) {}
+
 OpenDesignPtr Designs::add(const DesignOrigin& origin, ReadDesign design, const std::string& program) {
   const std::lock_guard lock(mutex_);
-  const std::string handle = "d" + std::to_string(++count_);
+  const std::string handle = start_ + "-" + std::to_string(++count_);
   kept_.push_front(std::make_shared<OpenDesign>(handle, origin, std::move(design), program, memory_));
   if (kept_.size() > most) kept_.pop_back();
   return kept_.front();

@@ -95,13 +95,14 @@ class OpenDesign {
 };
 using OpenDesignPtr = std::shared_ptr<OpenDesign>;
 
-// Keeps the most recently loaded designs, each by a handle. Thread-safe.
+// Keeps the most recently loaded designs, each by a handle that no other collection gives, also after a restart of the
+// program. Thread-safe.
 class Designs {
  public:
   static constexpr size_t most = 12;
 
   // Constructs an empty collection; the memory must outlive all added designs.
-  explicit Designs(design::SubDesignMemory& memory) : memory_(memory) {}
+  explicit Designs(design::SubDesignMemory& memory);
   OpenDesignPtr add(const DesignOrigin& origin, ReadDesign design, const std::string& program);
   // Returns the design of a handle. Throws RequestError "gone" if it is no longer kept and has to be loaded again.
   OpenDesignPtr find(const std::string& handle);
@@ -110,6 +111,7 @@ class Designs {
   design::SubDesignMemory& memory_;
   std::mutex mutex_;
   std::list<OpenDesignPtr> kept_;  // most recently used first
+  const std::string start_;        // how all handles begin
   uint64_t count_ = 0;
 };
 

@@ -27,6 +27,15 @@ TEST_F(StudioTest, AnswersWhatItDoesNotKnow) {
   EXPECT_EQ(text(ask("load", R"("file": "a.py", "text": "")").first, "error"), "unsupported");
 }
 
+// A page that has stayed open takes no other design for its own.
+TEST_F(StudioTest, HandlesOfDesignsAreNotThoseOfAnotherStart) {
+  struct Other : StudioTest {
+    using StudioTest::load;
+    void TestBody() override {}
+  } other;
+  EXPECT_NE(load(ball), other.load(ball));
+}
+
 TEST_F(StudioTest, TellsMistakesWithTheirPlaces) {
   const Data loaded = ask("load", R"("file": "a.vcad", "text": "// µ\nsphere(rad=3, gray);")").first;
   EXPECT_EQ(*loaded.find("ok"), Data(false));

@@ -104,7 +104,7 @@ await test({ files: {}, place: folder, key: keyOf(day), viewport: { width: 1280,
     await until(() => hasDraft("// mine"), "a draft");
     await nextDay();
     await otherBrowser();
-    await open("shared.vcad");
+    await page.waitForSelector("select.file[title='shared.vcad']"); // the first one of the folder
     await page.waitForSelector(".bar.warning");
     assert.match(await text(), /mine/);
     await page.click("text=Take what is on the disk");

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { file, folder, isReady, page, pathOf, resetLayerHeight, slice, small, startServer, status, stopServer, test, type, untilOnDisk, untilThere, url } from "./studio_page.mjs";
+import { design, file, folder, isReady, page, pathOf, resetLayerHeight, slice, small, startServer, status, stopServer, test, type, untilOnDisk, untilOtherDesign, untilThere, url } from "./studio_page.mjs";
 import { ombre, source, token } from "./studio_server.mjs";
 
 const layerHeight = "0.0125"; // so thin that the job goes on until the server is killed
@@ -15,6 +15,8 @@ await test({ viewport: small }, {
     await page.selectOption(".panel .printer", "j750");
     await slice("again_slices", layerHeight);
     await untilThere("again_slices/journal.jsonl");
+    await isReady();
+    const before = await design();
     await stopServer("SIGKILL");
     await status("[data-status=lost]");
     await type("// while it was away\n");
@@ -24,6 +26,7 @@ await test({ viewport: small }, {
     await startServer(token, port, file);
     await status("[data-status=open]");
     await untilOnDisk("// while it was away");
+    await untilOtherDesign(before); // the picture of the text as it is now
     await status("[data-old=false][data-busy=false]");
     await page.selectOption(".surface .viewbar select >> nth=0", "top");
     await isReady();
