@@ -11,12 +11,12 @@ const layerHeight = "0.0125"; // so thin that the job goes on until the server i
 await test({ viewport: small }, {
   async "a server that is killed and started again loses nothing"() {
     const { port } = new URL(url);
+    await isReady();
+    const before = await design();
     await page.click("#tab-export");
     await page.selectOption(".panel .printer", "j750");
     await slice("again_slices", layerHeight);
     await untilThere("again_slices/journal.jsonl");
-    await isReady();
-    const before = await design();
     await stopServer("SIGKILL");
     await status("[data-status=lost]");
     await type("// while it was away\n");
