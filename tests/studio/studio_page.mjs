@@ -2,6 +2,8 @@
 //
 //     node tests/studio/run_THEME.mjs build/release/apps/ombre/ombre /usr/bin/chromium [--pictures FOLDER]
 //
+// With OMBRE_LATE=SEED in the environment the page is as slow as on a busy machine.
+//
 // Tests may run side by side: each has a folder, a server, kept state and a browser of its own.
 import assert from "node:assert/strict";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -43,6 +45,7 @@ const longestWait = 1200000;
 async function openContext() {
   context = await browser.newContext({ viewport: size });
   context.setDefaultTimeout(longestWait);
+  if (process.env.OMBRE_LATE) await context.addInitScript(beLate, Number(process.env.OMBRE_LATE));
   await context.route("**", (route) => {
     const { hostname } = new URL(route.request().url());
     if (hostname !== "127.0.0.1") complaints.push(`the page sent a request to ${hostname}`);
@@ -109,6 +112,27 @@ export const isSaved = () => status("[data-saved=saved][data-status=open]");
 export const isReady = (view = "surface", more = "") => page.waitForSelector(`.${view} canvas[data-state=ready]${more}`);
 export const design = () => page.getAttribute(".surface canvas", "data-design");
 export const untilOtherDesign = (before) => untilOnPage((old) => document.querySelector(".surface canvas").dataset.design !== old, before);
+
+// In the page, lets half of all answers, frames, timers and fetches come up to a second late, those of the socket in their
+// order: what a person does in between must count, and so must what the page had asked for.
+function beLate(seed) {
+  const random = () => (seed = (seed * 1664525 + 1013904223) % 2 ** 32) / 2 ** 32;
+  const delay = () => (random() < 0.5 ? 0 : 1000 * random());
+  const { setTimeout, requestAnimationFrame, fetch } = window;
+  window.setTimeout = (act, after = 0, ...more) => setTimeout(act, after + delay(), ...more);
+  window.requestAnimationFrame = (act) => requestAnimationFrame(() => setTimeout(() => act(performance.now()), delay()));
+  window.fetch = (...request) => new Promise((done) => setTimeout(done, delay())).then(() => fetch(...request));
+  const messages = Object.getOwnPropertyDescriptor(WebSocket.prototype, "onmessage");
+  Object.defineProperty(WebSocket.prototype, "onmessage", {
+    set(hear) {
+      let last = Promise.resolve();
+      messages.set.call(this, (message) => {
+        const own = new Promise((done) => setTimeout(done, delay()));
+        last = last.then(() => own).then(() => void setTimeout(() => hear(message)));
+      });
+    },
+  });
+}
 
 // In the page, holds requests whose text has all of the parts back until `sendHeld()`, after which none are held.
 export function holdRequests(parts) {
