@@ -29,10 +29,7 @@ TEST_F(StudioTest, AnswersWhatItDoesNotKnow) {
 
 // A page that has stayed open takes no other design for its own.
 TEST_F(StudioTest, HandlesOfDesignsAreNotThoseOfAnotherStart) {
-  struct Other : StudioTest {
-    using StudioTest::load;
-    void TestBody() override {}
-  } other;
+  FreshStudio other;
   EXPECT_NE(load(ball), other.load(ball));
 }
 

@@ -121,4 +121,13 @@ class StudioTest : public testing::Test {
   int last_ = 0;
 };
 
+// A studio with empty caches.
+class FreshStudio : public StudioTest {
+ public:
+  using StudioTest::ask, StudioTest::load;
+
+ private:
+  void TestBody() override {}
+};
+
 }  // namespace ombre::studio

@@ -195,15 +195,6 @@ TEST_F(StudioTest, EditsLeaveStagesOfOthersAsTheyAre) {
   EXPECT_EQ(made_by(3.25, 2.5, "blue"), 2U);
 }
 
-// A studio with empty caches.
-class FreshStudio : public StudioTest {
- public:
-  using StudioTest::ask, StudioTest::load;
-
- private:
-  void TestBody() override {}
-};
-
 // A change of colours alone uses the known ends of rays, and gives the bytes of a studio with empty caches.
 TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
   const std::string camera = R"("width": 90, "height": 60, "samples": 2, "target": [0, 0, 0], "height_mm": 12)";
@@ -226,11 +217,10 @@ TEST_F(StudioTest, EditsOfColoursFollowNoRays) {
     const std::string by_heat = render(green, more + R"(, "by": "heat")");
     EXPECT_EQ(studio.counts().made, before.made) << more;
     FreshStudio fresh;
-    const std::string same = R"(, "design": ")" + fresh.load(script("green", "red")) + '"';
-    EXPECT_EQ(fresh.ask("render", camera + more + R"(, "by": "heat")" + same).second, by_heat) << more;
+    const auto same = [&](FreshStudio& by) { return R"(, "design": ")" + by.load(script("green", "red")) + '"'; };
+    EXPECT_EQ(fresh.ask("render", camera + more + R"(, "by": "heat")" + same(fresh)).second, by_heat) << more;
     FreshStudio fresher;
-    fresher.load(script("green", "red"));
-    EXPECT_EQ(fresher.ask("render", camera + more + same).second, second) << more;
+    EXPECT_EQ(fresher.ask("render", camera + more + same(fresher)).second, second) << more;
   }
   // Rays that end where they begin, at the face of a block.
   const std::string face = R"(, "azimuth": 0, "elevation": 0)";
