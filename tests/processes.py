@@ -1,4 +1,5 @@
 """Running processes, judged by the work they have done and never by the clock, which depends on what else a machine does."""
+import contextlib
 import os
 import pathlib
 import signal
@@ -18,20 +19,25 @@ def wait_until(is_so, what):
         time.sleep(0.005)
 
 
+def of_threads(pid, name):
+    """The texts of a file that the kernel keeps for each thread of a process, without threads that have ended."""
+    texts = []
+    with contextlib.suppress(OSError):
+        for thread in os.listdir(f"/proc/{pid}/task"):
+            with contextlib.suppress(OSError):
+                texts.append(pathlib.Path(f"/proc/{pid}/task/{thread}/{name}").read_text())
+    return texts
+
+
 def busy_seconds(pid):
     """The processor time of each thread of a process; libraries may keep threads that do nothing."""
-    seconds = []
-    for stat in pathlib.Path(f"/proc/{pid}/task").glob("*/stat"):
-        try:
-            words = stat.read_text().rpartition(")")[2].split()
-        except OSError:  # the thread has ended
-            continue
-        seconds.append((int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK"))
-    return seconds
+    numbers = [text.rpartition(")")[2].split() for text in of_threads(pid, "stat")]
+    return [(int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK") for words in numbers]
 
 
 def helpers_of(pid):
-    return [child for children in pathlib.Path(f"/proc/{pid}/task").glob("*/children") for child in children.read_text().split()]
+    """The ids of the processes that a process has started, in their order."""
+    return sorted(int(child) for text in of_threads(pid, "children") for child in text.split())
 
 
 def work_of(process):

@@ -6,7 +6,6 @@ whatever happens to their processes. What is not installed is skipped; Kubernete
 """
 import json
 import os
-import pathlib
 import random
 import shutil
 import signal
@@ -14,6 +13,7 @@ import subprocess
 import sys
 import time
 
+import processes
 import program
 import slurm_cluster
 from program import expect
@@ -122,15 +122,6 @@ def mpirun(folder, processes):
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
-def ranks_below(process):
-    """The ids of the processes that mpirun has started, in their order."""
-    try:
-        tasks = pathlib.Path(f"/proc/{process.pid}/task").glob("*/children")
-        return sorted(int(child) for task in tasks for child in task.read_text().split())
-    except OSError:
-        return []
-
-
 def journals(folder):
     return list((folder.path / "shared").glob("journal-*.jsonl"))
 
@@ -171,7 +162,7 @@ def slow_process_of_mpi(folder):
     begin_slow(folder, 16)
     process = mpirun(folder, 2)
     wait_for_journals(folder, 2, process)
-    slow = ranks_below(process)[-1:]
+    slow = processes.helpers_of(process.pid)[-1:]
     for rank in slow:
         os.kill(rank, signal.SIGSTOP)
     wait_for_journals(folder, 15, process)  # it may have taken a share without having begun it
@@ -192,7 +183,7 @@ def killed_process_of_mpi(folder):
     begin_slow(folder, 16)
     process = mpirun(folder, 3)
     wait_for_journals(folder, 3, process)
-    for rank in ranks_below(process)[1:2]:
+    for rank in processes.helpers_of(process.pid)[1:2]:
         os.kill(rank, signal.SIGKILL)
     process.communicate(timeout=program.PATIENCE_S)
     expect(process.returncode != 0, "a killed process is not noticed")
