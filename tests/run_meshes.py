@@ -30,8 +30,8 @@ COARSE = {"bcc_ball": 0.04, "beam_lattice": 0.09, "conformal_ring": 0.08, "gradi
           "gyroid_block": 0.06, "organic_lattice": 0.1, "part_of_graded_wing": 0.03, "tweel": 0.2, "unit_cells": 0.1, "voronoi_foam": 0.05}
 # At coarser tolerances some rims of thin walls, which end in feather edges, lie farther off between the mesher's samples.
 FEATHERED = {"dense_pipe": 0.06}
-# Where thin walls fill a large part, cells for its size are too coarse for them; a part of these is tested. Texts, and what
-# they become.
+# A part of each is tested, since cells for the size of the whole are too coarse for its thin walls, or take minutes. The
+# first text of a pair becomes the second.
 CUT = {"helmet": [("difference() {\n  sphere(96", 'intersection(materials = "first") {\ndifference() {\n  sphere(96'),
                   ("rectprism((200, 200, 200));\n}", "rectprism((200, 200, 200));\n}\ntranslate(0, 80, 40) cube(40);\n}")],
        "ski": [('results("models/', f'results("{program.SOURCE}/examples/models/'),

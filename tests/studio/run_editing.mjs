@@ -1,6 +1,6 @@
 // Editing a script: mistakes, completion, help, forms of nodes, layout.
 import assert from "node:assert/strict";
-import { alphaInMiddle, ball, design, editor, isReady, page, picture, status, test, type, typeAll, untilOnDisk, untilOnDiskIs } from "./studio_page.mjs";
+import { alphaInMiddle, ball, design, editor, holdRequests, isReady, page, picture, status, test, textIs, type, typeAll, untilOnDisk, untilOnDiskIs } from "./studio_page.mjs";
 
 const script = ball(12);
 
@@ -26,6 +26,20 @@ await test({ files: { "ball.vcad": script } }, {
     await picture("error");
     await page.keyboard.press("Control+z");
     await page.waitForSelector('.problems[data-errors="0"]');
+    await untilOnDiskIs(script);
+    await status("[data-old=false][data-saved=saved]");
+  },
+
+  async "a mistake whose place is gone leads to the end of the text"() {
+    await type("spher(2);");
+    await page.waitForSelector('.problems[data-errors="1"]');
+    await page.evaluate(holdRequests, ['"do":"load"']);
+    await typeAll("// short");
+    await page.click(".problems li button"); // until the text is evaluated, the list is that of the text before
+    await page.keyboard.insertText(" text");
+    await textIs("// short text");
+    await page.evaluate(() => window.sendHeld());
+    await typeAll(script);
     await untilOnDiskIs(script);
     await status("[data-old=false][data-saved=saved]");
   },

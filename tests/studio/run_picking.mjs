@@ -42,6 +42,8 @@ async function click(dx, dy) {
   const box = await page.locator(".surface canvas").boundingBox();
   await page.mouse.click(box.x + box.width / 2 + dx, box.y + box.height / 2 + dy);
 }
+// Waits until a pick has written something, and has then removed the other condition.
+const isWritten = (what) => until(async () => what.test(await text()) && !/normal/.test(await text()), String(what));
 const said = () => page.textContent(".pickbar [role=status]");
 const placeIn = (all) => all.match(/ at ?= ?\(([^)]*)\)/)[1].split(", ").map(Number);
 
@@ -53,8 +55,7 @@ await test({ files: { "cube.off": cube, "cube.vcad": script, "pipe.vcad": cad },
     await page.click("text=Pick at");
     assert.equal(await said(), "Click the surface that skin takes.");
     await click(30, 40);
-    await until(async () => (await text()) !== script);
-    await until(async () => !/normal/.test(await text()), "the other condition");
+    await isWritten(/at = /);
     const all = await text(), [x, y, z] = placeIn(all);
     // The front is at y = -5; x is to the right and z upward.
     assert.ok(Math.abs(y + 5) < 0.05, `y = ${y}`);
@@ -80,8 +81,7 @@ await test({ files: { "cube.off": cube, "cube.vcad": script, "pipe.vcad": cad },
       const at = { bubbles: true, button: 0, pointerId: 1, clientX: box.left + box.width / 2 + 30, clientY: box.top + box.height / 2 + 40 };
       for (const type of ["pointerdown", "pointerup"]) canvas.dispatchEvent(new PointerEvent(type, at));
     });
-    await until(async () => /at = /.test(await text()), "a place");
-    await until(async () => !/normal/.test(await text()), "the other condition");
+    await isWritten(/at = /);
     await undo(script);
   },
 
@@ -94,8 +94,7 @@ await test({ files: { "cube.off": cube, "cube.vcad": script, "pipe.vcad": cad },
     await put("Greatest bend, degrees", "35");
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 100)))); // effects have run
     await page.mouse.up();
-    await until(async () => /angle = 35/.test(await text()), "the bend");
-    await until(async () => !/normal/.test(await text()), "the other condition");
+    await isWritten(/angle = 35/);
     await undo(script);
   },
 

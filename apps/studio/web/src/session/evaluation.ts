@@ -29,7 +29,7 @@ export function resetVariables() {
   evaluate();
 }
 
-let textOfVariables = ""; // the text in which they have their places
+let textOfVariables = ""; // the text in which the known variables have their places
 
 // Writes the values that sliders set into the script, once the places of its variables are known in the text as it is.
 export async function writeVariables() {
